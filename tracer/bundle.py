@@ -1,0 +1,120 @@
+"""A NamedTuple of arrays that kernels take by one pointer.
+
+Numba hands a tuple of arrays from function to function as seven words an array, which costs more than a ray: a kernel
+calling its parts with the whole world ran four times slower. A Bundle is one address, of a table with each array's
+address and length. Kernels read `world.surfaces[k]` as ever, and cannot write to it.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.core.datamodel import models
+from numba.core.typing.templates import AttributeTemplate
+from numba.extending import NativeValue, infer_getattr, lower_getattr_generic, register_model, typeof_impl, unbox
+from numba.np.arrayobj import make_array, populate_array
+from numba.np.numpy_support import from_dtype
+
+
+class Bundle:
+    """The arrays of a NamedTuple (C-contiguous) and its numbers (whole, or true and false), for Python as they were."""
+
+    def __init__(self, fields: NamedTuple) -> None:
+        self._fields = fields
+        entries = []
+        for name, value in fields._asdict().items():
+            if isinstance(value, np.ndarray):
+                if not value.flags.c_contiguous:
+                    raise TypeError(f"{name} must be C-contiguous")
+                entries.append((value.ctypes.data, len(value)))
+            else:
+                entries.append((int(value), 0))
+        self._table = np.array(entries, np.int64)
+        self.address = self._table.ctypes.data
+        self.numba_type = BundleType(tuple(_layout(name, value) for name, value in fields._asdict().items()))
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._fields, name)
+
+
+class Entry(NamedTuple):
+    """What a kernel has to know of one field."""
+
+    name: str
+    type: types.Type
+    tail: tuple[int, ...]  # the shape but for its first number
+
+
+def _layout(name: str, value: Any) -> Entry:
+    if isinstance(value, np.ndarray):
+        return Entry(name, types.Array(from_dtype(value.dtype), value.ndim, "C", readonly=True), value.shape[1:])
+    return Entry(name, types.boolean if isinstance(value, bool) else types.int64, ())
+
+
+class BundleType(types.Type):
+    def __init__(self, entries: tuple[Entry, ...]) -> None:
+        self.entries = entries
+        super().__init__(f"Bundle({entries})")
+
+
+class _AddressModel(models.PrimitiveModel):
+    def __init__(self, manager: Any, kind: types.Type) -> None:
+        super().__init__(manager, kind, ir.IntType(64))
+
+
+register_model(BundleType)(_AddressModel)
+
+
+@typeof_impl.register(Bundle)
+def _typeof(bundle: Bundle, context: Any) -> BundleType:
+    return bundle.numba_type
+
+
+@unbox(BundleType)
+def _unbox(kind: BundleType, bundle: Any, c: Any) -> NativeValue:
+    number = c.pyapi.object_getattr_string(bundle, "address")
+    address = c.pyapi.long_as_longlong(number)
+    c.pyapi.decref(number)
+    return NativeValue(address, is_error=cgutils.is_not_null(c.builder, c.pyapi.err_occurred()))
+
+
+@infer_getattr
+class _BundleAttributes(AttributeTemplate):
+    key = BundleType
+
+    def generic_resolve(self, kind: BundleType, attribute: str) -> types.Type | None:
+        return next((entry.type for entry in kind.entries if entry.name == attribute), None)
+
+
+@lower_getattr_generic(BundleType)
+def _read(context: Any, builder: Any, kind: BundleType, address: Any, attribute: str) -> Any:
+    k = next(k for k, entry in enumerate(kind.entries) if entry.name == attribute)
+    entry = kind.entries[k]
+    word = ir.IntType(64)
+    table = builder.inttoptr(address, word.as_pointer())
+
+    def load(index: int) -> Any:
+        value = builder.load(cgutils.gep_inbounds(builder, table, index))
+        value.set_metadata("invariant.load", builder.module.add_metadata([]))  # so that loops load it once
+        return value
+
+    first = load(2 * k)
+    if not isinstance(entry.type, types.Array):
+        return context.cast(builder, first, types.int64, entry.type)
+    array = make_array(entry.type)(context, builder)
+    size = context.get_abi_sizeof(context.get_data_type(entry.type.dtype))
+    shape = [load(2 * k + 1), *(word(n) for n in entry.tail)]
+    strides = [word(size)]
+    for n in reversed(entry.tail):
+        strides.insert(0, word(strides[0].constant * n))
+    populate_array(
+        array,
+        data=builder.inttoptr(first, array.data.type),
+        shape=shape,
+        strides=strides,
+        itemsize=word(size),
+        meminfo=None,
+    )
+    return array._getvalue()

@@ -1,0 +1,68 @@
+"""The pinhole camera: from a place in the image to a ray, and where it stands when the author did not say.
+
+(x, y) counts in pixels from the image's top left corner, so pixel (i, j) covers i..i+1, j..j+1 and its centre is at +0.5.
+The field of view is over the image's full height. Directions are -z forward, x right, y up in the camera's frame.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from tracer.jit import compiled
+from tracer.scene import Scene, middle_and_radius
+from tracer.vector import Vector, add, cross, scale, subtract, unit
+
+BESIDE = 1.1  # how much more than the whole scene a framing camera sees
+
+
+class View(NamedTuple):
+    """A camera as kernels take it: right and up have the length of half the image's height at distance 1."""
+
+    eye: Vector
+    forward: Vector
+    right: Vector
+    up: Vector
+    width: int
+    height: int
+
+
+def make_view(eye: Vector, look_at: Vector, up: Vector, fov: float, size: tuple[int, int]) -> View:
+    """`fov` in degrees; `size` in pixels, width first."""
+    eye = _vector(eye)  # floats, whatever the author wrote: kernels are compiled for one type
+    forward = unit(subtract(look_at, eye))
+    right = unit(cross(forward, up))
+    half = math.tan(math.radians(fov) / 2)
+    return View(eye, forward, scale(half, right), scale(half, cross(right, forward)), *size)
+
+
+def scene_view(scene: Scene, bounds: np.ndarray, size: tuple[int, int] | None = None) -> View:
+    """The scene's camera for an image of this size; what the author left out frames the boxes (n, 2, 3)."""
+    camera = scene.camera
+    width, height = size or (scene.image.width, scene.image.height)
+    middle, radius = middle_and_radius(bounds) if len(bounds) else (np.zeros(3), 1.0)
+    look_at = camera.look_at or _vector(middle)
+    position = camera.position
+    if position is None:
+        narrow = math.radians(camera.fov) / 2
+        if width < height:
+            narrow = math.atan(math.tan(narrow) * width / height)
+        up = unit(camera.up)
+        aside = unit(cross(up, (0.0, 0.0, 1.0) if abs(up[2]) < 0.9 else (1.0, 0.0, 0.0)))
+        ahead = cross(aside, up)
+        away = unit(add(add(scale(0.35, up), scale(0.45, aside)), ahead))
+        position = add(look_at, scale(BESIDE * (radius or 1.0) / math.sin(narrow), away))
+    return make_view(position, look_at, camera.up, camera.fov, (width, height))
+
+
+def _vector(array: Sequence[float] | np.ndarray) -> Vector:
+    return (float(array[0]), float(array[1]), float(array[2]))
+
+
+@compiled
+def pixel_direction(view: View, x: float, y: float) -> Vector:
+    """Unit direction of the ray through the image at (x, y), in pixels."""
+    u = (2.0 * x - view.width) / view.height
+    v = (view.height - 2.0 * y) / view.height
+    return unit(add(view.forward, add(scale(u, view.right), scale(v, view.up))))

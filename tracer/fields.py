@@ -1,0 +1,218 @@
+"""What a field of a scene may hold, written once beside the field: it reads, checks and explains itself.
+
+A field of a scene's dataclass carries `metadata=number(above=0)` and the like. The rule turns what an author wrote
+into what the tracer wants, or says what is allowed: `radius must be > 0, got -1`.
+"""
+
+import difflib
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import MISSING, Field, fields, is_dataclass
+from typing import Any
+
+LARGEST = 1e150  # of a coordinate: its square must still be a number
+
+
+class Refused(Exception):
+    """A value that is not allowed; the text says what is."""
+
+
+def rule(read: Callable[[Any], Any]) -> Mapping[str, Callable[[Any], Any]]:
+    """The metadata of a field that is read by `read`."""
+    return {"read": read}
+
+
+def number(
+    above: float | None = None, least: float | None = None, most: float | None = None, below: float | None = None
+) -> Mapping[str, Callable[[Any], Any]]:
+    """A finite number in a range."""
+    limits = [(above, "> {:g}"), (least, ">= {:g}"), (most, "<= {:g}"), (below, "< {:g}")]
+    allowed = " and ".join(text.format(limit) for limit, text in limits if limit is not None)
+
+    def read(value: Any) -> float:
+        if not _is_number(value):
+            raise Refused(f"a number {allowed}".rstrip())
+        if not math.isfinite(value) or abs(value) > LARGEST:
+            raise Refused(f"a number of at most {LARGEST:g} in size")
+        outside = (
+            (above is not None and not value > above)
+            or (least is not None and not value >= least)
+            or (most is not None and not value <= most)
+            or (below is not None and not value < below)
+        )
+        if outside:
+            raise Refused(allowed)
+        return float(value)
+
+    return rule(read)
+
+
+def whole(least: int, most: int) -> Mapping[str, Callable[[Any], Any]]:
+    """A whole number in a range."""
+
+    def read(value: Any) -> int:
+        if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
+            raise Refused(f"a whole number from {least} to {most}")
+        return value
+
+    return rule(read)
+
+
+def flag() -> Mapping[str, Callable[[Any], Any]]:
+    def read(value: Any) -> bool:
+        if not isinstance(value, bool):
+            raise Refused("true or false")
+        return value
+
+    return rule(read)
+
+
+def text() -> Mapping[str, Callable[[Any], Any]]:
+    def read(value: Any) -> str:
+        if not isinstance(value, str) or not value.strip():
+            raise Refused("a text that is not empty")
+        return value
+
+    return rule(read)
+
+
+def choice(*allowed: str) -> Mapping[str, Callable[[Any], Any]]:
+    def read(value: Any) -> str:
+        if not isinstance(value, str) or value not in allowed:
+            raise Refused(one_of(allowed) + nearest(value, allowed))
+        return value
+
+    return rule(read)
+
+
+def point() -> Mapping[str, Callable[[Any], Any]]:
+    """Three coordinates."""
+    return rule(lambda value: _three(value, "three numbers [x, y, z]"))
+
+
+def direction() -> Mapping[str, Callable[[Any], Any]]:
+    """Three coordinates that are not all 0."""
+
+    def read(value: Any) -> tuple[float, ...]:
+        xyz = _three(value, "three numbers [x, y, z]")
+        if not any(xyz):
+            raise Refused("a direction other than [0, 0, 0]")
+        return xyz
+
+    return rule(read)
+
+
+def color() -> Mapping[str, Callable[[Any], Any]]:
+    """Linear RGB, each >= 0."""
+
+    def read(value: Any) -> tuple[float, ...]:
+        rgb = _three(value, "three numbers [r, g, b]")
+        if min(rgb) < 0.0:
+            raise Refused("three numbers [r, g, b] >= 0")
+        return rgb
+
+    return rule(read)
+
+
+def points(at_least: int = 0, exactly: int | None = None) -> Mapping[str, Callable[[Any], Any]]:
+    """A list of points."""
+    allowed = f"a list of {exactly if exactly else f'at least {at_least}'} points [x, y, z]"
+
+    def read(value: Any) -> tuple[tuple[float, ...], ...]:
+        if not isinstance(value, list | tuple):
+            raise Refused(allowed)
+        if len(value) != exactly if exactly else len(value) < at_least:
+            raise Refused(allowed)
+        return tuple(_three(item, allowed) for item in value)
+
+    return rule(read)
+
+
+def _three(value: Any, allowed: str) -> tuple[float, float, float]:
+    if not isinstance(value, list | tuple) or len(value) != 3 or not all(_is_number(item) for item in value):
+        raise Refused(allowed)
+    if not all(math.isfinite(item) and abs(item) <= LARGEST for item in value):
+        raise Refused(f"{allowed} of at most {LARGEST:g} in size")
+    return (float(value[0]), float(value[1]), float(value[2]))
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def one_of(allowed: Iterable[str]) -> str:
+    return "one of " + ", ".join(f'"{name}"' for name in allowed)
+
+
+def nearest(name: Any, known: Iterable[str]) -> str:
+    """' (did you mean "radius"?)' where one of the known names is close."""
+    close = difflib.get_close_matches(str(name), list(known), n=1)
+    return f' (did you mean "{close[0]}"?)' if close else ""
+
+
+def shown(value: Any) -> str:
+    """A value as the author wrote it, cut where it is long."""
+    match value:
+        case bool():
+            written = "true" if value else "false"
+        case str():
+            written = f'"{value}"'
+        case float():
+            written = f"{value:g}" if float(f"{value:g}") == value or not math.isfinite(value) else repr(value)
+        case list() | tuple():
+            written = "[" + ", ".join(shown(item) for item in value) + "]"
+        case dict():
+            written = "a table"
+        case _:
+            written = str(value)
+    return written if len(written) <= 60 else written[:57] + "..."
+
+
+def refusal(name: str, allowed: Refused | str, value: Any) -> str:
+    return f"{name} must be {allowed}, got {shown(value)}"
+
+
+def ruled(kind: type) -> dict[str, Field[Any]]:
+    """The fields of a dataclass that an author may write."""
+    return {field.name: field for field in fields(kind) if "read" in field.metadata}
+
+
+def read_fields(kind: type, table: Mapping[str, Any], faults: list[str], also: Iterable[str] = ()) -> dict[str, Any]:
+    """The values for `kind` in a table of a file; every key unknown, missing or not allowed adds a line to `faults`.
+
+    `also`: keys that the caller reads itself.
+    """
+    rules = ruled(kind)
+    known = [*rules, *also]
+    values = {}
+    for key, value in table.items():
+        if key in rules:
+            try:
+                values[key] = rules[key].metadata["read"](value)
+            except Refused as allowed:
+                faults.append(refusal(key, allowed, value))
+        elif key not in known:
+            hint = nearest(key, known) or f" (known: {', '.join(known)})"
+            faults.append(f'unknown key "{key}"{hint}')
+    for name, field in rules.items():
+        if name not in table and field.default is MISSING and field.default_factory is MISSING:
+            faults.append(f"{name} is missing")
+    return values
+
+
+def _same(value: Any, default: Any) -> bool:
+    return type(value) is type(default) and value == default
+
+
+def value_faults(thing: Any) -> list[str]:
+    """The faults of a dataclass written in Python: the same rules as for a file."""
+    faults = []
+    for name, field in ruled(type(thing)).items():
+        value = getattr(thing, name)
+        if _same(value, field.default) or is_dataclass(value):
+            continue
+        try:
+            field.metadata["read"](value)
+        except Refused as allowed:
+            faults.append(refusal(name, allowed, value))
+    return faults

@@ -1,0 +1,215 @@
+"""Mesh files (OBJ with its materials, PLY, STL, GLB) by way of trimesh, checked before and after it reads them.
+
+A mesh comes from anywhere: a file of 400 bytes may ask for a gigabyte, a corner may be no number. Counts are held
+against the file's size before anything is allocated, and whatever goes wrong becomes one line.
+"""
+
+import json
+import logging
+import math
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tracer.scene import Material, Object, Scene, SceneError
+from tracer.scene_defaults import default_lights, default_surroundings
+from tracer.shapes.mesh import Geometry, Mesh
+
+SUFFIXES = (".obj", ".ply", ".stl", ".glb")
+LARGEST_FILE = 2**30  # bytes
+MOST_FACES = 4_000_000
+
+# What a file without materials looks like, and what is added to a file's colours so that no side is black.
+CLAY = Material(name="clay", color=(0.8, 0.78, 0.74), ambient=0.15, diffuse=0.8)
+AMBIENT = 0.15
+
+
+class MeshError(ValueError):
+    """A mesh file that cannot be used; the text is one line with what was found and what is allowed."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """The triangles of one material."""
+
+    name: str
+    geometry: Geometry
+    material: Material
+
+
+def read_mesh_scene(path: Path) -> Scene:
+    """A scene of nothing but this mesh, in light from above the camera."""
+    try:
+        parts = load_parts(path)
+    except MeshError as error:
+        raise SceneError([f"{path}: {error}"]) from None
+    objects = tuple(Object(Mesh(part.geometry, path.name), part.material, part.name) for part in parts)
+    lights = default_lights(objects)
+    return Scene(objects, lights, title=path.stem, path=path, **default_surroundings())
+
+
+def load_parts(path: Path) -> list[Part]:
+    """What is in a mesh file, one part a material."""
+    if path.suffix.lower() not in SUFFIXES:
+        raise MeshError(f"a mesh must be one of {', '.join(SUFFIXES)}, got {path.name}")
+    if not path.is_file():
+        raise MeshError(f"mesh file not found: {path}")
+    size = path.stat().st_size
+    if not 0 < size <= LARGEST_FILE:
+        raise MeshError(f"mesh {path.name} must have from 1 to {LARGEST_FILE} bytes, got {size}")
+    document = _check_glb(path) if path.suffix.lower() == ".glb" else {}
+    if path.suffix.lower() == ".ply":
+        _check_ply(path)
+    meshes = _load(path)
+    glass = {str(entry.get("name")): entry for entry in document.get("materials", []) if isinstance(entry, dict)}
+    parts = [Part(name, _geometry(path, mesh), _material(mesh, glass)) for name, mesh in meshes]
+    faces = sum(len(part.geometry.faces) for part in parts)
+    if not 0 < faces <= MOST_FACES:
+        raise MeshError(f"mesh {path.name} must have from 1 to {MOST_FACES} triangles, got {faces}")
+    return parts
+
+
+def _load(path: Path) -> list[tuple[str, Any]]:
+    import trimesh  # not needed by most scenes, and slow to import
+
+    logging.getLogger("trimesh").setLevel(logging.CRITICAL)  # what it would say comes back as our one line
+    try:
+        # Without processing: it would drop corners that are no numbers, and weld flat faces into smooth ones.
+        scene = trimesh.load_scene(path, process=False)
+        dumped = scene.dump()
+    except Exception as error:
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise MeshError(f"mesh {path.name} cannot be read as {path.suffix[1:].upper()}: {reason[:120]}") from None
+    found = [mesh for mesh in dumped if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces)]
+    return [(str(mesh.metadata.get("name", path.stem)), mesh) for mesh in found]
+
+
+def _geometry(path: Path, mesh: Any) -> Geometry:
+    vertices = np.array(mesh.vertices, np.float64)
+    faces = np.array(mesh.faces, np.int64)
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        raise MeshError(f"mesh {path.name}: faces must name one of its {len(vertices)} vertices, got {faces.max()}")
+    bad = ~np.isfinite(vertices).all(axis=1)
+    if bad.any():
+        raise MeshError(f"mesh {path.name}: vertex {int(bad.argmax())} must be three finite numbers")
+    normals = None
+    if "vertex_normals" in mesh._cache.cache:  # asked for by name, trimesh would make them up
+        normals = np.array(mesh.vertex_normals, np.float64)
+        normals[~np.isfinite(normals).all(axis=1)] = 0.0
+    return Geometry(vertices, faces, normals)
+
+
+def _material(mesh: Any, documents: dict[str, Any]) -> Material:
+    """What the file says of the surface, in our terms."""
+    visual = getattr(mesh.visual, "material", None)
+    kind = type(visual).__name__
+    if kind == "SimpleMaterial":
+        return _from_obj(visual)
+    if kind == "PBRMaterial":
+        return _from_gltf(visual, documents.get(str(visual.name), {}))
+    return CLAY
+
+
+def _from_obj(visual: Any) -> Material:
+    """An MTL entry: Kd, Ks, Ns, d, Ni, and illum, which tells mirrors and glass from plain surfaces."""
+    entry = visual.kwargs
+    if "kd" not in entry:
+        return CLAY
+    illum = int(_number(entry, "illum", 2))
+    shiny = min(1.0, float(np.mean(entry["ks"]))) if "ks" in entry else 0.0
+    opacity = _number(entry, "d", 1.0 - _number(entry, "tr", 0.0))
+    transmit = min(1.0, max(0.0, 1.0 - opacity))
+    if transmit == 0.0 and illum in (6, 7) and "tf" in entry:
+        transmit = min(1.0, float(np.mean([float(value) for value in entry["tf"]])))
+    return Material(
+        name=str(visual.name or "material"),
+        color=_color(entry["kd"]),
+        ambient=AMBIENT,
+        diffuse=1.0 - transmit,
+        specular=shiny,
+        shininess=max(1.0, _number(entry, "ns", 1.0)),
+        reflect=shiny * (1.0 - transmit) if illum in (3, 5, 6, 7, 8) else 0.0,
+        transmit=transmit,
+        ior=_index(_number(entry, "ni", 1.0)),
+    )
+
+
+def _from_gltf(visual: Any, document: dict[str, Any]) -> Material:
+    """A glTF 2.0 material: metal mirrors, KHR_materials_transmission and _ior make glass."""
+    base = np.array(visual.baseColorFactor if visual.baseColorFactor is not None else (255, 255, 255, 255), float)
+    base = base / 255.0 if base.max() > 1.0 else base
+    metal = float(visual.metallicFactor) if visual.metallicFactor is not None else 0.0
+    rough = float(visual.roughnessFactor) if visual.roughnessFactor is not None else 1.0
+    extensions = document.get("extensions", {})
+    transmit = float(extensions.get("KHR_materials_transmission", {}).get("transmissionFactor", 0.0))
+    if document.get("alphaMode") == "BLEND":
+        transmit = max(transmit, 1.0 - float(base[3]))
+    transmit = min(1.0, max(0.0, transmit))
+    smoothness = min(1.0, max(0.0, 1.0 - rough))
+    return Material(
+        name=str(visual.name or "material"),
+        color=_color(base[:3]),
+        ambient=AMBIENT,
+        diffuse=(1.0 - 0.7 * metal) * (1.0 - transmit),
+        specular=0.5 * smoothness,
+        shininess=1.0 + 200.0 * smoothness**2,
+        reflect=0.7 * metal * smoothness,
+        transmit=transmit,
+        ior=_index(float(extensions.get("KHR_materials_ior", {}).get("ior", 1.5))),
+    )
+
+
+def _number(entry: dict[str, Any], key: str, default: float) -> float:
+    value = entry.get(key, default)
+    try:
+        number = float(value[0] if isinstance(value, list) else value)
+    except (TypeError, ValueError, IndexError):
+        return default
+    return number if math.isfinite(number) else default
+
+
+def _color(values: Any) -> tuple[float, float, float]:
+    r, g, b = (min(1.0, max(0.0, float(value))) if math.isfinite(float(value)) else 0.0 for value in list(values)[:3])
+    return (r, g, b)
+
+
+def _index(ior: float) -> float:
+    return ior if math.isfinite(ior) and ior > 0.0 else 1.0
+
+
+def _check_glb(path: Path) -> dict[str, Any]:
+    """The JSON part of a GLB file, its counts held against the file's size (glTF 2.0, 4.4)."""
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        header = file.read(20)
+        if len(header) < 20 or header[:4] != b"glTF" or header[16:20] != b"JSON":
+            raise MeshError(f'mesh {path.name} cannot be read as GLB: it must begin with "glTF" and a JSON part')
+        length = struct.unpack("<I", header[12:16])[0]
+        text = file.read(min(length, size))
+    try:
+        document = json.loads(text)
+        accessors = document.get("accessors", [])
+        counts = [int(accessor.get("count", 0)) for accessor in accessors]
+    except (ValueError, AttributeError, TypeError, RecursionError):
+        raise MeshError(f"mesh {path.name} cannot be read as GLB: its JSON part is damaged") from None
+    for k, count in enumerate(counts):
+        # Every element takes at least a byte of the file, save where an accessor leaves its data out.
+        if not 0 <= count <= size or ("bufferView" not in accessors[k] and count > MOST_FACES // 100):
+            raise MeshError(f"mesh {path.name}: accessor {k} must have no more elements than the file holds, got {count}")
+    return document
+
+
+def _check_ply(path: Path) -> None:
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        head = file.read(65536)
+    for line in head.split(b"end_header")[0].splitlines():
+        words = line.split()
+        if len(words) == 3 and words[0] == b"element" and words[2].isdigit() and int(words[2]) > size:
+            name = words[1].decode("ascii", "replace")
+            raise MeshError(
+                f"mesh {path.name}: it must have no more elements than bytes, got {int(words[2])} of {name}"
+            )

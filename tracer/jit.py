@@ -1,0 +1,88 @@
+"""The one place that knows Numba: how kernels are compiled and where the machine code is kept.
+
+`compiled` marks a formula: plain Python when a person calls it, machine code when a kernel does, so there is one
+source of the physics. `kernel` marks an entry point: compiled as a whole, run without the interpreter's lock,
+and kept on disk. Its folder is named by a hash of every source of this package, because Numba itself notices
+a change in the entry point's own file only and would go on using stale code of the files it calls.
+"""
+
+import hashlib
+import os
+import shutil
+import tempfile
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any, ParamSpec, TypeVar
+
+import numba
+import platformdirs
+from numba.extending import register_jitable
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+OPTIONS = {
+    "nogil": True,  # tiles run side by side on a thread pool
+    "_nrt": False,
+    "error_model": "numpy",  # x/0 is inf, as IEEE 754 says, and costs no branch
+}
+
+KEPT_CACHES = 3  # folders of earlier versions that stay, so that switching between two checkouts stays quick
+
+
+def compiled(function: Callable[P, R]) -> Callable[P, R]:
+    """Mark a function that kernels may call; from Python it stays what it is."""
+    return register_jitable(forceinline=True, **OPTIONS)(function)
+
+
+def routine(function: Callable[P, R]) -> Callable[P, R]:
+    return register_jitable(**OPTIONS)(function)
+
+
+def kernel(function: Callable[P, R]) -> Callable[P, R]:
+    """Mark an entry point: compiled at its first call with these types, then loaded from `cache_folder`."""
+    before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
+    numba.config.CACHE_DIR = str(cache_folder())  # type: ignore[attr-defined]
+    try:
+        return numba.njit(cache=True, **OPTIONS)(function)
+    finally:
+        numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
+
+
+def is_compiled(entry: Any) -> bool:
+    """Whether this entry point has machine code in this process (always, where compiling is switched off)."""
+    return bool(getattr(entry, "signatures", True))
+
+
+@cache
+def cache_folder() -> Path:
+    """Where machine code of exactly these sources is kept: the user's cache folder, else a temporary one."""
+    sources = sorted(Path(__file__).parent.rglob("*.py"))
+    digest = hashlib.sha256()
+    for source in sources:
+        digest.update(source.read_bytes())
+    name = f"kernels-{digest.hexdigest()[:16]}"
+    for parent in (platformdirs.user_cache_path("raytree"), Path(tempfile.gettempdir()) / "raytree"):
+        folder = parent / name
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryFile(dir=folder):
+                pass
+        except OSError:
+            continue
+        os.utime(folder)
+        _forget_old(parent, folder)
+        return folder
+    return Path(tempfile.mkdtemp(prefix="raytree-"))
+
+
+def _forget_old(parent: Path, current: Path) -> None:
+    """Remove the folders of versions not used lately; another process may be doing the same."""
+    try:
+        others = [folder for folder in parent.glob("kernels-*") if folder != current]
+        others.sort(key=lambda folder: folder.stat().st_mtime, reverse=True)
+    except OSError:
+        return
+    for folder in others[KEPT_CACHES:]:
+        shutil.rmtree(folder, ignore_errors=True)

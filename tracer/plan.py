@@ -1,0 +1,72 @@
+"""What a scene needs of the tracer, and what is left out because it does not: first of all for showing it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from tracer.shapes.mesh import Mesh
+
+if TYPE_CHECKING:
+    from tracer.scene import Scene
+
+
+@dataclass(frozen=True, slots=True)
+class Need:
+    """One capability of the tracer and what this scene makes of it."""
+
+    name: str
+    needed: bool
+    why: str
+
+
+def needs(scene: Scene, surfaces: int, boxes: int) -> tuple[Need, ...]:
+    """Every capability, needed or left out, with the reason in the scene's own terms."""
+    materials = list(dict.fromkeys(item.material for item in scene.objects))
+    glass = [item for item in scene.objects if item.material.transmit > 0.0]
+    solids = [item for item in glass if not item.thin]
+    mirrors = [item for item in scene.objects if item.material.reflect > 0.0]
+    fresnel = scene.tracing.model == "fresnel"
+    lit = [m for m in materials if m.diffuse > 0.0 or m.specular > 0.0]
+    meshes = [item for item in scene.objects if isinstance(item.shape, Mesh)]
+    smooth = [item for item in meshes if isinstance(item.shape, Mesh) and item.shape.geometry.normals is not None]
+    splitting = [item for item in solids if item.material.ior != 1.0]
+    return (
+        Need("reflection", bool(mirrors) or bool(splitting), _which(mirrors or splitting, "reflects")),
+        Need("refraction", bool(glass), _which(glass, "transmits")),
+        Need("media", bool(solids), _which(solids, "bounds a medium")),
+        Need("fresnel", fresnel and bool(glass), 'model = "fresnel"' if fresnel else 'model = "whitted"'),
+        Need("shadow rays", bool(scene.lights) and bool(lit), _shadow_reason(len(scene.lights), len(lit))),
+        Need(
+            "light through glass",
+            bool(glass) and bool(scene.lights) and scene.tracing.shadows == "filter",
+            f'shadows = "{scene.tracing.shadows}"' if glass else _which(glass, "transmits"),
+        ),
+        Need("checker", any(m.checker for m in materials), _checkered(materials)),
+        Need("hierarchy", boxes > 1, f"{_count(surfaces, 'surface')}, {_count(boxes, 'box', 'boxes')}"),
+        Need("mesh library", bool(meshes), _which(meshes, "comes from a mesh file")),
+        Need("vertex normals", bool(smooth), _which(smooth, "has normals at its vertices")),
+    )
+
+
+def _which(objects: list, does: str) -> str:
+    if not objects:
+        return f"nothing {does}"
+    first = objects[0].name or type(objects[0].shape).__name__.lower()
+    others = f" and {len(objects) - 1} more" if len(objects) > 1 else ""
+    return f'"{first}"{others} {does}'
+
+
+def _shadow_reason(lights: int, lit: int) -> str:
+    if not lights:
+        return "no light"
+    return _count(lights, "light") if lit else "no surface that light makes brighter"
+
+
+def _checkered(materials: list) -> str:
+    names = [f'"{m.name}"' for m in materials if m.checker]
+    return ", ".join(names) or "no material has a checker"
+
+
+def _count(n: int, one: str, many: str = "") -> str:
+    return f"{n} {one if n == 1 else many or one + 's'}"

@@ -1,0 +1,189 @@
+"""The image: every pixel's tree, tile by tile on a pool of threads, of each tree only the colour kept.
+
+Tiles write disjoint pixels and no sum crosses a tile's border, so the image has the same bits for any number of threads
+and any order of tiles. Passes from coarse to fine trace no pixel twice.
+"""
+
+import math
+import os
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, ThreadPoolExecutor, wait
+from dataclasses import dataclass, field
+from queue import SimpleQueue
+
+import numpy as np
+
+from tracer.camera import View
+from tracer.jit import is_compiled
+from tracer.kernel import Limits
+from tracer.nodes import KINDS
+from tracer.scene import Material, Object, Scene
+from tracer.shapes.sphere import Sphere
+from tracer.tile import CENTER, Area, Samples, Workspace, run, trace_area
+from tracer.tree import MAX_NODES, make_limits, solids_at, trace, words
+from tracer.world import World, prepare
+
+TILE = 32  # pixels a side: some milliseconds of work, so that cancelling is quick and threads end together
+COARSE_TO_FINE = (8, 4, 2, 1)
+
+Progress = Callable[[float], None]
+Cancelled = Callable[[], bool]
+
+
+class Stopped(Exception):
+    """The rendering was cancelled; its image is incomplete."""
+
+
+@dataclass(eq=False)
+class Image:
+    """A finished image and what it took."""
+
+    pixels: np.ndarray  # (height, width, 3) float64, linear RGB
+    seconds: dict[str, float]  # compile, trace
+    rays: dict[str, int]  # traced, by kind
+    residual: dict[str, float]  # max, mean over the pixels
+    threads: int
+    size: tuple[int, int]
+    samples: int
+    depth: int
+    left_out: list[str]
+
+
+@dataclass(eq=False)
+class Job:
+    """An image in the making: what is to be traced, and the pixels so far."""
+
+    world: World
+    view: View
+    limits: Limits
+    samples: Samples = CENTER
+    pixels: np.ndarray = field(init=False)
+    rays: np.ndarray = field(init=False)
+    residuals: dict[Area, np.ndarray] = field(init=False)
+    eye_solids: np.ndarray = field(init=False)
+    spaces: SimpleQueue = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.pixels = np.zeros((self.view.height, self.view.width, 3))
+        self.rays = np.zeros(len(KINDS), np.int64)
+        self.residuals = {}
+        self.eye_solids = solids_at(self.world, self.view.eye)
+        self.spaces = SimpleQueue()
+
+    def trace(self, area: Area, cancelled: Cancelled) -> tuple[Area, Workspace] | None:
+        """Trace one tile, on whatever thread; None where the job has been cancelled before it began."""
+        if cancelled():
+            return None
+        space = Workspace(words(self.world)) if self.spaces.empty() else self.spaces.get()
+        space.residual[:] = 0.0
+        run(
+            self.world.arrays, self.view, self.limits, self.samples, area, self.eye_solids, self.pixels, space
+        )
+        return area, space
+
+    def keep(self, area: Area, space: Workspace) -> None:
+        """Add a finished tile's figures; its workspace is free for the next."""
+        self.rays += space.rays
+        self.residuals[area] = space.residual.copy()
+        space.rays[:] = 0
+        self.spaces.put(space)
+
+
+def tiles(width: int, height: int, steps: Sequence[int] = (1,)) -> Iterator[Area]:
+    """The areas of an image, pass by pass; `steps` halve from one to the next, down to 1."""
+    traced = 0
+    for step in steps:
+        for top in range(0, height, TILE):
+            for left in range(0, width, TILE):
+                yield Area(left, top, min(left + TILE, width), min(top + TILE, height), step, traced)
+        traced = step
+
+
+def trace_tiles(
+    job: Job,
+    areas: Sequence[Area],
+    executor: Executor,
+    ahead: int,
+    progress: Progress = lambda share: None,
+    cancelled: Cancelled = lambda: False,
+) -> None:
+    """Trace areas in their order, at most `ahead` waiting at a time. Stopped where `cancelled` turns true."""
+    waiting = iter(areas)
+    running = set()
+    finished = 0
+    while True:
+        while len(running) < ahead and (area := next(waiting, None)) is not None:
+            running.add(executor.submit(job.trace, area, cancelled))
+        if not running:
+            return
+        done, running = wait(running, return_when=FIRST_COMPLETED)
+        for future in done:
+            result = future.result()
+            if result is None:
+                wait(running)
+                raise Stopped
+            job.keep(*result)
+            finished += 1
+        progress(finished / len(areas))
+
+
+def render(
+    world: World,
+    size: tuple[int, int] | None = None,
+    samples: int = 1,
+    depth: int | None = None,
+    threads: int | None = None,
+    *,
+    min_weight: float = 0.0,
+    max_nodes: int = MAX_NODES,
+    model: str | None = None,
+    progress: Progress = lambda share: None,
+    cancelled: Cancelled = lambda: False,
+) -> Image:
+    """The scene's image. Size, depth and model are the scene's by default, threads as many as there are processors.
+
+    One sample is the pixel's centre; more are the mean of the sampler's first points. `progress` gets the finished
+    share, and where `cancelled` turns true, Stopped is raised within a tile's time.
+    """
+    if samples < 1:
+        raise ValueError(f"samples must be >= 1, got {samples}")
+    threads = threads or processors()
+    compiling = warm()
+    view = world.view(size)
+    limits = make_limits(world, depth, min_weight, max_nodes, model, names_occluders=False)
+    job = Job(world, view, limits, CENTER if samples == 1 else Samples(0, samples))
+    began = time.perf_counter()
+    with ThreadPoolExecutor(threads) as executor:
+        trace_tiles(job, list(tiles(view.width, view.height)), executor, 2 * threads, progress, cancelled)
+    tracing = time.perf_counter() - began
+    figures = list(job.residuals.values())
+    return Image(
+        pixels=job.pixels,
+        seconds={"compile": compiling, "trace": tracing},
+        rays={kind: int(n) for kind, n in zip(KINDS, job.rays, strict=True)},
+        residual={
+            "max": float(max(figure[0] for figure in figures)),
+            "mean": math.fsum(figure[1] for figure in figures) / (view.width * view.height),
+        },
+        threads=threads,
+        size=(view.width, view.height),
+        samples=samples,
+        depth=limits.depth,
+        left_out=world.left_out,
+    )
+
+
+def warm() -> float:
+    """Get the kernel compiled, or loaded from the cache; the seconds it took, 0 where it was at hand."""
+    if is_compiled(trace_area):
+        return 0.0
+    began = time.perf_counter()
+    nothing = Scene((Object(Sphere((0.0, 0.0, -1.0), 0.5), Material()),))
+    trace(prepare(nothing), ray=((0.0, 0.0, 0.0), (0.0, 0.0, -1.0)))
+    return time.perf_counter() - began
+
+
+def processors() -> int:
+    """How many this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -1,0 +1,88 @@
+"""Mesh: triangles from a file. For kernels it is nothing of its own: each face is a row of shape `triangle`.
+
+The author names the file and where it goes: first scaled, then turned about x, y and z in this order, then moved.
+"""
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from tracer import fields
+from tracer.shapes.triangle import pack_triangles
+from tracer.vector import Vector
+
+NAME = "mesh"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Geometry:
+    """Triangles as a file has them."""
+
+    vertices: np.ndarray  # (n, 3)
+    faces: np.ndarray  # (m, 3) rows of vertices, counter-clockwise seen from outside
+    normals: np.ndarray | None = None  # (n, 3), one a vertex, where the file has them
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Mesh:
+    geometry: Geometry
+    file: str = field(default="mesh", metadata=fields.text())
+    scale: float = field(default=1.0, metadata=fields.number(above=0))
+    rotate: Vector = field(default=(0.0, 0.0, 0.0), metadata=fields.point())  # degrees about x, then y, then z
+    translate: Vector = field(default=(0.0, 0.0, 0.0), metadata=fields.point())
+
+    def placed(self) -> np.ndarray:
+        """The corners of every face, (m, 3, 3), where the author put them."""
+        vertices = self.scale * self.geometry.vertices @ _turn(self.rotate).T + self.translate
+        return vertices[self.geometry.faces]
+
+    def pack(self, rows: Any) -> None:
+        pack_triangles(rows, self.placed())
+
+    def smooth(self) -> np.ndarray | None:
+        """The unit normals at every face's corners, (m, 3, 3), or None where the file has none."""
+        if self.geometry.normals is None:
+            return None
+        return (self.geometry.normals @ _turn(self.rotate).T)[self.geometry.faces]
+
+    def bounds(self) -> np.ndarray:
+        corners = self.placed()
+        return np.stack([corners.min(axis=1), corners.max(axis=1)], axis=1)
+
+    def is_closed(self) -> bool:
+        """Whether every edge is passed once in each direction: then the mesh has an inside."""
+        _, corner = np.unique(self.geometry.vertices, axis=0, return_inverse=True)
+        faces = corner.reshape(-1)[self.geometry.faces]
+        edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+        forward, counts = np.unique(edges, axis=0, return_counts=True)
+        backward = np.unique(edges[:, ::-1], axis=0)
+        return bool((counts == 1).all()) and forward.shape == backward.shape and bool((forward == backward).all())
+
+    def contains(self, p: np.ndarray) -> bool:
+        """Whether the faces, seen from p, cover the whole sphere of directions: their solid angles add up to 4 pi.
+
+        Van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983.
+        """
+        if not self.is_closed():
+            return False
+        a, b, c = np.moveaxis(self.placed() - p, 1, 0)
+        la, lb, lc = (np.sqrt((x * x).sum(axis=1)) for x in (a, b, c))
+        volume = (a * np.cross(b, c)).sum(axis=1)
+        spread = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
+        return bool(abs(2.0 * np.arctan2(volume, spread).sum()) > 2.0 * math.pi)
+
+
+def _turn(degrees: Vector) -> np.ndarray:
+    """The matrix that turns about x, then y, then z. Quarter turns are exact."""
+    turn = np.eye(3)
+    for axis, angle in enumerate(degrees):
+        c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+        if angle % 90.0 == 0.0:
+            c, s = float(round(c)), float(round(s))
+        i, j = (axis + 1) % 3, (axis + 2) % 3
+        step = np.eye(3)
+        step[i, i], step[i, j], step[j, i], step[j, j] = c, -s, s, c
+        turn = step @ turn
+    return turn

@@ -1,0 +1,83 @@
+"""Polygon: a flat face with any number of corners, convex or not. Packed as a plane; its corners stand in world.corners.
+
+Inside is where a line from the hit to infinity crosses the outline an odd number of times. The crossings are counted
+in the ray's own sheared coordinates, in which an edge shared by two faces is the same two numbers for both.
+"""
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from tracer.jit import compiled
+from tracer.rays import Ray, sheared
+from tracer import fields
+from tracer.shapes import planar
+from tracer.shapes.planar import newell, plane_distance
+from tracer.vector import Vector, vector
+
+NAME = "polygon"
+
+FLATNESS = 1e-5  # of its size: how far a corner may lie off the polygon's plane (format 1)
+
+
+@dataclass(frozen=True, slots=True)
+class Polygon:
+    vertices: tuple[Vector, ...] = field(metadata=fields.points(at_least=3))
+
+    def pack(self, rows: Any) -> None:
+        rows["a"] = self.vertices[0]
+        rows["normal"] = newell(np.array(self.vertices))
+        rows["r"] = np.abs(self.vertices[0]).sum()
+        rows["count"] = len(self.vertices)
+
+    def corners(self) -> np.ndarray:
+        return np.array(self.vertices)
+
+    def bounds(self) -> np.ndarray:
+        return np.stack([np.min(self.vertices, axis=0), np.max(self.vertices, axis=0)])[None]
+
+    def contains(self, p: np.ndarray) -> bool:
+        return False
+
+    def faults(self) -> list[str]:
+        corners = np.array(self.vertices)
+        normal = newell(corners)
+        if not normal.any():
+            return ["vertices must enclose an area, got corners on one line"]
+        arms = corners - corners.mean(axis=0)
+        size = np.linalg.norm(arms, axis=1).max()
+        heights = np.abs(arms @ normal)
+        if heights.max() > FLATNESS * size:
+            worst = int(heights.argmax())
+            return [
+                f"vertices must lie in one plane (to {FLATNESS:g} of the polygon's size), "
+                f"got vertices[{worst}] off it by {heights[worst] / size:.2g} of that size"
+            ]
+        return []
+
+
+@compiled
+def intersect(world: Any, surface: Any, ray: Ray, floor: float) -> float:
+    t = plane_distance(world, surface, ray)
+    if not floor <= t < math.inf:
+        return math.inf
+    inside = False
+    x0, y0 = sheared(ray, vector(world.corners[surface.first + surface.count - 1]))
+    for k in range(surface.count):
+        x1, y1 = sheared(ray, vector(world.corners[surface.first + k]))
+        if (y0 > 0.0) != (y1 > 0.0):
+            # On which side of the ray the edge passes. Rounding never turns this sign over, it can only make it 0:
+            # then the edge goes through the ray itself, and that counts as inside, for either neighbour.
+            turn = x0 * y1 - x1 * y0
+            if turn == 0.0:
+                return t
+            if (turn > 0.0) == (y1 > y0):
+                inside = not inside
+        x0, y0 = x1, y1
+    return t if inside else math.inf
+
+
+again = planar.never
+locate = planar.locate

@@ -1,0 +1,244 @@
+"""From a scene to flat arrays: what kernels read, with everything left out that this scene does not need.
+
+A shape becomes one row of `surfaces`, a mesh one row a face, in the file's order: a surface's number decides ties.
+"""
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tracer.bundle import Bundle
+from tracer.bvh import build
+from tracer.camera import View, scene_view
+from tracer.plan import Need, needs
+from tracer.scene import Material, Object, Scene, SceneError
+from tracer.shapes import CODES
+from tracer.shapes.mesh import Mesh
+from tracer.shapes.plane import Plane
+from tracer.shapes.polygon import Polygon
+from tracer.shapes.triangle import Triangle
+from tracer.vector import Vector, cross, unit
+
+SURFACE = np.dtype(
+    [
+        ("a", np.float64, 3),  # a..count: as the shape's file says under "Packed as"
+        ("b", np.float64, 3),
+        ("c", np.float64, 3),
+        ("normal", np.float64, 3),
+        ("r", np.float64),
+        ("first", np.int32),  # of a polygon's corners, -1 for none
+        ("count", np.int32),  # corners of a flat face, 0 for what has none
+        ("shape", np.int32),
+        ("object", np.int32),
+        ("smooth", np.int32),  # row of `smooth`, -1 for none
+    ],
+    align=True,
+)
+
+OBJECT = np.dtype(
+    [
+        ("material", np.int32),
+        ("solid", np.int32),  # its rank among the transparent solids, -1 for what bounds no medium
+        ("closed", np.bool_),  # whether it has an inside that a point can be tested for
+        ("flat", np.bool_),  # whether a checker lies along its own two axes
+        ("u", np.float64, 3),
+        ("v", np.float64, 3),
+    ],
+    align=True,
+)
+
+MATERIAL = np.dtype(
+    [
+        ("color", np.float64, 3),
+        ("checker_color", np.float64, 3),
+        ("checker_size", np.float64),  # 0: no checker
+        ("ambient", np.float64),
+        ("diffuse", np.float64),
+        ("specular", np.float64),
+        ("shininess", np.float64),
+        ("reflect", np.float64),
+        ("transmit", np.float64),
+        ("ior", np.float64),
+    ],
+    align=True,
+)
+
+LIGHT = np.dtype(
+    [
+        ("position", np.float64, 3),
+        ("towards", np.float64, 3),  # unit, of a light at infinity: from the scene to it
+        ("color", np.float64, 3),
+        ("distant", np.bool_),
+    ],
+    align=True,
+)
+
+
+class Arrays(NamedTuple):
+    """The world as kernels see it. Every scene has the same types, so none has to wait for a compiler."""
+
+    surfaces: np.ndarray
+    corners: np.ndarray  # (n, 3) of polygons
+    smooth: np.ndarray  # (n, 3, 3) vertex normals of smooth faces
+    objects: np.ndarray
+    materials: np.ndarray
+    lights: np.ndarray
+    indices: np.ndarray  # of refraction, by a solid's rank
+    background: np.ndarray
+    ambient: np.ndarray
+    unbounded: np.ndarray  # surfaces without end, tested by every ray
+    hierarchy: np.ndarray  # boxes over the others
+    order: np.ndarray  # the others as the boxes' leaves have them
+    has_glass: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class World:
+    scene: Scene
+    arrays: Bundle  # of Arrays
+    bounds: np.ndarray  # (n, 2, 3): boxes about every bounded surface
+    needs: tuple[Need, ...]
+    solids: tuple[int, ...]  # objects that bound a medium, by rank
+
+    @property
+    def left_out(self) -> list[str]:
+        """What this scene does without."""
+        return [need.name for need in self.needs if not need.needed]
+
+    def view(self, size: tuple[int, int] | None = None) -> View:
+        """The scene's camera for an image of this size, the scene's own by default."""
+        return scene_view(self.scene, self.bounds, size)
+
+    def around(self, point: Vector) -> list[int]:
+        """Ranks of the transparent solids a point lies in."""
+        p = np.array(point)
+        return [rank for rank, k in enumerate(self.solids) if self.scene.objects[k].shape.contains(p)]
+
+
+def prepare(scene: Scene) -> World:
+    """Flatten a scene. SceneError for values that are not allowed, all of them at once."""
+    faults = scene.faults()
+    if faults:
+        raise SceneError(faults)
+    materials = list(dict.fromkeys(item.material for item in scene.objects))
+    solids = _ranked(scene)
+    ranks = {k: rank for rank, k in enumerate(solids)}
+    surfaces, corners, smooth, bounds = _surfaces(scene)
+    unbounded = np.array([k for k, box in enumerate(bounds) if box is None], np.int32)
+    bounded = np.array([k for k, box in enumerate(bounds) if box is not None], np.int32)
+    boxes = np.array([box for box in bounds if box is not None]).reshape(-1, 2, 3)
+    hierarchy, order = build(boxes)
+    arrays = Arrays(
+        surfaces=surfaces,
+        corners=corners,
+        smooth=smooth,
+        objects=np.array([_object(item, materials.index(item.material), ranks.get(k, -1)) for k, item in enumerate(scene.objects)], OBJECT),
+        materials=np.array([_material(material) for material in materials], MATERIAL),
+        lights=_lights(scene),
+        indices=np.array([scene.objects[k].material.ior for k in solids], np.float64),
+        background=np.array(scene.background.color),
+        ambient=np.array(scene.tracing.ambient),
+        unbounded=unbounded,
+        hierarchy=hierarchy,
+        order=bounded[order],
+        has_glass=any(material.transmit > 0.0 for material in materials),
+    )
+    return World(scene, Bundle(arrays), boxes, needs(scene, len(surfaces), len(hierarchy)), tuple(solids))
+
+
+def _ranked(scene: Scene) -> list[int]:
+    """The objects that bound a medium, highest priority first, in the file's order among equals."""
+    solids = [k for k, item in enumerate(scene.objects) if item.material.transmit > 0.0 and not item.thin]
+    return sorted(solids, key=lambda k: -scene.objects[k].priority)
+
+
+def _surfaces(scene: Scene) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[np.ndarray | None]]:
+    blocks, corners, smooth = [], [np.zeros((0, 3))], [np.zeros((0, 3, 3))]
+    bounds: list[np.ndarray | None] = []
+    corner_count = smooth_count = 0
+    for k, item in enumerate(scene.objects):
+        shape = item.shape
+        boxes = shape.bounds()
+        rows = np.zeros(1 if boxes is None else len(boxes), SURFACE)
+        rows["object"], rows["first"], rows["smooth"] = k, -1, -1
+        rows["shape"] = CODES["triangle" if isinstance(shape, Mesh) else _name(shape)]
+        shape.pack(rows)
+        if isinstance(shape, Polygon):
+            rows["first"] = corner_count
+            corners.append(shape.corners())
+            corner_count += len(corners[-1])
+        if isinstance(shape, Mesh) and (normals := shape.smooth()) is not None:
+            rows["smooth"] = smooth_count + np.arange(len(normals))
+            smooth.append(normals)
+            smooth_count += len(normals)
+        blocks.append(rows)
+        bounds += [None] if boxes is None else list(boxes)
+    return np.concatenate(blocks), np.concatenate(corners), np.concatenate(smooth), bounds
+
+
+def _name(shape: Any) -> str:
+    return type(shape).__name__.lower()
+
+
+def _object(item: Object, material: int, rank: int) -> tuple[Any, ...]:
+    shape = item.shape
+    closed = shape.is_closed() if isinstance(shape, Mesh) else not isinstance(shape, Polygon | Triangle)
+    normal = _flat_normal(shape)
+    u, v = _axes(normal) if normal else ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    return (material, rank, closed, normal is not None, u, v)
+
+
+def _flat_normal(shape: Any) -> Vector | None:
+    """The normal of a shape whose checker is flat."""
+    if isinstance(shape, Plane):
+        return unit(shape.normal)
+    if isinstance(shape, Polygon):
+        row = np.zeros(1, SURFACE)
+        shape.pack(row)
+        return unit(row["normal"][0])
+    return None
+
+
+def _axes(n: Vector) -> tuple[Vector, Vector]:
+    """Two axes in the plane with normal n, as near as can be to the world axes that n is not nearest to."""
+    axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    along = max(range(3), key=lambda k: abs(n[k]))
+    first, second = (axes[k] for k in range(3) if k != along)
+    v = cross(n, first)
+    if sum(a * b for a, b in zip(v, second, strict=True)) < 0.0:
+        v = (-v[0], -v[1], -v[2])
+    v = unit(v)
+    u = cross(n, v)
+    if sum(a * b for a, b in zip(u, first, strict=True)) < 0.0:
+        u = (-u[0], -u[1], -u[2])
+    return u, v
+
+
+def _material(material: Material) -> tuple[Any, ...]:
+    checker = material.checker
+    return (
+        material.color,
+        checker.color if checker else (0.0, 0.0, 0.0),
+        checker.size if checker else 0.0,
+        material.ambient,
+        material.diffuse,
+        material.specular,
+        material.shininess,
+        material.reflect,
+        material.transmit,
+        material.ior,
+    )
+
+
+def _lights(scene: Scene) -> np.ndarray:
+    rows = np.zeros(len(scene.lights), LIGHT)
+    for row, light in zip(rows, scene.lights, strict=True):
+        row["color"] = light.color
+        row["distant"] = light.direction is not None
+        if light.direction is not None:
+            x, y, z = unit(light.direction)
+            row["towards"] = (-x, -y, -z)
+        else:
+            row["position"] = light.position
+    return rows
