@@ -2,7 +2,7 @@
 
 Numba hands a tuple of arrays from function to function as seven words an array, which costs more than a ray: a kernel
 calling its parts with the whole world ran four times slower. A Bundle is one address, of a table with each array's
-address and length. Kernels read `world.surfaces[k]` as ever, and cannot write to it.
+address and length. Kernels read `world.surfaces[k]` as ever; they can write to it only where it is made `writable`.
 """
 
 from typing import Any, NamedTuple
@@ -21,7 +21,7 @@ from numba.np.numpy_support import from_dtype
 class Bundle:
     """The arrays of a NamedTuple (C-contiguous) and its numbers (whole, or true and false), for Python as they were."""
 
-    def __init__(self, fields: NamedTuple) -> None:
+    def __init__(self, fields: NamedTuple, writable: bool = False) -> None:
         self._fields = fields
         entries = []
         for name, value in fields._asdict().items():
@@ -33,7 +33,7 @@ class Bundle:
                 entries.append((int(value), 0))
         self._table = np.array(entries, np.int64)
         self.address = self._table.ctypes.data
-        self.numba_type = BundleType(tuple(_layout(name, value) for name, value in fields._asdict().items()))
+        self.numba_type = BundleType(tuple(_layout(name, value, writable) for name, value in fields._asdict().items()))
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._fields, name)
@@ -47,9 +47,10 @@ class Entry(NamedTuple):
     tail: tuple[int, ...]  # the shape but for its first number
 
 
-def _layout(name: str, value: Any) -> Entry:
+def _layout(name: str, value: Any, writable: bool) -> Entry:
     if isinstance(value, np.ndarray):
-        return Entry(name, types.Array(from_dtype(value.dtype), value.ndim, "C", readonly=True), value.shape[1:])
+        kind = types.Array(from_dtype(value.dtype), value.ndim, "C", readonly=not writable)
+        return Entry(name, kind, value.shape[1:])
     return Entry(name, types.boolean if isinstance(value, bool) else types.int64, ())
 
 

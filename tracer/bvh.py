@@ -23,7 +23,7 @@ BOX = np.dtype(
     align=True,
 )
 
-FLAT = 8  # up to so many surfaces a leaf is cheaper than two more boxes
+FLAT = 16  # up to so many surfaces a leaf is cheaper than two more boxes
 BINS = 16
 HALVING = 40  # the level from which on a box is simply halved: so no hierarchy is deeper than
 DEEPEST = 64  # levels

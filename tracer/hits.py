@@ -16,6 +16,9 @@ from tracer.shapes import again, intersect
 from tracer.vector import Vector, scale
 
 
+SMALLEST = 5e-324  # the number after 0
+
+
 @compiled
 def distance(world: Any, s: int, ray: Ray, floor: float, floor_id: int, above: float) -> float:
     """Distance to surface s, if it comes after the hit (floor, floor_id); `above` is the number after `floor`."""
@@ -29,7 +32,7 @@ def distance(world: Any, s: int, ray: Ray, floor: float, floor_id: int, above: f
 @routine
 def closest(world: Any, ray: Ray, floor: float, floor_id: int, stack: Any) -> tuple[float, int, bool]:
     """(t, surface, tied): the first hit after (floor, floor_id); surface -1 for none, tied: another is as close."""
-    above = np.nextafter(floor, math.inf)
+    above = np.nextafter(floor, math.inf) if floor > 0.0 else SMALLEST
     best, found, tied = math.inf, -1, False
     for k in range(len(world.unbounded)):
         s = world.unbounded[k]
@@ -86,14 +89,20 @@ def enters(box: Any, ray: Ray, best: float) -> bool:
     return near <= far
 
 
+CLEAR, GLASS, OPAQUE = range(3)
+
+
 @routine
-def is_blocked(world: Any, ray: Ray, end: float, glass_blocks: bool, stack: Any) -> bool:
-    """Whether anything that lets no light through stands nearer than `end`: any one will do."""
-    above = np.nextafter(0.0, math.inf)
+def obstruction(world: Any, ray: Ray, end: float, glass_blocks: bool, stack: Any) -> int:
+    """What stands nearer than `end`: OPAQUE as soon as anything that lets no light through is found, else GLASS, CLEAR."""
+    above = SMALLEST
+    worst = CLEAR
     for k in range(len(world.unbounded)):
         s = world.unbounded[k]
-        if blocks(world, s, glass_blocks) and distance(world, s, ray, 0.0, -1, above) < end:
-            return True
+        if distance(world, s, ray, 0.0, -1, above) < end:
+            if blocks(world, s, glass_blocks):
+                return OPAQUE
+            worst = GLASS
     depth = 0
     node = 0 if len(world.hierarchy) > 0 else -1
     while node >= 0:
@@ -106,13 +115,15 @@ def is_blocked(world: Any, ray: Ray, end: float, glass_blocks: bool, stack: Any)
                 continue
             for k in range(box.second, box.second + box.count):
                 s = world.order[k]
-                if blocks(world, s, glass_blocks) and distance(world, s, ray, 0.0, -1, above) < end:
-                    return True
+                if distance(world, s, ray, 0.0, -1, above) < end:
+                    if blocks(world, s, glass_blocks):
+                        return OPAQUE
+                    worst = GLASS
         if depth == 0:
             break
         depth -= 1
         node = stack[depth]
-    return False
+    return worst
 
 
 @compiled

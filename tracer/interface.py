@@ -21,7 +21,7 @@ def is_entering(world: Any, s: int, ray: Ray, t: float) -> bool:
     return dot(n, ray.direction) < 0.0
 
 
-@routine
+@compiled
 def meet_interface(world: Any, ray: Ray, solids: Any, stack: Any) -> tuple[float, int]:
     """(t, surface) of the first interface the ray shows; surface -1 for none.
 

@@ -17,7 +17,8 @@ from typing import Any, ParamSpec, TypeVar
 
 import numba
 import platformdirs
-from numba.extending import register_jitable
+from numba import types
+from numba.extending import lower_builtin, register_jitable, type_callable
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -37,7 +38,22 @@ def compiled(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def routine(function: Callable[P, R]) -> Callable[P, R]:
-    return register_jitable(**OPTIONS)(function)
+    return register_jitable(forceinline=False, **OPTIONS)(function)
+
+
+def stay_apart() -> None:
+    """As a function's first line: do not copy it into its callers. For what is large and seldom needed."""
+
+
+@type_callable(stay_apart)
+def _type_stay_apart(context: Any) -> Any:
+    return lambda: types.none
+
+
+@lower_builtin(stay_apart)
+def _lower_stay_apart(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    builder.function.attributes.add("noinline")
+    return context.get_dummy_value()
 
 
 def kernel(function: Callable[P, R]) -> Callable[P, R]:

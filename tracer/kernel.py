@@ -8,7 +8,7 @@ The sums then run back up. An image keeps the first row's radiance of every tabl
 import math
 from typing import Any, NamedTuple
 
-from tracer.hits import filtering, is_blocked, occluder, towards_light
+from tracer.hits import CLEAR, OPAQUE, filtering, obstruction, occluder, towards_light
 from tracer.interface import meet_interface
 from tracer.jit import compiled, routine
 from tracer.media import index_of, medium
@@ -29,7 +29,7 @@ from tracer.nodes import (
     WEIGHT,
 )
 from tracer.optics import cosine, fresnel_shares, radicand, reflect, sine, transmission
-from tracer.rays import make_ray
+from tracer.rays import Ray, make_ray
 from tracer.shading import ambient, phong, surface_color
 from tracer.shapes import locate
 from tracer.vector import Vector, add, dot, largest, multiply, scale, store, vector
@@ -46,15 +46,16 @@ class Limits(NamedTuple):
     max_nodes: int  # rows a tree may have
     model: int
     glass_blocks: bool  # shadow rays: glass casts a full shadow instead of filtering the light
-    names_occluders: bool  # look for the nearest occluder (a click), not just for any (an image)
+    records: bool  # the table will be read (a click): fill in what an image has no use for
 
 
-@routine
-def trace_tree(world: Any, limits: Limits, table: Any, solids: Any, stack: Any) -> tuple[int, float]:
+@compiled
+def trace_tree(world: Any, limits: Limits, space: Any) -> tuple[int, float]:
     """(rows, residual) of the tree whose camera ray stands in row 0; (-1, 0) where the table is too short for it.
 
-    `solids`: (rows, 2, words), for each row the set of solids before and behind its hit; row 0's is given.
+    `space.solids` has for each row the set of solids before and behind its hit; row 0's is given too.
     """
+    table = space.table
     lights = len(world.lights)
     first, end, depth = 0, 1, 0
     residual = 0.0
@@ -63,55 +64,58 @@ def trace_tree(world: Any, limits: Limits, table: Any, solids: Any, stack: Any) 
         if end + (end - first) * (lights + 2) > len(table):
             return (-1, 0.0)
         for i in range(first, end):
-            trace_ray(world, table, solids, i, stack)
+            trace_ray(world, space, i)
         count = end
         for i in range(first, end):
-            count = gather_light(world, limits, table, i, count, stack)
+            count = gather_light(world, limits, space, i, count)
         next_first = count
         for i in range(first, end):
-            count, planned, cut = spawn(world, limits, table, solids, i, count, planned)
+            count, planned, cut = spawn(world, limits, space, i, count, planned)
             residual += cut
         first, end, depth = next_first, count, depth + 1
-    sum_up(table, end)
+    sum_up(space, end)
     return (end, residual)
 
 
 @compiled
-def start_row(table: Any, i: int, parent: int, kind: int, depth: int, factor: Vector, weight: Vector) -> Any:
+def start_row(
+    limits: Limits, table: Any, i: int, parent: int, kind: int, depth: int, factor: Vector, weight: Vector
+) -> Any:
+    """Row i as it is before anything is known of the ray but where it comes from."""
     row = table[i]
-    nowhere = (math.nan, math.nan, math.nan)
-    row.id = i
-    row.parent = parent
     row.kind = kind
     row.depth = depth
     store(row.factor, factor)
     store(row.weight, weight)
-    row.t = math.nan
-    store(row.point, nowhere)
-    store(row.normal, nowhere)
-    row.object = NONE
-    row.light = NONE
-    row.n1 = math.nan
-    row.n2 = math.nan
-    row.theta1 = math.nan
-    row.theta2 = math.nan
-    row.radicand = math.nan
-    store(row.local, (0.0, 0.0, 0.0))
-    store(row.radiance, (0.0, 0.0, 0.0))
-    row.end = NONE
     row.surface = NONE
     row.children = 0
     row.first_child = NONE
+    row.end = NONE
+    if limits.records:
+        nowhere = (math.nan, math.nan, math.nan)
+        row.id = i
+        row.parent = parent
+        row.t = math.nan
+        store(row.point, nowhere)
+        store(row.normal, nowhere)
+        row.object = NONE
+        row.light = NONE
+        row.n1 = math.nan
+        row.n2 = math.nan
+        row.theta1 = math.nan
+        row.theta2 = math.nan
+        row.radicand = math.nan
     return row
 
 
-@routine
-def trace_ray(world: Any, table: Any, solids: Any, i: int, stack: Any) -> None:
+@compiled
+def trace_ray(world: Any, space: Any, i: int) -> None:
     """Find what ray i meets and write it into its row."""
-    row = table[i]
+    row = space.table[i]
+    solids = space.solids
     d = vector(row.direction)
     ray = make_ray(vector(row.origin), d, row.start, row.side)
-    t, s = meet_interface(world, ray, solids[i], stack)
+    t, s = meet_interface(world, ray, solids[i], space.stack)
     n1 = index_of(world, medium(solids[i, 0]))
     row.n1 = n1
     if s < 0:
@@ -153,9 +157,10 @@ def is_usable(d: Vector, n: Vector, shading_n: Vector, n1: float, n2: float) -> 
     return dot(transmission(d, shading_n, n1, n2, cosine(d, shading_n), math.sqrt(root)), n) < 0.0
 
 
-@routine
-def gather_light(world: Any, limits: Limits, table: Any, i: int, count: int, stack: Any) -> int:
+@compiled
+def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> int:
     """Row i's local term, light by light, with one shadow row for each light in front of its surface."""
+    table = space.table
     row = table[i]
     if row.surface < 0:
         return count
@@ -171,62 +176,77 @@ def gather_light(world: Any, limits: Limits, table: Any, i: int, count: int, sta
             light = world.lights[j]
             to_light, far = towards_light(light, point)
             if dot(n, to_light) > 0.0 and dot(face_n, to_light) > 0.0:
-                shadow = start_row(table, count, i, SHADOW, row.depth, (1.0, 1.0, 1.0), vector(row.weight))
-                shadow.light = j
-                shadow.start = s
-                shadow.side = row.hit_side
-                store(shadow.origin, point)
-                store(shadow.direction, to_light)
-                visible = trace_shadow(world, limits, shadow, far, stack)
+                ray = make_ray(point, to_light, s, row.hit_side)
+                visible, end = trace_shadow(world, limits, ray, far, space.stack)
+                share = (0.0, 0.0, 0.0)
                 if visible > 0.0:
-                    share = phong(material, color, vector(light.color), n, to_light, d)
-                    share = scale(visible, share)
-                    store(shadow.local, share)
-                    store(shadow.radiance, share)
+                    share = scale(visible, phong(material, color, vector(light.color), n, to_light, d))
                     local = add(local, share)
+                table[count].kind = SHADOW
+                if limits.records:
+                    record_shadow(world, limits, table, count, i, j, ray, far, visible, end, share, space.stack)
                 count += 1
     store(row.local, local)
     return count
 
 
-@routine
-def trace_shadow(world: Any, limits: Limits, row: Any, far: float, stack: Any) -> float:
-    """How much of the light gets through: 0 where an opaque surface is nearer than the light.
+@compiled
+def trace_shadow(world: Any, limits: Limits, ray: Ray, far: float, stack: Any) -> tuple[float, int]:
+    """(share, end): how much of the light gets through; 0 where an opaque surface is nearer than the light.
 
     Transparent surfaces multiply it by their `transmit`, straight through and unbent: a simplification, since the light
     that really arrives there was bent on its way.
     """
-    ray = make_ray(vector(row.origin), vector(row.direction), row.start, row.side)
-    met = NONE
-    visible = 1.0
-    t = far
-    row.end = LIT
-    if is_blocked(world, ray, far, limits.glass_blocks, stack):
-        visible = 0.0
-        row.end = BLOCKED
-        if limits.names_occluders:
-            t, met = occluder(world, ray, far, limits.glass_blocks, stack)
-    elif world.has_glass and not limits.glass_blocks:
-        visible, met = filtering(world, ray, far, stack)
-        if met >= 0:
-            row.end = FILTERED
-    if met >= 0:
-        row.object = world.surfaces[met].object
-    if t < math.inf and (limits.names_occluders or row.end != BLOCKED):
-        row.t = t
-        store(row.point, add(ray.origin, scale(t, ray.direction)))
-    share = (visible, visible, visible)
-    store(row.factor, share)
-    store(row.weight, multiply(vector(row.weight), share))
-    return visible
+    found = obstruction(world, ray, far, limits.glass_blocks, stack)
+    if found == OPAQUE:
+        return (0.0, BLOCKED)
+    if found == CLEAR:
+        return (1.0, LIT)
+    share, _ = filtering(world, ray, far, stack)
+    return (share, FILTERED)
 
 
 @routine
-def spawn(
-    world: Any, limits: Limits, table: Any, solids: Any, i: int, count: int, planned: int
-) -> tuple[int, int, float]:
+def record_shadow(
+    world: Any,
+    limits: Limits,
+    table: Any,
+    i: int,
+    parent: int,
+    light: int,
+    ray: Ray,
+    far: float,
+    visible: float,
+    end: int,
+    share: Vector,
+    stack: Any,
+) -> None:
+    """Row i: a shadow ray, with what stands in its way by name."""
+    attenuation = (visible, visible, visible)
+    weight = multiply(vector(table[parent].weight), attenuation)
+    row = start_row(limits, table, i, parent, SHADOW, table[parent].depth, attenuation, weight)
+    row.light = light
+    row.end = end
+    store(row.origin, ray.origin)
+    store(row.direction, ray.direction)
+    store(row.local, share)
+    store(row.radiance, share)
+    t, met = far, NONE
+    if end == BLOCKED:
+        t, met = occluder(world, ray, far, limits.glass_blocks, stack)
+    elif end == FILTERED:
+        _, met = filtering(world, ray, far, stack)
+    if met >= 0:
+        row.object = world.surfaces[met].object
+    if t < math.inf:
+        row.t = t
+        store(row.point, add(ray.origin, scale(t, ray.direction)))
+
+
+@compiled
+def spawn(world: Any, limits: Limits, space: Any, i: int, count: int, planned: int) -> tuple[int, int, float]:
     """(rows, rows planned, weight cut) after the reflected and the refracted ray of row i, where it sends them."""
-    row = table[i]
+    row = space.table[i]
     if row.surface < 0:
         return (count, planned, 0.0)
     material = world.materials[world.objects[row.object].material]
@@ -249,12 +269,12 @@ def spawn(
     cut = 0.0
     if reflected > 0.0:
         count, planned, lost = send(
-            world, limits, table, solids, i, count, planned, kind, reflect(d, n), reflected, row.hit_side
+            world, limits, space, i, count, planned, kind, reflect(d, n), reflected, row.hit_side
         )
         cut += lost
     if refracted > 0.0:
         count, planned, lost = send(
-            world, limits, table, solids, i, count, planned, REFRACTION, through, refracted, -row.hit_side
+            world, limits, space, i, count, planned, REFRACTION, through, refracted, -row.hit_side
         )
         cut += lost
     row.children = count - row.first_child
@@ -285,8 +305,7 @@ def bend(limits: Limits, row: Any, material: Any, thin: bool) -> tuple[float, fl
 def send(
     world: Any,
     limits: Limits,
-    table: Any,
-    solids: Any,
+    space: Any,
     i: int,
     count: int,
     planned: int,
@@ -296,6 +315,7 @@ def send(
     side: float,
 ) -> tuple[int, int, float]:
     """(rows, rows planned, weight cut): one child of row i, or the reason why it is not followed in the parent's end."""
+    table, solids = space.table, space.solids
     parent = table[i]
     factor = (k, k, k)
     weight = multiply(vector(parent.weight), factor)
@@ -310,7 +330,7 @@ def send(
     elif planned + room > limits.max_nodes:
         parent.end = NODES
     else:
-        row = start_row(table, count, i, kind, parent.depth + 1, factor, weight)
+        row = start_row(limits, table, count, i, kind, parent.depth + 1, factor, weight)
         store(row.origin, vector(parent.point))
         store(row.direction, direction)
         row.start = parent.surface
@@ -323,9 +343,10 @@ def send(
     return (count, planned, heaviest)
 
 
-@routine
-def sum_up(table: Any, count: int) -> None:
+@compiled
+def sum_up(space: Any, count: int) -> None:
     """Colour flows back: radiance = local + sum of factor * radiance over the children, in row order."""
+    table = space.table
     for i in range(count - 1, -1, -1):
         row = table[i]
         if row.kind != SHADOW:

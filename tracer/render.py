@@ -76,17 +76,16 @@ class Job:
         if cancelled():
             return None
         space = Workspace(words(self.world)) if self.spaces.empty() else self.spaces.get()
-        space.residual[:] = 0.0
-        run(
-            self.world.arrays, self.view, self.limits, self.samples, area, self.eye_solids, self.pixels, space
-        )
+        run(self.world.arrays, self.view, self.limits, self.samples, area, self.eye_solids, self.pixels, space)
         return area, space
 
     def keep(self, area: Area, space: Workspace) -> None:
         """Add a finished tile's figures; its workspace is free for the next."""
-        self.rays += space.rays
-        self.residuals[area] = space.residual.copy()
-        space.rays[:] = 0
+        counted = space.arrays
+        self.rays += counted.rays
+        self.residuals[area] = counted.residuals.copy()
+        counted.rays[:] = 0
+        counted.residuals[:] = 0.0
         self.spaces.put(space)
 
 
@@ -151,7 +150,7 @@ def render(
     threads = threads or processors()
     compiling = warm()
     view = world.view(size)
-    limits = make_limits(world, depth, min_weight, max_nodes, model, names_occluders=False)
+    limits = make_limits(world, depth, min_weight, max_nodes, model, records=False)
     job = Job(world, view, limits, CENTER if samples == 1 else Samples(0, samples))
     began = time.perf_counter()
     with ThreadPoolExecutor(threads) as executor:

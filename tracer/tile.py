@@ -9,14 +9,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tracer.bundle import Bundle
+from tracer.bvh import DEEPEST
 from tracer.camera import View, pixel_direction
-from tracer.jit import kernel
+from tracer.jit import compiled, kernel
 from tracer.kernel import Limits, start_row, trace_tree
 from tracer.nodes import CAMERA, KINDS, NODE
 from tracer.sampler import sample_offset
 from tracer.vector import Vector, add, store, vector
-
-DEEPEST_STACK = 64  # as deep as a hierarchy can be
 
 
 class Area(NamedTuple):
@@ -44,22 +43,35 @@ class Samples(NamedTuple):
 CENTER = Samples(-1, 1)
 
 
+class Space(NamedTuple):
+    """What a thread writes while it traces: room for one tree, and what is counted."""
+
+    table: np.ndarray
+    solids: np.ndarray  # (rows, 2, words)
+    stack: np.ndarray  # of boxes still to be entered
+    rays: np.ndarray  # traced so far, by kind
+    tree: np.ndarray  # rows and residual of the last tree
+    residuals: np.ndarray  # largest and sum over the pixels so far
+
+
 class Workspace:
-    """What one thread needs to trace: room for one tree. It grows when a tree asks for more."""
+    """One thread's Space. It grows when a tree asks for more."""
 
     def __init__(self, words: int, rows: int = 256) -> None:
-        self.words = words
-        self.stack = np.zeros(DEEPEST_STACK, np.int64)
-        self.rays = np.zeros(len(KINDS), np.int64)  # traced so far, by kind
-        self.tree = np.zeros(2, np.float64)  # rows and residual of the last tree
-        self.residual = np.zeros(2, np.float64)  # largest and sum over the pixels
-        self.table = np.zeros(rows, NODE)
-        self.solids = np.zeros((rows, 2, words), np.int64)
+        self.arrays = Space(
+            np.zeros(rows, NODE),
+            np.zeros((rows, 2, words), np.int64),
+            np.zeros(DEEPEST, np.int64),
+            np.zeros(len(KINDS), np.int64),
+            np.zeros(2),
+            np.zeros(2),
+        )
+        self.bundle = Bundle(self.arrays, writable=True)
 
     def grow(self) -> None:
-        rows = 4 * len(self.table)
-        self.table = np.zeros(rows, NODE)
-        self.solids = np.zeros((rows, 2, self.words), np.int64)
+        rows, words = 4 * len(self.arrays.table), self.arrays.solids.shape[2]
+        self.arrays = self.arrays._replace(table=np.zeros(rows, NODE), solids=np.zeros((rows, 2, words), np.int64))
+        self.bundle = Bundle(self.arrays, writable=True)
 
 
 @kernel
@@ -72,56 +84,65 @@ def trace_area(
     resume: int,
     eye_solids: Any,
     pixels: Any,
-    table: Any,
-    solids: Any,
-    stack: Any,
-    rays: Any,
-    tree: Any,
-    residuals: Any,
+    space: Bundle,
 ) -> int:
     """Trace the area's pixels in reading order, from number `resume` on, into `pixels` (height, width, 3).
 
     Returns the number of the pixel whose tree the table was too short for, or how many there are.
     """
-    columns = (area.right - area.left + area.step - 1) // area.step
-    lines = (area.bottom - area.top + area.step - 1) // area.step
-    for number in range(resume, columns * lines):
-        x = area.left + (number % columns) * area.step
-        y = area.top + (number // columns) * area.step
-        if area.traced > 0 and x % area.traced == 0 and y % area.traced == 0:
-            continue
-        total = (0.0, 0.0, 0.0)
-        lost = 0.0
-        for k in range(samples.count):
-            dx, dy = 0.5, 0.5
-            if samples.first >= 0:
-                dx, dy = sample_offset(x, y, samples.first + k)
-            row = start_row(table, 0, -1, CAMERA, 0, (1.0, 1.0, 1.0), (1.0, 1.0, 1.0))
-            store(row.origin, view.eye)
-            store(row.direction, pixel_direction(view, x + dx, y + dy))
-            row.start = -1
-            row.side = 0.0
-            for word in range(solids.shape[2]):
-                solids[0, 0, word] = eye_solids[word]
-                solids[0, 1, word] = eye_solids[word]
-            count, residual = trace_tree(world, limits, table, solids, stack)
-            if count < 0:
-                return number
-            for i in range(count):
-                rays[table[i].kind] += 1
-            tree[0] = count
-            tree[1] = residual
-            lost += residual
-            total = add(total, vector(table[0].radiance))
-        color = total
-        if samples.count > 1:
-            color = (total[0] / samples.count, total[1] / samples.count, total[2] / samples.count)
-        residuals[0] = max(residuals[0], lost / samples.count)
-        residuals[1] += lost / samples.count
-        for j in range(y, min(y + area.step, pixels.shape[0])):
-            for i in range(x, min(x + area.step, pixels.shape[1])):
-                store(pixels[j, i], color)
-    return columns * lines
+    number = 0
+    residuals = space.residuals
+    for y in range(area.top, area.bottom, area.step):
+        for x in range(area.left, area.right, area.step):
+            number += 1
+            if number <= resume:
+                continue
+            if area.traced > 0 and x % area.traced == 0 and y % area.traced == 0:
+                continue
+            color, residual = trace_pixel(world, view, limits, samples, x, y, eye_solids, space)
+            if residual < 0.0:
+                return number - 1
+            residuals[0] = max(residuals[0], residual)
+            residuals[1] += residual
+            for j in range(y, min(y + area.step, pixels.shape[0])):
+                for i in range(x, min(x + area.step, pixels.shape[1])):
+                    store(pixels[j, i], color)
+    return number
+
+
+@compiled
+def trace_pixel(
+    world: Bundle, view: View, limits: Limits, samples: Samples, x: int, y: int, eye_solids: Any, space: Bundle
+) -> tuple[Vector, float]:
+    """(colour, residual): the mean over the pixel's samples; residual -1 where the table was too short for a tree."""
+    total = (0.0, 0.0, 0.0)
+    lost = 0.0
+    table, solids = space.table, space.solids
+    for k in range(samples.count):
+        dx, dy = 0.5, 0.5
+        if samples.first >= 0:
+            dx, dy = sample_offset(x, y, samples.first + k)
+        row = start_row(limits, table, 0, -1, CAMERA, 0, (1.0, 1.0, 1.0), (1.0, 1.0, 1.0))
+        store(row.origin, view.eye)
+        store(row.direction, pixel_direction(view, x + dx, y + dy))
+        row.start = -1
+        row.side = 0.0
+        for word in range(solids.shape[2]):
+            solids[0, 0, word] = eye_solids[word]
+            solids[0, 1, word] = eye_solids[word]
+        count, residual = trace_tree(world, limits, space)
+        if count < 0:
+            return (total, -1.0)
+        for i in range(count):
+            space.rays[table[i].kind] += 1
+        space.tree[0] = count
+        space.tree[1] = residual
+        lost += residual
+        total = add(total, vector(table[0].radiance))
+    if samples.count > 1:
+        total = (total[0] / samples.count, total[1] / samples.count, total[2] / samples.count)
+        lost /= samples.count
+    return (total, lost)
 
 
 def run(
@@ -132,20 +153,16 @@ def run(
     area: Area,
     eye_solids: np.ndarray,
     pixels: np.ndarray,
-    space: Workspace,
+    workspace: Workspace,
 ) -> None:
     """`trace_area` until it is through, with as much room as its trees need."""
+    columns = -(-(area.right - area.left) // area.step)
+    lines = -(-(area.bottom - area.top) // area.step)
     number = 0
-    while True:
-        columns = -(-(area.right - area.left) // area.step)
-        lines = -(-(area.bottom - area.top) // area.step)
-        number = trace_area(
-            world, view, limits, samples, area, number, eye_solids, pixels,
-            space.table, space.solids, space.stack, space.rays, space.tree, space.residual,
-        )  # fmt: skip
-        if number == columns * lines:
-            return
-        space.grow()
+    while number < columns * lines:
+        number = trace_area(world, view, limits, samples, area, number, eye_solids, pixels, workspace.bundle)
+        if number < columns * lines:
+            workspace.grow()
 
 
 def eye_view(eye: Vector, direction: Vector) -> View:

@@ -170,7 +170,7 @@ def trace(
         raise ValueError("either a pixel or a ray is traced: give one of them")
     scene = world.scene
     size = size or (scene.image.width, scene.image.height)
-    limits = make_limits(world, depth, min_weight, max_nodes, model, names_occluders=True)
+    limits = make_limits(world, depth, min_weight, max_nodes, model, records=True)
     if pixel is not None:
         x, y = pixel
         if not (0 <= x < size[0] and 0 <= y < size[1]):
@@ -181,9 +181,11 @@ def trace(
         x, y = 0, 0
         view = _ray_view(*ray)
     samples = CENTER if sample is None else Samples(sample, 1)
-    space = Workspace(words(world))
+    workspace = Workspace(words(world))
     pixels = np.zeros((0, 0, 3))  # the colour stands in the table
-    run(world.arrays, view, limits, samples, Area(x, y, x + 1, y + 1, 1, 0), solids_at(world, view.eye), pixels, space)
+    area = Area(x, y, x + 1, y + 1, 1, 0)
+    run(world.arrays, view, limits, samples, area, solids_at(world, view.eye), pixels, workspace)
+    space = workspace.arrays
     nodes = space.table[: int(space.tree[0])][list(PUBLIC)].copy()
     _fill_angles(nodes, scene)
     nodes.flags.writeable = False
@@ -197,7 +199,7 @@ def make_limits(
     min_weight: float,
     max_nodes: int,
     model: str | None,
-    names_occluders: bool,
+    records: bool,
 ) -> Limits:
     """The kernel's limits, with the scene's own values where none are given."""
     tracing = world.scene.tracing
@@ -205,7 +207,7 @@ def make_limits(
     if depth < 0:
         raise ValueError(f"depth must be >= 0, got {depth}")
     code = MODELS.index(model or tracing.model)
-    return Limits(depth, float(min_weight), max_nodes, code, tracing.shadows == "block", names_occluders)
+    return Limits(depth, float(min_weight), max_nodes, code, tracing.shadows == "block", records)
 
 
 def words(world: World) -> int:

@@ -90,7 +90,6 @@ class Arrays(NamedTuple):
     unbounded: np.ndarray  # surfaces without end, tested by every ray
     hierarchy: np.ndarray  # boxes over the others
     order: np.ndarray  # the others as the boxes' leaves have them
-    has_glass: bool
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -142,7 +141,6 @@ def prepare(scene: Scene) -> World:
         unbounded=unbounded,
         hierarchy=hierarchy,
         order=bounded[order],
-        has_glass=any(material.transmit > 0.0 for material in materials),
     )
     return World(scene, Bundle(arrays), boxes, needs(scene, len(surfaces), len(hierarchy)), tuple(solids))
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from tracer.jit import compiled
+from tracer.jit import compiled, routine, stay_apart
 from tracer.rays import Ray
 from tracer.vector import Vector, add, dot, scale, subtract, vector
 
@@ -31,7 +31,7 @@ def corner(world: Any, surface: Any, k: int) -> Vector:
     return vector(surface.c)
 
 
-@compiled
+@routine
 def side_of(world: Any, face: Any, plane: Any) -> int:
     """On which side of the plane all of a face lies: +1, -1, 0 in it, 2 on both."""
     above = below = False
@@ -61,9 +61,10 @@ def plane_distance(world: Any, surface: Any, ray: Ray) -> float:
     return t if t > 0.0 else math.inf
 
 
-@compiled
+@routine
 def touching_distance(world: Any, surface: Any, ray: Ray, t: float, speed: float) -> float:
     """`plane_distance` for a ray whose start cannot be told from a point of the plane."""
+    stay_apart()
     start = world.surfaces[ray.start]
     if start.count < 3:  # not a face with corners: nothing better to go by than t itself
         return t if t > 0.0 else math.inf
