@@ -1,0 +1,94 @@
+"""The tree of rays as text: a line a ray, so that it can be read in a terminal and compared line by line."""
+
+import math
+from collections.abc import Sequence
+
+from tracer.nodes import SHADOW
+from tracer.tree import RayTree
+
+HEADINGS = ("ray", "meets", "distance", "index", "angle", "weight", "sends up (r g b)", "why it ends")
+
+WHY = {
+    None: "",
+    "surface": "opaque: nothing to follow",
+    "background": "leaves the scene",
+    "depth": "cut: depth limit",
+    "weight": "cut: too little weight",
+    "tolerance": "cut: within the tolerance",
+    "nodes": "cut: node limit",
+    "invalid": "no direction to follow",
+    "lit": "reaches the light",
+    "filtered": "reaches the light through glass (unbent)",
+    "blocked": "blocked",
+}
+
+
+def outline(tree: RayTree) -> str:
+    """The whole tree, children below their parent, with a head of two lines."""
+    rows = [HEADINGS]
+    stems = _stems(tree)
+    for i in tree.walk():
+        rows.append(_row(tree, i, stems[i]))
+    widths = [max(len(row[k]) for row in rows) for k in range(len(HEADINGS))]
+    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    return "\n".join([*_head(tree), "", *lines]) + "\n"
+
+
+def _head(tree: RayTree) -> list[str]:
+    where = f"pixel {tree.pixel[0]},{tree.pixel[1]} of {tree.size[0]}x{tree.size[1]}" if tree.pixel else "a ray"
+    title = tree.scene.title or (tree.scene.path.name if tree.scene.path else "scene")
+    head = [f"{title}: {where}, depth {tree.depth}, {tree.model}, {len(tree)} rays"]
+    cut = f"; rays that were cut carry {number(tree.residual)} of the weight" if tree.residual else "; no ray was cut"
+    return [*head, f"colour {triple(tree.radiance)} (linear r g b){cut}"]
+
+
+def _stems(tree: RayTree) -> dict[int, str]:
+    """The lines that lead to each row, as a file tree has them."""
+    stems = {0: ""}
+    trunks = {0: ""}
+    for i in tree.walk():
+        below = tree.children[i]
+        for child in below:
+            last = child == below[-1]
+            stems[child] = trunks[i] + ("└─ " if last else "├─ ")
+            trunks[child] = trunks[i] + ("   " if last else "│  ")
+    return stems
+
+
+def _row(tree: RayTree, i: int, stem: str) -> tuple[str, ...]:
+    row = tree.nodes[i]
+    kind = tree.kind(i)
+    met = tree.object_name(i) or ""
+    shadow = row["kind"] == SHADOW
+    if shadow:
+        kind = f"shadow to {tree.light_name(i)}"
+    return (
+        f"{stem}{i} {kind}",
+        met or ("background" if tree.end(i) == "background" else ""),
+        number(row["t"]),
+        "" if shadow else _pair(number(row["n1"]), number(row["n2"])),
+        "" if shadow else _pair(degrees(row["theta1"]), degrees(row["theta2"])),
+        triple(row["weight"], same=True),
+        triple(row["radiance"]),
+        WHY[tree.end(i)],
+    )
+
+
+def _pair(first: str, second: str) -> str:
+    return f"{first} → {second}" if first and second else first
+
+
+def number(x: float) -> str:
+    """Five digits; nothing for what is absent."""
+    return "" if math.isnan(x) else f"{x:.5g}"
+
+
+def degrees(radians: float) -> str:
+    return "" if math.isnan(radians) else f"{math.degrees(radians):.2f}°"
+
+
+def triple(rgb: Sequence[float], same: bool = False) -> str:
+    """Three numbers, or with `same` one where all are equal."""
+    if same and rgb[0] == rgb[1] == rgb[2]:
+        return f"{rgb[0]:.4g}"
+    return " ".join(f"{x:.4f}" for x in rgb)
