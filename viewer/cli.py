@@ -1,0 +1,151 @@
+"""The command line: what can be said, and nothing else. What the commands do stands in `commands`, loaded when needed."""
+
+import argparse
+import re
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import NoReturn
+
+FORMATS = ("text", "json", "csv", "dot")
+
+# Options whose value may begin with a minus sign, which argparse would take for another option.
+NUMERIC = ("--ray", "--pixel", "--size")
+
+
+class Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line and leaves with 2."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command; its exit status: 0 done, 1 a check fell short, 2 unusable input or arguments."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    options = make_parser().parse_args(_joined(given))
+    from viewer import commands
+    from viewer.files import Unusable
+
+    command = getattr(commands, options.command or "view")
+    try:
+        return command(options)
+    except Unusable as unusable:
+        print(unusable, file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("stopped", file=sys.stderr)
+        return 130
+    except BrokenPipeError:  # the reader of our output has seen enough
+        sys.stderr.close()
+        return 0
+
+
+def make_parser() -> Parser:
+    parser = Parser(prog="raytree", description="Why is that pixel this colour? The tree of rays behind it.")
+    parser.add_argument("--version", action="version", version=f"raytree {version('raytree')}")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=Parser)
+    parser.set_defaults(scene=None, pixel=None, depth=None, screenshot=None, size=None)
+
+    view = commands.add_parser("view", help="the viewer (the default), on the first lesson if no scene is given")
+    view.add_argument("scene", nargs="?", metavar="SCENE", help=SCENE_HELP)
+    view.add_argument("--pixel", type=pair(","), metavar="X,Y", help="pick this pixel, counted from the top left")
+    _add_depth(view)
+    view.add_argument("--screenshot", type=Path, metavar="FILE.png", help="draw the viewer into a file and leave")
+    view.add_argument("--size", type=pair("x"), metavar="WxH", help="of the window or the screenshot")
+
+    trace = commands.add_parser("trace", help="the ray tree behind one pixel")
+    trace.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+    where = trace.add_mutually_exclusive_group(required=True)
+    where.add_argument("--pixel", type=pair(","), metavar="X,Y", help="counted from the image's top left")
+    where.add_argument("--ray", type=six, metavar="ox,oy,oz,dx,dy,dz", help="origin and direction of a ray")
+    _add_limits(trace)
+    trace.add_argument("--size", type=pair("x"), metavar="WxH", help="of the image, the scene's own by default")
+    trace.add_argument("--format", choices=FORMATS, default="text", help="text by default")
+    trace.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of the terminal")
+
+    render = commands.add_parser("render", help="the scene's image into a file")
+    render.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+    render.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png, .npy or .exr")
+    _add_limits(render)
+    render.add_argument("--size", type=pair("x"), metavar="WxH", help="of the image, the scene's own by default")
+    render.add_argument("--samples", type=at_least(1), default=1, metavar="N", help="a pixel; 1 is its centre")
+    render.add_argument("--threads", type=at_least(1), metavar="N", help="as many as processors by default")
+    render.add_argument("--stats", type=Path, metavar="FILE.json", help="times, ray counts and what was left out")
+
+    plan = commands.add_parser("plan", help="what a scene needs of the tracer, and what is left out")
+    plan.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+
+    commands.add_parser("lessons", help="the lessons, one a line")
+    return parser
+
+
+SCENE_HELP = "a .toml, .obj, .ply, .stl or .glb file, or a lesson's name"
+
+
+def _add_depth(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--depth", type=at_least(0), metavar="D", help="recursion depth, the scene's own by default")
+
+
+def _add_limits(parser: argparse.ArgumentParser) -> None:
+    _add_depth(parser)
+    parser.add_argument(
+        "--min-weight", type=weight, default=0.0, metavar="W", help="do not follow rays that weigh less"
+    )
+
+
+def _joined(arguments: list[str]) -> list[str]:
+    """`--ray -1,0,0,...` as `--ray=-1,0,0,...`."""
+    joined: list[str] = []
+    for argument in arguments:
+        if joined and joined[-1] in NUMERIC and re.match(r"-[\d.]", argument):
+            joined[-1] += f"={argument}"
+        else:
+            joined.append(argument)
+    return joined
+
+
+def pair(separator: str):  # noqa: ANN201
+    """Reader of two whole numbers, as in 320,240 or 640x480."""
+
+    def read(text: str) -> tuple[int, int]:
+        parts = text.lower().split(separator)
+        if len(parts) != 2 or not all(re.fullmatch(r"\s*-?\d+\s*", part) for part in parts):
+            raise argparse.ArgumentTypeError(f'two whole numbers like 320{separator}240, got "{text}"')
+        first, second = int(parts[0]), int(parts[1])
+        if separator == "x" and not (1 <= first <= 16384 and 1 <= second <= 16384):
+            raise argparse.ArgumentTypeError(f'a size from 1x1 to 16384x16384, got "{text}"')
+        return first, second
+
+    return read
+
+
+def six(text: str) -> tuple[float, ...]:
+    """A ray's origin and direction."""
+    try:
+        numbers = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        numbers = ()
+    if len(numbers) != 6:
+        raise argparse.ArgumentTypeError(f'six numbers ox,oy,oz,dx,dy,dz, got "{text}"')
+    return numbers
+
+
+def at_least(least: int):  # noqa: ANN201
+    def read(text: str) -> int:
+        if not re.fullmatch(r"-?\d+", text) or int(text) < least:
+            raise argparse.ArgumentTypeError(f'a whole number >= {least}, got "{text}"')
+        return int(text)
+
+    return read
+
+
+def weight(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = -1.0
+    if not 0.0 <= number < float("inf"):
+        raise argparse.ArgumentTypeError(f'a number >= 0, got "{text}"')
+    return number

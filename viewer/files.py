@@ -1,0 +1,47 @@
+"""Files are written beside and renamed: an interrupted run leaves the old file or none, never half a file."""
+
+import contextlib
+import os
+import tempfile
+from pathlib import Path
+
+
+class Unusable(Exception):
+    """Input or arguments that cannot be used: one line a fault, for people."""
+
+    def __init__(self, *faults: str) -> None:
+        super().__init__("\n".join(faults))
+        self.faults = faults
+
+
+def write_atomically(path: Path, content: bytes) -> None:
+    """Put a file in place as a whole. Unusable where the folder cannot be written."""
+    try:
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(content)
+            os.chmod(name, 0o666 & ~_umask())
+            os.replace(name, path)
+        except BaseException:
+            with contextlib.suppress(OSError):
+                os.unlink(name)
+            raise
+    except OSError as error:
+        raise Unusable(f"{path}: cannot be written: {error.strerror or error}") from None
+
+
+def check_writable(path: Path) -> None:
+    """Unusable now rather than after the work is done."""
+    if path.is_dir():
+        raise Unusable(f"{path}: must be a file, got a folder")
+    if not path.parent.is_dir():
+        raise Unusable(f"{path}: folder not found: {path.parent}")
+    if not os.access(path.parent, os.W_OK):
+        raise Unusable(f"{path}: cannot be written: no permission for {path.parent}")
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
