@@ -71,6 +71,13 @@ def is_compiled(entry: Any) -> bool:
     return bool(getattr(entry, "signatures", True))
 
 
+def is_cached(entry: Any) -> bool:
+    """Whether an entry point's machine code is on disk, from an earlier start."""
+    function = getattr(entry, "py_func", entry)
+    name = f"{function.__module__.rpartition('.')[2]}.{function.__name__}-*.nbi"
+    return any(cache_folder().rglob(name))
+
+
 @cache
 def cache_folder() -> Path:
     """Where machine code of exactly these sources is kept: the user's cache folder, else a temporary one."""

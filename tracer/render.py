@@ -14,6 +14,7 @@ from queue import SimpleQueue
 
 import numpy as np
 
+from tracer.bvh import FLAT
 from tracer.camera import View
 from tracer.jit import is_compiled
 from tracer.kernel import Limits
@@ -28,6 +29,7 @@ TILE = 32  # pixels a side: some milliseconds of work, so that cancelling is qui
 COARSE_TO_FINE = (8, 4, 2, 1)
 
 Progress = Callable[[float], None]
+Finished = Callable[[Area, float], None]
 Cancelled = Callable[[], bool]
 
 
@@ -104,13 +106,16 @@ def trace_tiles(
     areas: Sequence[Area],
     executor: Executor,
     ahead: int,
-    progress: Progress = lambda share: None,
+    finished: Finished = lambda area, share: None,
     cancelled: Cancelled = lambda: False,
 ) -> None:
-    """Trace areas in their order, at most `ahead` waiting at a time. Stopped where `cancelled` turns true."""
+    """Trace areas in their order, at most `ahead` waiting at a time; Stopped where `cancelled` turns true.
+
+    `finished` is told of each area and of the share done; it is called on this thread.
+    """
     waiting = iter(areas)
     running = set()
-    finished = 0
+    done_count = 0
     while True:
         while len(running) < ahead and (area := next(waiting, None)) is not None:
             running.add(executor.submit(job.trace, area, cancelled))
@@ -123,8 +128,8 @@ def trace_tiles(
                 wait(running)
                 raise Stopped
             job.keep(*result)
-            finished += 1
-        progress(finished / len(areas))
+            done_count += 1
+            finished(result[0], done_count / len(areas))
 
 
 def render(
@@ -154,7 +159,8 @@ def render(
     job = Job(world, view, limits, CENTER if samples == 1 else Samples(0, samples))
     began = time.perf_counter()
     with ThreadPoolExecutor(threads) as executor:
-        trace_tiles(job, list(tiles(view.width, view.height)), executor, 2 * threads, progress, cancelled)
+        areas = list(tiles(view.width, view.height))
+        trace_tiles(job, areas, executor, 2 * threads, lambda area, share: progress(share), cancelled)
     tracing = time.perf_counter() - began
     figures = list(job.residuals.values())
     return Image(
@@ -178,9 +184,18 @@ def warm() -> float:
     if is_compiled(trace_area):
         return 0.0
     began = time.perf_counter()
-    nothing = Scene((Object(Sphere((0.0, 0.0, -1.0), 0.5), Material()),))
-    trace(prepare(nothing), ray=((0.0, 0.0, 0.0), (0.0, 0.0, -1.0)))
+    trace(prepare(_balls(1)), ray=((0.0, 0.0, 0.0), (0.0, 0.0, -1.0)))
     return time.perf_counter() - began
+
+
+def fill_cache() -> None:
+    """Compile everything that any scene may need, for later starts to load."""
+    warm()
+    prepare(_balls(FLAT + 1))
+
+
+def _balls(count: int) -> Scene:
+    return Scene(tuple(Object(Sphere((float(k), 0.0, -1.0), 0.5), Material()) for k in range(count)))
 
 
 def processors() -> int:

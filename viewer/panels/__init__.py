@@ -1,0 +1,21 @@
+"""Panels: each a function of the session that draws itself with imgui. A new one is a file here and its line in PANELS."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from viewer.panels import image, lesson, ray, scene, tree
+
+
+@dataclass(frozen=True)
+class Panel:
+    title: str
+    draw: Callable[..., None]  # (session, canvas)
+
+
+PANELS = (
+    Panel(scene.TITLE, scene.draw),
+    Panel(image.TITLE, image.draw),
+    Panel(tree.TITLE, tree.draw),
+    Panel(ray.TITLE, ray.draw),
+    Panel(lesson.TITLE, lesson.draw),
+)

@@ -1,0 +1,96 @@
+// A surface of the scene as the tracer's local term has it: ambient, diffuse and highlight of every light, no shadows.
+// Mirrors and glass show a made-up sky in place of what they would reflect; glass is thin in the middle and dense at the
+// rim, by Fresnel's law, so that rays inside it stay readable. Where a plane has no end it fades out.
+#version 330
+#include "common.glsl"
+
+const int MOST_LIGHTS = 8;
+const int ROWS = 4;  // of the material texture, a column a material
+
+uniform sampler2D materials;  // color+ambient; checker color+size; diffuse, specular, shininess, reflect; transmit, ior, flat
+uniform sampler2D axes;       // of flat checkers, a column a material: u, v
+uniform int light_count;
+uniform vec4 lights[MOST_LIGHTS];       // w = 1: a place, w = 0: the direction towards it
+uniform vec3 light_colors[MOST_LIGHTS];
+uniform vec3 ambient;
+uniform vec3 eye;
+uniform vec3 up;
+uniform vec3 sky_top;
+uniform vec3 sky_bottom;
+uniform float fade_from;  // distance from `fade_center` at which an endless plane begins to fade, 0: it has an end
+uniform float fade_to;
+uniform vec3 fade_center;
+uniform vec3 origin;      // what is added to a place to count the checker's squares from the world's origin
+uniform float glass_pass; // 1: draws what transmits, 0: the rest
+
+in vec3 place;
+in vec3 n;
+flat in int which;
+out vec4 color;
+
+// Share of one colour of the checker along one axis, averaged over the pixel's width, so that far squares do not flicker.
+float stripe(float x, float w) {
+    w = max(w, 1e-6);
+    vec2 ends = vec2(x - 0.5 * w, x + 0.5 * w);
+    vec2 area = floor(0.5 * ends) + 2.0 * max(fract(0.5 * ends) - 0.5, 0.0);
+    return clamp((area.y - area.x) / w, 0.0, 1.0);
+}
+
+float checker(vec4 second, vec4 u, vec4 v) {
+    vec3 p = (place + origin) / second.w;
+    if (u.w > 0.5) {
+        float a = dot(p, u.xyz), b = dot(p, v.xyz);
+        float s = stripe(a, fwidth(a)), t = stripe(b, fwidth(b));
+        return s + t - 2.0 * s * t;
+    }
+    vec3 w = fwidth(p);
+    // Half a millionth along the axes: a face that lies exactly between two layers of cubes takes one of them as a whole.
+    p += 5e-7;
+    float s = stripe(p.x, w.x), t = stripe(p.y, w.y), r = stripe(p.z, w.z);
+    float st = s + t - 2.0 * s * t;
+    return st + r - 2.0 * st * r;
+}
+
+vec3 sky(vec3 direction) {
+    return mix(sky_bottom, sky_top, smoothstep(-0.25, 0.6, dot(direction, up)));
+}
+
+void main() {
+    vec4 first = texelFetch(materials, ivec2(which, 0), 0);
+    vec4 second = texelFetch(materials, ivec2(which, 1), 0);
+    vec4 terms = texelFetch(materials, ivec2(which, 2), 0);
+    vec4 glass = texelFetch(materials, ivec2(which, 3), 0);
+    bool transmits = glass.x > 0.0;
+    if (transmits != (glass_pass > 0.5)) discard;
+
+    vec3 base = first.rgb;
+    if (second.w > 0.0)
+        base = mix(base, second.rgb, checker(second, texelFetch(axes, ivec2(which, 0), 0), texelFetch(axes, ivec2(which, 1), 0)));
+    vec3 v = normalize(place - eye);
+    vec3 normal = normalize(n);
+    if (dot(normal, v) > 0.0) normal = -normal;
+    vec3 light = first.a * ambient * base;
+    vec3 shine = vec3(0.0);
+    for (int j = 0; j < light_count; j++) {
+        vec3 l = normalize(lights[j].xyz - lights[j].w * place);
+        float n_l = dot(normal, l);
+        if (n_l <= 0.0) continue;
+        light += light_colors[j] * terms.x * n_l * base;
+        float r_v = max(dot(reflect(-l, normal), -v), 0.0);
+        shine += light_colors[j] * terms.y * pow(r_v, max(terms.z, 1.0));
+    }
+    vec3 mirrored = sky(reflect(v, normal));
+    float c1 = -dot(v, normal);
+    float alpha = 1.0;
+    if (transmits) {
+        float r0 = pow((glass.y - 1.0) / (glass.y + 1.0), 2.0);
+        float fresnel = r0 + (1.0 - r0) * pow(1.0 - c1, 5.0);
+        float rim = clamp(terms.w + 0.85 * fresnel + 0.16 * pow(1.0 - c1, 2.0), 0.0, 1.0);
+        light = light + mix(0.55 * mix(sky(v), base, 0.5), mirrored, rim);
+        alpha = clamp(0.10 + (1.0 - glass.x) + rim + dot(shine, vec3(0.33)), 0.0, 0.92);
+    } else {
+        light += terms.w * mirrored;
+    }
+    if (fade_from > 0.0) alpha *= 1.0 - smoothstep(fade_from, fade_to, distance(place, fade_center));
+    color = vec4(to_srgb(light + shine), alpha);
+}

@@ -1,0 +1,168 @@
+"""The frame loop: events in, the session brought up to date, every panel drawn, and sleep while nothing happens."""
+
+import contextlib
+from collections.abc import Callable
+
+from imgui_bundle import imgui
+from imgui_bundle.imgui import internal
+
+from viewer import keys, style
+from viewer.canvas import Canvas
+from viewer.panels import PANELS, bar, image, lesson, menu, ray, scene, tree
+from viewer.session import Session
+from viewer.window import Offscreen, Window
+
+DOCK = "dock"
+
+IDLE = 0.3  # seconds of sleep between looks at the scene's file
+BUSY = 1 / 30  # between frames while an image renders: more would take time from it
+AFTERGLOW = 3  # frames drawn after the last event: imgui needs one or two to settle
+
+
+class App:
+    """Ties a surface to a session. `frame` draws once; `run` draws for as long as the window is open."""
+
+    def __init__(self, surface: Window | Offscreen, session: Session) -> None:
+        self.surface = surface
+        self.session = session
+        self.canvas = Canvas(surface.ctx, session)
+        self.has_layout = False
+        self.styled: object = None
+        self.title = ""
+        session.changed = surface.wake
+        session.image.changed = surface.wake
+        if isinstance(surface, Window):
+            surface.on_refresh = self._redraw
+
+    def run(self) -> None:
+        glow = AFTERGLOW
+        while not self.surface.closing and not self.session.wants_quit:
+            busy = self._is_busy()
+            self.surface.wait(BUSY if busy else 0.0 if glow > 0 else IDLE)
+            news = self.session.update() or busy
+            had_events = self._has_events()
+            glow = AFTERGLOW if news or had_events else glow - 1
+            if glow > 0 and not self.surface.minimised:
+                self.frame()
+
+    def settle(self, frames: int = 3) -> None:
+        """Draw until everything is there: the scene, the first full image, the tree."""
+        session = self.session
+        session.warmup.wait()
+        while session.loading:
+            with contextlib.suppress(Exception):
+                session.loading.exception()
+            session.update()
+        session.update()
+        session.image.wait()
+        for _ in range(frames):
+            self.frame()
+
+    def frame(self) -> None:
+        self._take_dropped()
+        self._apply_style()
+        self.surface.begin()
+        self._draw()
+        self.surface.present()
+        self._set_title()
+
+    def close(self) -> None:
+        self.session.close()
+        self.canvas.release()
+        self.surface.close()
+
+    def _redraw(self) -> None:
+        """While the window is being resized the system keeps the loop to itself: then it asks for each frame."""
+        if not self.surface.minimised:
+            self.frame()
+
+    def _has_events(self) -> bool:
+        """Whether the user did anything: imgui has been told by its callbacks."""
+        return len(_pending_events()) > 0
+
+    def _is_busy(self) -> bool:
+        session = self.session
+        picture = session.image.picture
+        return not session.warmup.ready or session.loading is not None or (picture is not None and not picture.finished)
+
+    def _take_dropped(self) -> None:
+        dropped, self.surface.dropped = self.surface.dropped, []
+        if dropped:
+            menu.open_file(self.session, dropped[-1])
+
+    def _apply_style(self) -> None:
+        wanted = (self.session.theme, self.surface.scale, self.session.zoom)
+        if wanted != self.styled:
+            style.apply(*wanted)
+            self.styled = wanted
+
+    def _set_title(self) -> None:
+        world = self.session.world
+        title = f"{world.scene.title or self.session.path} – raytree" if world else "raytree"
+        if title != self.title:
+            self.surface.set_title(title)
+            self.title = title
+
+    def _draw(self) -> None:
+        session = self.session
+        keys.handle(session)
+        reset = menu.draw(session)
+        room = imgui.get_main_viewport()
+        left, top = room.work_pos
+        width, height = room.work_size.x, room.work_size.y - bar.height()
+        self._dock(left, top, width, height, reset)
+        for panel in PANELS:
+            self._panel(panel.title, lambda panel=panel: panel.draw(session, self.canvas))
+        bar.draw(session, left, top + height, width)
+
+    def _panel(self, title: str, draw: Callable[[], None]) -> None:
+        tight = title in (scene.TITLE, image.TITLE, tree.TITLE)
+        if tight:
+            imgui.push_style_var(imgui.StyleVar_.window_padding, (0, 0) if title == scene.TITLE else (6, 5))
+        opened, _ = imgui.begin(title)
+        if tight:
+            imgui.pop_style_var()
+        if opened:
+            draw()
+        imgui.end()
+
+    def _dock(self, left: float, top: float, width: float, height: float, reset: bool) -> None:
+        """The room for the panels, and at first which stands where: the eye's way from the image to the numbers."""
+        imgui.set_next_window_pos((left, top))
+        imgui.set_next_window_size((max(width, 1), max(height, 1)))
+        flags = imgui.WindowFlags_
+        imgui.push_style_var(imgui.StyleVar_.window_padding, (0, 0))
+        imgui.begin(
+            "##room", None, flags.no_decoration | flags.no_move | flags.no_docking | flags.no_bring_to_front_on_focus
+            | flags.no_nav_focus | flags.no_background,
+        )  # fmt: skip
+        imgui.pop_style_var()
+        dock = imgui.get_id(DOCK)
+        if reset or (not self.has_layout and internal.dock_builder_get_node(dock) is None):
+            self._lay_out(dock, max(width, 1), max(height, 1))
+        self.has_layout = True
+        imgui.dock_space(dock)
+        imgui.end()
+
+    def _lay_out(self, dock: int, width: float, height: float) -> None:
+        internal.dock_builder_remove_node(dock)
+        internal.dock_builder_add_node(dock, internal.DockNodeFlagsPrivate_.dock_space)
+        internal.dock_builder_set_node_size(dock, (width, height))
+        _, below, above = internal.dock_builder_split_node_py(dock, imgui.Dir.down, 0.42)
+        _, above_right, above_left = internal.dock_builder_split_node_py(above, imgui.Dir.right, 0.44)
+        _, below_right, below_left = internal.dock_builder_split_node_py(below, imgui.Dir.right, 0.36)
+        place = {
+            scene.TITLE: above_left,
+            image.TITLE: above_right,
+            tree.TITLE: below_left,
+            lesson.TITLE: below_right,
+            ray.TITLE: below_right,
+        }
+        for title, node in place.items():
+            internal.dock_builder_dock_window(title, node)
+        internal.dock_builder_finish(dock)
+
+
+def _pending_events() -> list:
+    context = internal.get_current_context() if hasattr(internal, "get_current_context") else imgui.get_current_context()
+    return list(context.input_events_queue)

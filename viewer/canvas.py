@@ -1,0 +1,100 @@
+"""What panels share of the GPU: the 3D stage and the picture's texture, made anew only when something has changed."""
+
+import moderngl
+import numpy as np
+from imgui_bundle import imgui
+
+from viewer.gl.stage import ImagePlane, Stage
+from viewer.raylines import RayLine, ray_lines
+from viewer.session import Session
+from viewer.stagelines import StageLines, frustum_lines, image_plane, normal_lines, style_rays
+
+
+class Canvas:
+    def __init__(self, ctx: moderngl.Context, session: Session) -> None:
+        self.ctx = ctx
+        self.session = session
+        self.stage = Stage(ctx)
+        self.image: moderngl.Texture | None = None
+        self.lines: list[RayLine] = []  # as drawn last: what a click in the 3D view may hit
+        self._image_key: object = None
+        self._world: object = None
+        self._drawn_key: object = None
+        self._plane: np.ndarray | None = None
+
+    def picture(self) -> moderngl.Texture | None:
+        """The rendered image as far as it is; its first row is the picture's top."""
+        shown = self.session.image.picture
+        if shown is None:
+            return None
+        key = (id(shown), shown.version)
+        height, width = shown.shown.shape[:2]
+        if self.image is None or self.image.size != (width, height):
+            if self.image:
+                self.image.release()
+            self.image = self.ctx.texture((width, height), 3, alignment=1)
+            # Far away smooth, near by the pixels themselves: they are what is clicked on.
+            self.image.filter = (moderngl.LINEAR, moderngl.NEAREST)
+            self._image_key = None
+        if key != self._image_key:
+            self.image.write(shown.shown.tobytes(), alignment=1)
+            self._image_key = key
+        return self.image
+
+    def view3d(self, size: tuple[int, int], scale: float) -> moderngl.Texture:
+        """The 3D view, `size` in pixels, `scale` pixels a logical one; bottom row first, as GL has it."""
+        session = self.session
+        image = self.picture() if session.shown.camera else None
+        key = self._key(size, scale)
+        if key != self._drawn_key:
+            self._set_world()
+            self._set_lines()
+            plane = ImagePlane(self._plane, image) if image is not None and self._plane is not None else None
+            self.stage.draw(session.orbit, session.theme, size, scale, plane)
+            self._drawn_key = key
+        return self.stage.target.texture
+
+    def _key(self, size: tuple[int, int], scale: float) -> tuple:
+        """Everything the 3D view depends on."""
+        session = self.session
+        orbit, shown = session.orbit, session.shown
+        eye = (orbit.azimuth, orbit.elevation, orbit.distance, *orbit.target)
+        picture = self._image_key if shown.camera else None
+        switches = (frozenset(shown.kinds), shown.camera, shown.normals)
+        return (
+            size, scale, eye, picture, switches, id(session.world), id(session.tree), session.selected,
+            session.theme.name,
+        )  # fmt: skip
+
+    def _set_world(self) -> None:
+        session = self.session
+        if session.world and session.world is not self._world:
+            self.stage.set_world(session.world, session.frame)
+            self._world = session.world
+
+    def _set_lines(self) -> None:
+        session = self.session
+        marks = []
+        self.lines = []
+        rays = []
+        self._plane = None
+        if session.world and session.shown.camera:
+            view = session.world.view()
+            self._plane = image_plane(view, session.frame, np.zeros(3))
+            marks += frustum_lines(view, session.frame, self._plane, session.theme)
+        if session.tree:
+            rows = len(session.tree)
+            self.lines = ray_lines(session.tree, rows, session.frame, session.shown.kinds)
+            rays = style_rays(self.lines, session.tree, session.selected, session.theme)
+            if session.shown.normals:
+                marks += normal_lines(session.tree, rows, session.frame, session.selected, session.theme)
+        self.stage.set_lines(StageLines(marks, rays))
+
+    def release(self) -> None:
+        self.stage.release()
+        if self.image:
+            self.image.release()
+
+
+def texture_ref(texture: moderngl.Texture) -> imgui.ImTextureRef:
+    return imgui.ImTextureRef(texture.glo)

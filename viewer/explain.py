@@ -1,0 +1,314 @@
+"""What the picked ray does and why, in the lecture's formulas with its own numbers put in.
+
+Sections of lines, for panels to lay out and tests to read: nothing here draws. Every number is taken from the node table
+or worked out again from it by the formulas of `tracer.optics`.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tracer import optics
+from tracer.kernel import MODELS
+from tracer.nodes import SHADOW
+from tracer.outline import WHY
+from tracer.scene import Light, Material
+from tracer.shading import surface_color
+from tracer.tree import RayTree
+from tracer.vector import unit, vector
+from tracer.world import World
+
+
+@dataclass(frozen=True)
+class Line:
+    """A name with its value, or a formula with its numbers below it."""
+
+    name: str
+    value: str = ""
+
+
+@dataclass
+class Section:
+    title: str
+    formula: str = ""  # as on the slide
+    lines: list[Line] = field(default_factory=list)
+
+    def add(self, name: str, value: str = "") -> None:
+        self.lines.append(Line(name, value))
+
+
+KIND_NAMES = {
+    "camera": "Camera ray",
+    "reflection": "Reflected ray",
+    "refraction": "Refracted ray",
+    "tir": "Total internal reflection",
+    "shadow": "Shadow ray",
+}
+
+
+def headline(tree: RayTree, i: int) -> tuple[str, str]:
+    """(which ray, what becomes of it) in a few words."""
+    row = tree.nodes[i]
+    name = KIND_NAMES[tree.kind(i)]
+    if row["kind"] == SHADOW:
+        from_object = tree.object_name(int(row["parent"]))
+        return f"{name} {i}", f"from {from_object} to {tree.light_name(i)}: {_shadow_fate(tree, i)}"
+    met = tree.object_name(i)
+    fate = f"meets {met}" if met else "meets nothing"
+    why = WHY[tree.end(i)]
+    return f"{name} {i}", f"{fate}; {why}" if why else fate
+
+
+def _shadow_fate(tree: RayTree, i: int) -> str:
+    met = tree.object_name(i)
+    return {"blocked": f"blocked by {met}", "filtered": f"dimmed by {met}, straight through"}.get(
+        tree.end(i) or "", "nothing in its way"
+    )
+
+
+def numbers(tree: RayTree, i: int) -> Section:
+    """The row itself."""
+    row = tree.nodes[i]
+    section = Section("Numbers")
+    shadow = row["kind"] == SHADOW
+    parent = int(row["parent"])
+    section.add("kind", KIND_NAMES[tree.kind(i)].lower() + (f", sent by ray {parent}" if parent >= 0 else ""))
+    section.add("depth", str(int(row["depth"])))
+    section.add("object", tree.object_name(i) or "none")
+    section.add("distance t", shown(row["t"]))
+    section.add("point", triple(row["point"]))
+    if not shadow:
+        section.add("normal n", triple(row["normal"]))
+        section.add("n₁ → n₂", _pair(shown(row["n1"]), shown(row["n2"])))
+        section.add("θ₁ → θ₂", _pair(angle(row["theta1"]), angle(row["theta2"])))
+        section.add("1 − n²(1 − c₁²)", shown(row["radicand"]))
+    section.add("factor", same(row["factor"]))
+    section.add("weight", same(row["weight"]))
+    section.add("sends up", triple(row["radiance"], 4))
+    section.add("ends", WHY[tree.end(i)] or "its children go on")
+    section.add("path", tree.path(i))
+    return section
+
+
+def explain(tree: RayTree, world: World, i: int) -> list[Section]:
+    """All there is to say about row i, the most telling first."""
+    row = tree.nodes[i]
+    if row["kind"] == SHADOW:
+        parent = int(row["parent"])
+        return [_light(tree, world, parent, int(row["light"])), numbers(tree, i)]
+    if math.isnan(row["t"]):
+        return [_sum(tree, i), numbers(tree, i)]
+    material = world.scene.objects[row["object"]].material
+    sections = [_sum(tree, i)]
+    tir = row["radicand"] <= 0.0
+    if not math.isnan(row["radicand"]):
+        sections.append(_snell(tree, i))
+        if row["n1"] > row["n2"]:
+            sections.append(_critical(tree, i))
+        sections.append(_transmission(tree, i))
+        if tree.model == MODELS[1] and not tir:
+            sections.append(_fresnel(tree, i, material))
+    if material.reflect > 0.0 or tir or tree.model == MODELS[1] and material.transmit > 0.0:
+        sections.append(_reflection(tree, i))
+    sections.append(_local(tree, world, i))
+    return [*sections, numbers(tree, i)]
+
+
+def _sum(tree: RayTree, i: int) -> Section:
+    """What the ray sends up, as the sum it is."""
+    row = tree.nodes[i]
+    section = Section("What it sends up", "I = local + Σ factor × child")
+    if tree.end(i) == "background":
+        section.add("background", triple(row["radiance"], 4))
+        return section
+    section.add("local", triple(row["local"], 4))
+    for child in tree.children[i]:
+        below = tree.nodes[child]
+        if below["kind"] != SHADOW:
+            section.add(
+                f"+ {same(below['factor'])} × ray {child} ({tree.kind(child)})",
+                triple(below["factor"] * below["radiance"], 4),
+            )
+    section.add("=", triple(row["radiance"], 4))
+    return section
+
+
+def _snell(tree: RayTree, i: int) -> Section:
+    row = tree.nodes[i]
+    n1, n2 = float(row["n1"]), float(row["n2"])
+    left = n1 * math.sin(row["theta1"])
+    section = Section("Snell's law", "n₁ sin θ₁ = n₂ sin θ₂")
+    section.add(f"{shown(n1)} · sin {angle(row['theta1'])}", shown(left))
+    if row["radicand"] > 0.0:
+        section.add(f"{shown(n2)} · sin {angle(row['theta2'])}", shown(n2 * math.sin(row["theta2"])))
+    else:
+        section.add("sin θ₂ would be", f"{shown(left / n2)} > 1")
+    return section
+
+
+def _critical(tree: RayTree, i: int) -> Section:
+    row = tree.nodes[i]
+    n1, n2 = float(row["n1"]), float(row["n2"])
+    critical = optics.critical_angle(n1, n2)
+    assert critical is not None
+    section = Section("Critical angle", "θc = asin(n₂ / n₁)")
+    section.add(f"asin({shown(n2)} / {shown(n1)})", angle(critical))
+    beyond = row["radicand"] <= 0.0
+    section.add(f"θ₁ = {angle(row['theta1'])}", "beyond it: total internal reflection" if beyond else "below it")
+    return section
+
+
+def _transmission(tree: RayTree, i: int) -> Section:
+    row = tree.nodes[i]
+    v, normal = vector(row["direction"]), vector(row["normal"])
+    n1, n2 = float(row["n1"]), float(row["n2"])
+    c1 = optics.cosine(v, normal)
+    root = float(row["radicand"])
+    section = Section("Transmission direction", "t = n v + (n c₁ − c₂) n,  n = n₁/n₂")
+    section.add("n = n₁/n₂", shown(n1 / n2))
+    section.add("c₁ = −v·n", shown(c1))
+    section.add("1 − n²(1 − c₁²)", shown(root))
+    if root <= 0.0:
+        section.add("n²(1 − c₁²)", f"{shown(1.0 - root)} ≥ 1: total internal reflection")
+        return section
+    c2 = math.sqrt(root)
+    section.add("c₂ = √", shown(c2))
+    section.add("v", triple(v))
+    section.add("n", triple(normal))
+    if n1 == n2:
+        section.add("t = v", "equal indices: straight on")
+    else:
+        section.add("t", triple(optics.transmission(v, normal, n1, n2, c1, c2)))
+    return section
+
+
+def _fresnel(tree: RayTree, i: int, material: Material) -> Section:
+    row = tree.nodes[i]
+    v, normal = vector(row["direction"]), vector(row["normal"])
+    thin = row["n1"] == row["n2"]
+    n1, n2 = float(row["n1"]), float(material.ior if thin else row["n2"])
+    r, t = optics.fresnel(min(1.0, optics.cosine(v, normal)), n1, n2)
+    section = Section("Fresnel", "reflected kr + kt R,  refracted kt T")
+    section.add("R, T", f"{shown(r)}, {shown(t)}")
+    section.add("kr + kt R", shown(material.reflect + material.transmit * r))
+    section.add("kt T", shown(material.transmit * t))
+    return section
+
+
+def _reflection(tree: RayTree, i: int) -> Section:
+    row = tree.nodes[i]
+    v, n = vector(row["direction"]), vector(row["normal"])
+    section = Section("Reflection", "r = v − 2 (n·v) n")
+    section.add("v", triple(v))
+    section.add("n", triple(n))
+    section.add("n·v", shown(-optics.cosine(v, n)))
+    section.add("r", triple(optics.reflect(v, n)))
+    return section
+
+
+def _local(tree: RayTree, world: World, i: int) -> Section:
+    """The local term, light by light, those behind the surface too."""
+    row = tree.nodes[i]
+    material = world.scene.objects[row["object"]].material
+    section = Section("Local light", "I = A ka C + Σ L (kd C (N·L) + ks (R·V)ᵖ)")
+    color = _color(world, tree, i)
+    ambient = np.array(world.scene.tracing.ambient) * material.ambient * color
+    section.add("colour C", triple(color, 3))
+    section.add(f"ambient: A · {shown(material.ambient)} · C", triple(ambient, 4))
+    rows = {int(tree.nodes["light"][child]): child for child in tree.children[i]}
+    for j, light in enumerate(world.scene.lights):
+        name = light.name or f"light {j}"
+        child = rows.get(j)
+        if child is None:
+            # Without diffuse and specular no shadow ray is worth its while.
+            dark = material.diffuse == 0.0 and material.specular == 0.0
+            section.add(f"{name}", "kd = ks = 0: no ray" if dark else "behind the surface: no ray")
+            continue
+        fate = {"blocked": f"blocked by {tree.object_name(child)}"}.get(tree.end(child) or "")
+        n_l, r_v = _cosines(row, light)
+        detail = fate or f"N·L {shown(n_l, 3)}, R·V {shown(max(r_v, 0.0), 3)}"
+        if tree.end(child) == "filtered":
+            detail += f", × {shown(tree.nodes['factor'][child][0], 3)} through glass"
+        section.add(f"{name}: {detail}", triple(tree.nodes["radiance"][child], 4))
+    section.add("local", triple(row["local"], 4))
+    return section
+
+
+def _light(tree: RayTree, world: World, i: int, j: int) -> Section:
+    """One light's share at hit i."""
+    row = tree.nodes[i]
+    light = world.scene.lights[j]
+    child = next(c for c in tree.children[i] if tree.nodes["light"][c] == j)
+    material = world.scene.objects[row["object"]].material
+    n_l, r_v = _cosines(row, light)
+    color = _color(world, tree, i)
+    section = Section(f"Light from {light.name or f'light {j}'}", "L (kd C (N·L) + ks (R·V)ᵖ)")
+    section.add("light L", triple(light.color, 3))
+    section.add("N·L", shown(n_l))
+    section.add("kd C (N·L)", triple(material.diffuse * n_l * color, 4))
+    highlight = material.specular * max(r_v, 0.0) ** material.shininess if r_v > 0.0 else 0.0
+    section.add("R·V", shown(r_v))
+    section.add(f"ks (R·V)ᵖ, p = {shown(material.shininess)}", shown(highlight))
+    section.add("gets through", same(tree.nodes["factor"][child]))
+    section.add("share", triple(tree.nodes["radiance"][child], 4))
+    return section
+
+
+def _cosines(row: np.void, light: Light) -> tuple[float, float]:
+    """N·L and R·V at a hit."""
+    if light.position is not None:
+        to_light = unit(vector(np.subtract(light.position, row["point"])))
+    else:
+        assert light.direction is not None
+        to_light = unit(vector(np.negative(light.direction)))
+    n = np.array(row["normal"])
+    n_l = float(n @ to_light)
+    r = 2.0 * n_l * n - to_light
+    return n_l, float(r @ -row["direction"])
+
+
+def _color(world: World, tree: RayTree, i: int) -> np.ndarray:
+    row = tree.nodes[i]
+    this = world.arrays.objects[row["object"]]
+    material = world.arrays.materials[this["material"]]
+    return np.array(surface_color(_Record(material), _Record(this), vector(row["point"])))
+
+
+class _Record:
+    """A row of an array with its fields as attributes, as compiled code sees it."""
+
+    def __init__(self, row: np.void) -> None:
+        self._row = row
+
+    def __getattr__(self, name: str) -> object:
+        return self._row[name]
+
+
+def shown(x: float, digits: int = 5) -> str:
+    """A number for people; a dash for what is absent."""
+    if math.isnan(x):
+        return "–"
+    return f"{x:.{digits}g}".replace("-", "−")
+
+
+def angle(radians: float) -> str:
+    return "–" if math.isnan(radians) else f"{math.degrees(radians):.2f}°"
+
+
+def triple(xyz: Sequence[float] | np.ndarray, decimals: int = 4) -> str:
+    if math.isnan(xyz[0]):
+        return "–"
+    return "  ".join(f"{x:.{decimals}f}".replace("-", "−") for x in xyz)
+
+
+def same(rgb: np.ndarray) -> str:
+    """One number where the three are equal."""
+    return shown(float(rgb[0])) if rgb[0] == rgb[1] == rgb[2] else triple(rgb, 4)
+
+
+def _pair(first: str, second: str) -> str:
+    return f"{first} → {second}" if second != "–" else first
+
+

@@ -1,0 +1,101 @@
+"""Shapes as triangles for the 3D view. Arrays only: corners and normals in the world's own coordinates, float64.
+
+What the tracer traces is exact; this is its picture. An endless plane becomes a large square that fades out.
+"""
+
+import math
+
+import numpy as np
+
+from tracer.shapes.box import Box
+from tracer.shapes.mesh import Mesh
+from tracer.shapes.plane import Plane
+from tracer.shapes.planar import newell
+from tracer.shapes.polygon import Polygon
+from tracer.shapes.triangle import Triangle
+from tracer.vector import unit
+from viewer.orbit import Frame
+
+PLANE_REACH = 12.0  # radii of the scene
+
+
+def ball(segments: int) -> np.ndarray:
+    """The unit ball as triangles (n, 3, 3), by circles of latitude; its corners are its normals."""
+    lines = segments // 2
+    theta = np.linspace(0.0, math.pi, lines + 1)[:, None]
+    phi = np.linspace(0.0, 2 * math.pi, segments + 1)[None, :]
+    grid = np.stack(
+        [np.sin(theta) * np.cos(phi), np.cos(theta) * np.ones_like(phi), -np.sin(theta) * np.sin(phi)], axis=-1
+    )
+    a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
+    return np.concatenate(
+        [np.stack([a, b, c], axis=2).reshape(-1, 3, 3), np.stack([a, c, d], axis=2).reshape(-1, 3, 3)]
+    )
+
+
+def triangles(shape: object, frame: Frame) -> tuple[np.ndarray, np.ndarray]:
+    """(corners, normals), both (n, 3, 3), of any shape but a sphere."""
+    match shape:
+        case Box():
+            corners = _box(shape)
+        case Triangle():
+            corners = np.array(shape.vertices)[None]
+        case Polygon():
+            corners = _polygon(np.array(shape.vertices))
+        case Plane():
+            corners = _plane(shape, frame)
+        case Mesh():
+            corners = shape.placed()
+            normals = shape.smooth()
+            if normals is not None:
+                return corners, normals
+        case _:
+            raise TypeError(f"no triangles for {type(shape).__name__}")
+    return corners, _flat_normals(corners)
+
+
+def _flat_normals(corners: np.ndarray) -> np.ndarray:
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    size = np.linalg.norm(area, axis=1, keepdims=True)
+    return np.repeat((area / np.where(size > 0.0, size, 1.0))[:, None], 3, axis=1)
+
+
+def _box(box: Box) -> np.ndarray:
+    low, high = np.array(box.min), np.array(box.max)
+    faces = []
+    for axis in range(3):
+        u, v = np.eye(3)[(axis + 1) % 3], np.eye(3)[(axis + 2) % 3]
+        for side, end in ((1.0, high), (-1.0, low)):
+            at = np.where(np.arange(3) == axis, end, low)
+            p, q = u * (high - low), v * (high - low)
+            square = [at, at + p, at + p + q, at + q][:: int(side)]
+            faces += [[square[0], square[1], square[2]], [square[0], square[2], square[3]]]
+    return np.array(faces)
+
+
+def _polygon(corners: np.ndarray) -> np.ndarray:
+    """Cut a flat outline, convex or not, into triangles in its own plane."""
+    import mapbox_earcut
+
+    n = newell(corners)
+    u = corners[1] - corners[0]
+    u = u - (u @ n) * n
+    u /= np.linalg.norm(u)
+    flat = np.stack([(corners - corners[0]) @ u, (corners - corners[0]) @ np.cross(n, u)], axis=1)
+    flat /= np.abs(flat).max()  # its size is no matter, and float64 may be out of the cutter's range
+    cut = mapbox_earcut.triangulate_float64(flat, np.array([len(flat)], np.uint32)).reshape(-1, 3)
+    found = corners[cut]
+    turned = (np.cross(found[:, 1] - found[:, 0], found[:, 2] - found[:, 0]) @ n) < 0.0
+    found[turned] = found[turned][:, ::-1]
+    return found
+
+
+def _plane(plane: Plane, frame: Frame) -> np.ndarray:
+    """A square about the foot of the perpendicular from the scene's middle."""
+    n = np.array(unit(plane.normal))
+    foot = frame.middle - ((frame.middle - plane.point) @ n) * n
+    aside = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
+    aside /= np.linalg.norm(aside)
+    u, v = PLANE_REACH * frame.radius * aside, PLANE_REACH * frame.radius * np.cross(n, aside)
+    a, b, c, d = foot - u - v, foot + u - v, foot + u + v, foot - u + v
+    return np.array([[a, b, c], [a, c, d]])

@@ -1,0 +1,99 @@
+"""Lines of constant width with their arrow heads, drawn as small faces: wide lines are not to be had from every driver."""
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+
+from viewer.gl.program import make_program, put
+from viewer.theme import ARROW, ARROW_AT, HALO, Arrow, Color
+
+LINE = np.dtype(
+    [
+        ("from", np.float32, 3),
+        ("to", np.float32, 3),
+        ("tint", np.float32, 4),
+        ("width", np.float32),
+        ("dash", np.float32, 2),
+        ("fading", np.float32),
+        ("at", np.float32),
+        ("arrow", np.float32),
+    ]
+)
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line, its ends in the frame."""
+
+    start: np.ndarray
+    end: np.ndarray
+    color: Color
+    width: float
+    dash: tuple[float, float] = (0.0, 0.0)
+    fading: bool = False
+    arrow: Arrow = Arrow.NONE
+
+
+class Lines:
+    """A set of lines on the GPU, drawn in front of or behind surfaces."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self.ctx = ctx
+        self.line = make_program(ctx, "line")
+        self.arrow = make_program(ctx, "arrow")
+        self.count = 0
+        self.buffer = ctx.buffer(reserve=LINE.itemsize)
+        self._bind()
+
+    def release(self) -> None:
+        for thing in (self.strips, self.heads, self.buffer, self.line, self.arrow):
+            thing.release()
+
+    def set(self, lines: list[Line]) -> None:
+        rows = np.zeros(len(lines), LINE)
+        for row, line in zip(rows, lines, strict=True):
+            row["from"], row["to"] = line.start, line.end
+            row["tint"], row["width"], row["dash"] = line.color, line.width, line.dash
+            row["fading"], row["at"], row["arrow"] = line.fading, ARROW_AT, line.arrow.value
+        self.count = len(rows)
+        content = rows.tobytes()
+        if len(content) > self.buffer.size:
+            for thing in (self.strips, self.heads, self.buffer):
+                thing.release()
+            self.buffer = self.ctx.buffer(reserve=2 * len(content))
+            self._bind()
+        if content:
+            self.buffer.write(content)
+
+    def draw(
+        self,
+        matrix: np.ndarray,
+        size: tuple[int, int],
+        scale: float,
+        opacity: float = 1.0,
+        halo: Color | None = None,
+    ) -> None:
+        """All lines; `size` in pixels, `scale` pixels a logical one. With `halo`, only their seam in that colour."""
+        if not self.count:
+            return
+        shared = {
+            "world_to_clip": tuple(matrix.T.astype(np.float32).ravel()),
+            "size": size,
+            "scale": scale,
+            "opacity": opacity,
+            "extra": HALO if halo else 0.0,
+            "seam": (*halo[:3], 1.0) if halo else (0.0, 0.0, 0.0, 0.0),
+        }
+        put(self.line, **shared)
+        put(self.arrow, **shared, length_px=ARROW)
+        self.strips.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=self.count)
+        self.heads.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=self.count)
+
+    def _bind(self) -> None:
+        line = "3f 3f 4f 1f 2f 1f 2x4/i"
+        self.strips = self.ctx.vertex_array(
+            self.line, [(self.buffer, line, "from", "to", "tint", "width", "dash", "fading")]
+        )
+        head = "3f 3f 4f 4x4 1f 1f/i"
+        self.heads = self.ctx.vertex_array(self.arrow, [(self.buffer, head, "from", "to", "tint", "at", "kind")])

@@ -1,0 +1,106 @@
+"""The 3D view as a whole: ground, surfaces, the camera with its image, rays, glass, and what lies hidden, fainter.
+
+Order matters. Rays are drawn before glass, so that one sees them inside it; then once more, faintly, where something
+opaque stands before them.
+"""
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+
+from tracer.world import World
+from viewer.gl.lines import Lines
+from viewer.gl.program import make_program, put
+from viewer.gl.surfaces import Surfaces, make_surface_program
+from viewer.gl.target import Target
+from viewer.orbit import Frame, Orbit
+from viewer.stagelines import StageLines
+from viewer.theme import HIDDEN, Theme
+
+IMAGE_OPACITY = 0.78  # of the image on the image plane: it shows, and what is behind it too
+
+
+@dataclass(frozen=True)
+class ImagePlane:
+    """The camera's image in the scene: its corners in the frame, top left, bottom left, top right, bottom right."""
+
+    corners: np.ndarray
+    texture: moderngl.Texture
+
+
+class Stage:
+    """Draws one world into one target."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self.ctx = ctx
+        self.target = Target(ctx)
+        self.surface_program = make_surface_program(ctx)
+        self.ground = make_program(ctx, "ground")
+        self.picture = make_program(ctx, "picture")
+        self.empty = ctx.vertex_array(self.ground, [])
+        self.picture_array = ctx.vertex_array(self.picture, [])
+        self.marks = Lines(ctx)  # frustum, normals
+        self.rays = Lines(ctx)
+        self.surfaces: Surfaces | None = None
+
+    def set_world(self, world: World, frame: Frame) -> None:
+        if self.surfaces:
+            self.surfaces.release()
+        self.surfaces = Surfaces(self.ctx, self.surface_program, world, frame)
+
+    def set_lines(self, lines: StageLines) -> None:
+        self.marks.set(lines.marks)
+        self.rays.set(lines.rays)
+
+    def draw(self, orbit: Orbit, theme: Theme, size: tuple[int, int], scale: float, plane: ImagePlane | None) -> None:
+        """Draw into the target, `size` in pixels, `scale` pixels a logical one."""
+        ctx = self.ctx
+        self.target.resize(size)
+        size = self.target.size
+        matrix = orbit.matrix(size[0] / size[1])
+        self.target.use()
+        ctx.enable_only(moderngl.BLEND)
+        ctx.blend_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
+        put(self.ground, top=theme.sky[:3], bottom=theme.haze[:3])
+        self.target.drawn.depth_mask = False
+        self.empty.render(moderngl.TRIANGLES, vertices=3)
+        self.target.drawn.depth_mask = True
+        ctx.enable(moderngl.DEPTH_TEST)
+        ctx.depth_func = "<="
+        if self.surfaces:
+            # Pushed back a little, so that lines that end on a surface stand before it.
+            ctx.polygon_offset = 1.0, 2.0
+            self.surfaces.draw(orbit, matrix, theme, glass=False)
+            ctx.polygon_offset = 0.0, 0.0
+        self.target.drawn.depth_mask = False
+        self._draw_lines(matrix, theme, size, scale, 1.0)
+        if plane:
+            self._draw_picture(matrix, plane)
+        if self.surfaces:
+            self.surfaces.draw(orbit, matrix, theme, glass=True)
+        ctx.depth_func = ">"
+        self._draw_lines(matrix, theme, size, scale, HIDDEN)
+        ctx.depth_func = "<="
+        self.target.drawn.depth_mask = True
+        ctx.disable(moderngl.DEPTH_TEST)
+        self.target.finish()
+
+    def _draw_lines(self, matrix: np.ndarray, theme: Theme, size: tuple[int, int], scale: float, opacity: float) -> None:
+        self.marks.draw(matrix, size, scale, opacity)
+        self.rays.draw(matrix, size, scale, opacity, halo=theme.ground)
+        self.rays.draw(matrix, size, scale, opacity)
+
+    def _draw_picture(self, matrix: np.ndarray, plane: ImagePlane) -> None:
+        plane.texture.use(0)
+        put(self.picture, world_to_clip=tuple(matrix.T.astype(np.float32).ravel()), picture=0, opacity=IMAGE_OPACITY)
+        self.picture["corners"].write(plane.corners.astype(np.float32).tobytes())  # type: ignore[union-attr]
+        self.picture_array.render(moderngl.TRIANGLE_STRIP, vertices=4)
+
+    def release(self) -> None:
+        if self.surfaces:
+            self.surfaces.release()
+        for thing in (self.marks, self.rays, self.empty, self.picture_array, self.target):
+            thing.release()
+        for program in (self.surface_program, self.ground, self.picture):
+            program.release()

@@ -1,0 +1,154 @@
+"""The bar at the bottom: depth, the kinds of ray (the legend is its switches), the model, and what is going on."""
+
+from imgui_bundle import imgui
+
+from tracer.kernel import MODELS
+from viewer.panels import draw as d
+from viewer.panels.image import waiting_lines
+from viewer.session import Session
+from viewer.theme import STYLES, faded
+
+NAME = "##bar"
+
+
+def height() -> float:
+    return 2.15 * imgui.get_font_size()
+
+
+def draw(session: Session, left: float, top: float, width: float) -> None:
+    flags = imgui.WindowFlags_
+    imgui.set_next_window_pos((left, top))
+    imgui.set_next_window_size((width, height()))
+    imgui.push_style_var(imgui.StyleVar_.window_padding, (8 * d.unit(), 5 * d.unit()))
+    imgui.push_style_color(imgui.Col_.window_bg, session.theme.ground)
+    imgui.begin(
+        NAME, None, flags.no_decoration | flags.no_move | flags.no_docking | flags.no_saved_settings | flags.no_nav
+    )
+    imgui.pop_style_color()
+    imgui.pop_style_var()
+    _depth(session)
+    if session.world and any(item.material.transmit > 0.0 for item in session.world.scene.objects):
+        _gap()
+        _model(session)
+    _gap()
+    _legend(session)
+    _status(session, width)
+    imgui.end()
+
+
+def _gap() -> None:
+    imgui.same_line(0.0, 18 * d.unit())
+
+
+def _depth(session: Session) -> None:
+    imgui.align_text_to_frame_padding()
+    imgui.text("Depth")
+    for depth in range(4):
+        imgui.same_line(0.0, (8 if depth == 0 else 3) * d.unit())
+        if _toggle(session, str(depth), session.depth == depth):
+            session.set_depth(depth)
+        _hint(f"rays that were reflected or refracted at most {depth} times (key {depth})")
+    imgui.same_line(0.0, 3 * d.unit())
+    if imgui.button("−"):
+        session.set_depth(session.depth - 1)
+    _hint("one less (key -)")
+    imgui.same_line(0.0, 3 * d.unit())
+    if imgui.button("+"):
+        session.set_depth(session.depth + 1)
+    _hint("one more (key +)")
+    if session.depth > 3:
+        imgui.same_line(0.0, 6 * d.unit())
+        imgui.text_colored(session.theme.accent, str(session.depth))
+
+
+def _model(session: Session) -> None:
+    hints = (
+        "Whitted 1980: every surface reflects and transmits fixed shares",
+        "Fresnel: the shares depend on the angle, as in nature",
+    )
+    for k, (model, hint) in enumerate(zip(MODELS, hints, strict=True)):
+        if k:
+            imgui.same_line(0.0, 3 * d.unit())
+        if _toggle(session, model.capitalize(), session.model == model):
+            session.set_model(model)
+        _hint(hint)
+
+
+def _legend(session: Session) -> None:
+    """Each kind of ray as it is drawn, with its name; a click shows or hides it."""
+    unit = d.unit()
+    theme = session.theme
+    for k, (kind, style) in enumerate(STYLES.items()):
+        if k:
+            imgui.same_line(0.0, 6 * unit)
+        on = kind in session.shown.kinds
+        label = style.label
+        if kind == "tir":
+            label = "total internal" if imgui.get_io().display_size.x < 1500 * unit else label
+        width, _ = d.text_size(label, imgui.get_font_size())
+        at = imgui.get_cursor_screen_pos()
+        size = (width + 44 * unit, imgui.get_frame_height())
+        if imgui.invisible_button(f"legend {kind}", size):
+            session.toggle_kind(kind)
+        hovered = imgui.is_item_hovered()
+        _hint(f"{style.label}: {_meaning(session, kind)} (click to {'hide' if on else 'show'})")
+        pad = imgui.get_window_draw_list()
+        if hovered:
+            pad.add_rect_filled(at, (at.x + size[0], at.y + size[1]), d.u32(theme.hover), 4 * unit)
+        opacity = 1.0 if on else 0.32
+        middle = at.y + 0.5 * size[1]
+        d.sample(pad, (at.x + 5 * unit, middle), 28 * unit, style, faded(theme.ray(kind), opacity), unit)
+        text_at = (at.x + 38 * unit, middle - 0.5 * imgui.get_font_size())
+        d.text(pad, text_at, faded(theme.text, opacity), label, imgui.get_font_size())
+        if not on:
+            pad.add_line((at.x + 37 * unit, middle), (at.x + 39 * unit + width, middle), d.u32(theme.muted), 1.2 * unit)
+
+
+def _meaning(session: Session, kind: str) -> str:
+    if kind == "shadow":
+        glass = "blocks it" if session.world and session.world.scene.tracing.shadows == "block" else "dims it"
+        return f"does the light get there? Glass {glass}, straight through and unbent: a simplification"
+    return {
+        "camera": "from the eye through the pixel",
+        "reflection": "thrown back as by a mirror",
+        "refraction": "through the surface, bent by Snell's law",
+        "tir": "nothing can leave, all is thrown back",
+    }[kind]
+
+
+def _status(session: Session, width: float) -> None:
+    """At the right end: what is going on, or how large the tree is."""
+    content = _status_text(session)
+    size, _ = d.text_size(content, imgui.get_font_size())
+    imgui.same_line()
+    place = width - size - 12 * d.unit()
+    if imgui.get_cursor_pos_x() < place:
+        imgui.set_cursor_pos_x(place)
+        imgui.align_text_to_frame_padding()
+        imgui.text_colored(session.theme.muted, content)
+
+
+def _status_text(session: Session) -> str:
+    picture = session.image.picture
+    if not session.world or not picture:
+        return waiting_lines(session)[0]
+    rays = f"{len(session.tree)} rays" if session.tree else "no pixel picked"
+    if picture.finished:
+        return f"{rays}  ·  image in {picture.seconds:.2f} s"
+    return f"{rays}  ·  image {100 * picture.share:.0f} %"
+
+
+def _toggle(session: Session, label: str, on: bool) -> bool:
+    if on:
+        imgui.push_style_color(imgui.Col_.button, session.theme.accent)
+        imgui.push_style_color(imgui.Col_.button_hovered, session.theme.accent)
+        imgui.push_style_color(imgui.Col_.text, session.theme.on_accent)
+    pressed = imgui.button(label)
+    if on:
+        imgui.pop_style_color(3)
+    return pressed
+
+
+def _hint(text: str) -> None:
+    if imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
+        imgui.set_tooltip(text)

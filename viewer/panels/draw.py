@@ -1,0 +1,108 @@
+"""Small things all panels draw: text with a halo, dashed lines, arrow heads, all in a theme's colours."""
+
+import math
+
+import numpy as np
+from imgui_bundle import imgui
+
+from viewer.picture import srgb
+from viewer.theme import FONT_SIZE, Arrow, Color, RayStyle, faded
+
+Point = tuple[float, float]
+
+
+def u32(color: Color) -> int:
+    return imgui.get_color_u32(color)
+
+
+def unit() -> float:
+    """Pixels a logical pixel: what sizes are multiplied by."""
+    return imgui.get_font_size() / FONT_SIZE
+
+
+def text_size(text: str, size: float) -> Point:
+    """Width and height of a text at a font size."""
+    found = imgui.calc_text_size(text)
+    share = size / imgui.get_font_size()
+    return (found.x * share, found.y * share)
+
+
+def text(draw: imgui.ImDrawList, at: Point, color: Color, content: str, size: float, halo: Color | None = None) -> None:
+    """A text with its top left corner at `at`; with a halo it reads on any picture."""
+    if halo:
+        seam = u32(faded(halo, 0.85))
+        step = max(1.0, size / 14.0)
+        for dx, dy in ((-step, 0), (step, 0), (0, -step), (0, step)):
+            draw.add_text(imgui.get_font(), size, (at[0] + dx, at[1] + dy), seam, content)
+    draw.add_text(imgui.get_font(), size, at, u32(color), content)
+
+
+def line(draw: imgui.ImDrawList, a: Point, b: Point, color: Color, width: float, dash: Point = (0.0, 0.0)) -> None:
+    """A line, dashed where `dash` (on, off in pixels) is not zero."""
+    if dash[0] <= 0.0:
+        draw.add_line(a, b, u32(color), width)
+        return
+    span = math.dist(a, b)
+    ink = u32(color)
+    place = 0.0
+    while place < span:
+        end = min(place + dash[0], span)
+        draw.add_line(_between(a, b, place / span), _between(a, b, end / span), ink, width)
+        place += dash[0] + dash[1]
+
+
+def arrow(draw: imgui.ImDrawList, a: Point, b: Point, at: float, color: Color, size: float, kind: Arrow) -> None:
+    """A head on the line from a to b, its tip at that share of it."""
+    span = math.dist(a, b)
+    if kind is Arrow.NONE or span < 1.5 * size:
+        return
+    dx, dy = (b[0] - a[0]) / span, (b[1] - a[1]) / span
+
+    def back(tip: Point, length: float, side: float) -> Point:
+        return (tip[0] - dx * length - dy * side, tip[1] - dy * length + dx * side)
+
+    tip = _between(a, b, min(1.0, at + 0.5 * size / span))
+    ink = u32(color)
+    half = 0.42 * size
+    if kind is Arrow.FILLED:
+        draw.add_triangle_filled(tip, back(tip, size, half), back(tip, size, -half), ink)
+        return
+    for k in range(2 if kind is Arrow.DOUBLE else 1):
+        head = back(tip, 0.5 * size * k, 0.0)
+        for side in (half, -half):
+            draw.add_line(head, back(head, 0.75 * size, side), ink, max(1.5, size / 6.0))
+
+
+def cross(draw: imgui.ImDrawList, at: Point, radius: float, color: Color, width: float) -> None:
+    ink = u32(color)
+    draw.add_line((at[0] - radius, at[1] - radius), (at[0] + radius, at[1] + radius), ink, width)
+    draw.add_line((at[0] - radius, at[1] + radius), (at[0] + radius, at[1] - radius), ink, width)
+
+
+def sun(draw: imgui.ImDrawList, at: Point, radius: float, color: Color, halo: Color) -> None:
+    """A light: a disc with eight rays."""
+    for ink, grow in ((u32(halo), 1.5), (u32(color), 0.0)):
+        draw.add_circle_filled(at, 0.55 * radius + grow, ink)
+        for k in range(8):
+            dx, dy = math.cos(k * math.pi / 4), math.sin(k * math.pi / 4)
+            a = (at[0] + 0.75 * radius * dx, at[1] + 0.75 * radius * dy)
+            b = (at[0] + (radius + grow * 0.5) * dx, at[1] + (radius + grow * 0.5) * dy)
+            draw.add_line(a, b, ink, 1.6 + 2 * grow)
+
+
+def sample(draw: imgui.ImDrawList, at: Point, width: float, style: RayStyle, color: Color, scale: float) -> None:
+    """A piece of a ray as it is drawn: for the legend."""
+    a, b = at, (at[0] + width, at[1])
+    dash = (style.dash[0] * scale * 0.8, style.dash[1] * scale * 0.8)
+    line(draw, a, b, color, style.width * scale, dash)
+    arrow(draw, a, b, 0.62, color, 9.0 * scale, style.arrow)
+
+
+def _between(a: Point, b: Point, share: float) -> Point:
+    return (a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]))
+
+
+def swatch(rgb: object) -> Color:
+    """Linear RGB as the colour a picture shows."""
+    r, g, b = srgb(np.asarray(rgb, float)) / 255.0
+    return (float(r), float(g), float(b), 1.0)

@@ -1,0 +1,147 @@
+"""The image as it renders: click or drag to see a pixel's rays, wheel to look closer, arrow keys to move by a pixel."""
+
+from imgui_bundle import imgui
+
+from viewer.canvas import Canvas, texture_ref
+from viewer.panels import draw as d
+from viewer.session import Session
+from viewer.theme import SMALL
+
+TITLE = "Image"
+
+
+def draw(session: Session, canvas: Canvas) -> None:
+    _head(session)
+    corner = imgui.get_cursor_screen_pos()
+    room = imgui.get_content_region_avail()
+    if room.x < 8 or room.y < 8:
+        return
+    imgui.invisible_button(
+        "picture", room, imgui.ButtonFlags_.mouse_button_left | imgui.ButtonFlags_.mouse_button_right
+    )
+    canvas_draw = imgui.get_window_draw_list()
+    if not session.world:
+        _waiting(session, canvas_draw, corner, room)
+        return
+    place = _place(session, corner, room)
+    _handle_mouse(session, place)
+    canvas_draw.push_clip_rect(corner, (corner.x + room.x, corner.y + room.y), True)
+    texture = canvas.picture()
+    if texture is not None:
+        right, bottom = place[0] + place[2] * session.size[0], place[1] + place[2] * session.size[1]
+        canvas_draw.add_image(texture_ref(texture), place[:2], (right, bottom))
+        if session.pixel:
+            _mark_pixel(session, canvas_draw, place)
+    else:
+        _waiting(session, canvas_draw, corner, room)
+    canvas_draw.pop_clip_rect()
+    _progress(session, canvas_draw, corner, room)
+
+
+def _place(session: Session, corner: imgui.ImVec2, room: imgui.ImVec2) -> tuple[float, float, float]:
+    """Left and top of the image on the screen, and the size of one of its pixels there."""
+    width, height = session.size
+    look = session.image_view
+    scale = min(room.x / width, room.y / height) * look.zoom
+    left = corner.x + 0.5 * room.x - look.center[0] * width * scale
+    top = corner.y + 0.5 * room.y - look.center[1] * height * scale
+    return left, top, scale
+
+
+def _handle_mouse(session: Session, place: tuple[float, float, float]) -> None:
+    left, top, scale = place
+    io = imgui.get_io()
+    mouse = imgui.get_mouse_pos()
+    if imgui.is_item_active() and imgui.is_mouse_down(imgui.MouseButton_.left):
+        session.pick(int((mouse.x - left) // scale), int((mouse.y - top) // scale))
+    look = session.image_view
+    width, height = session.size
+    if imgui.is_item_active() and imgui.is_mouse_dragging(imgui.MouseButton_.right):
+        look.move(-io.mouse_delta.x / (scale * width), -io.mouse_delta.y / (scale * height))
+    if imgui.is_item_hovered() and io.mouse_wheel != 0.0:
+        at = ((mouse.x - left) / (scale * width), (mouse.y - top) / (scale * height))
+        look.zoom_about(at, io.mouse_wheel)
+
+
+def _mark_pixel(session: Session, draw: imgui.ImDrawList, place: tuple[float, float, float]) -> None:
+    """A frame about the picked pixel with four arms that leave the pixel itself to be seen."""
+    left, top, scale = place
+    assert session.pixel
+    x0, y0 = left + session.pixel[0] * scale, top + session.pixel[1] * scale
+    x, y = x0 + 0.5 * scale, y0 + 0.5 * scale
+    unit = d.unit()
+    inner = max(5.0 * unit, 0.5 * scale + 2.0 * unit)
+    outer = inner + 11.0 * unit
+    dark, bright = d.u32((0, 0, 0, 0.85)), d.u32((1, 1, 1, 1))
+    for ink, width in ((dark, 4.0 * unit), (bright, 1.8 * unit)):
+        for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+            draw.add_line((x + inner * dx, y + inner * dy), (x + outer * dx, y + outer * dy), ink, width)
+        half = inner - 1.5 * unit
+        draw.add_rect((x - half, y - half), (x + half, y + half), ink, 2.0 * unit, 0.6 * width)
+
+
+def _head(session: Session) -> None:
+    """Where the picked pixel is, to be typed as well, and its colour in numbers."""
+    if not session.world:
+        imgui.new_line()
+        return
+    unit = d.unit()
+    imgui.align_text_to_frame_padding()
+    imgui.text_colored(session.theme.muted, "pixel")
+    x, y = session.pixel or (-1, -1)
+    for label, value in (("x", x), ("y", y)):
+        imgui.same_line()
+        imgui.set_next_item_width(56 * unit)
+        written = "" if value < 0 else str(value)
+        changed, text = imgui.input_text(
+            f"##{label}", written, imgui.InputTextFlags_.chars_decimal | imgui.InputTextFlags_.enter_returns_true
+        )
+        if changed and text.isdigit():
+            session.pick(*((int(text), max(y, 0)) if label == "x" else (max(x, 0), int(text))))
+    if session.tree:
+        rgb = session.tree.radiance
+        imgui.same_line()
+        imgui.color_button("##color", d.swatch(rgb), imgui.ColorEditFlags_.no_tooltip, (22 * unit, 22 * unit))
+        imgui.same_line()
+        imgui.text("  ".join(f"{value:.4f}" for value in rgb))
+        if imgui.is_item_hovered():
+            imgui.set_tooltip("red, green, blue: linear light, before it is made into sRGB for the screen")
+    else:
+        imgui.same_line()
+        imgui.text_colored(session.theme.muted, "click the image")
+
+
+def _progress(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+    """A thin bar while the image is not finished."""
+    shown = session.image.picture
+    if shown is None or shown.finished:
+        return
+    bottom = corner.y + room.y
+    height = 4.0 * d.unit()
+    draw.add_rect_filled((corner.x, bottom - height), (corner.x + room.x, bottom), d.u32(session.theme.raised))
+    end = corner.x + room.x * shown.share
+    draw.add_rect_filled((corner.x, bottom - height), (end, bottom), d.u32(session.theme.accent))
+
+
+def _waiting(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+    """What is going on while there is no image yet."""
+    lines = waiting_lines(session)
+    size = imgui.get_font_size()
+    top = corner.y + 0.5 * room.y - 0.7 * size * len(lines)
+    for k, content in enumerate(lines):
+        scaled = size if k == 0 else SMALL * size
+        width, _ = d.text_size(content, scaled)
+        color = session.theme.text if k == 0 else session.theme.muted
+        d.text(draw, (corner.x + 0.5 * (room.x - width), top + 1.4 * size * k), color, content, scaled)
+
+
+def waiting_lines(session: Session) -> list[str]:
+    if session.faults and not session.world:
+        return ["This scene cannot be shown.", "What is wrong stands below; save the file and it is read again."]
+    if not session.warmup.ready and session.warmup.compiles:
+        seconds = session.warmup.seconds
+        return [
+            f"Preparing the tracer: {seconds:.0f} s",
+            "Only this once: its formulas are compiled for this machine and kept.",
+        ]
+    return ["Loading ..."]

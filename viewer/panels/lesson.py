@@ -1,0 +1,28 @@
+"""The lesson's text beside its scene."""
+
+from imgui_bundle import imgui
+
+from viewer.canvas import Canvas
+from viewer.session import Session
+
+TITLE = "Lesson"
+
+
+def draw(session: Session, canvas: Canvas) -> None:
+    if not session.lesson:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(session.theme.muted, "This scene belongs to no lesson. The lessons stand in the menu above.")
+        imgui.pop_text_wrap_pos()
+        return
+    for block in session.lesson.text.split("\n\n"):
+        content = " ".join(block.split())
+        imgui.push_text_wrap_pos(0.0)
+        if block.startswith("#"):
+            imgui.text_colored(session.theme.accent, content.lstrip("# "))
+        elif block.startswith("- "):
+            for item in block.split("\n- "):
+                imgui.bullet_text(" ".join(item.removeprefix("- ").split()))
+        else:
+            imgui.text(content)
+        imgui.pop_text_wrap_pos()
+        imgui.spacing()

@@ -1,0 +1,67 @@
+"""The selected ray: what becomes of it, and the lecture's formulas with its numbers put in."""
+
+from imgui_bundle import imgui
+
+from viewer.canvas import Canvas
+from viewer.explain import Section, explain, headline
+from viewer.panels import draw as d
+from viewer.session import Session
+from viewer.theme import STYLES
+
+TITLE = "Selected ray"
+
+
+def draw(session: Session, canvas: Canvas) -> None:
+    tree = session.tree
+    if not tree or not session.world:
+        imgui.text_colored(session.theme.muted, "No pixel is picked.")
+        return
+    row = session.selected if session.selected is not None else 0
+    if row >= len(tree):
+        return
+    name, fate = headline(tree, row)
+    kind = tree.kind(row)
+    unit = d.unit()
+    at = imgui.get_cursor_screen_pos()
+    height = imgui.get_text_line_height()
+    d.sample(
+        imgui.get_window_draw_list(),
+        (at.x, at.y + 0.5 * height),
+        30 * unit,
+        STYLES[kind],
+        session.theme.ray(kind),
+        unit,
+    )
+    imgui.dummy((36 * unit, height))
+    imgui.same_line()
+    imgui.text(name)
+    if session.selected is None:
+        imgui.same_line()
+        imgui.text_colored(session.theme.muted, "(none selected)")
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(session.theme.muted, fate[0].upper() + fate[1:] + ".")
+    imgui.pop_text_wrap_pos()
+    for section in explain(tree, session.world, row):
+        _section(session, section)
+
+
+def _section(session: Session, section: Section) -> None:
+    if not imgui.collapsing_header(section.title, imgui.TreeNodeFlags_.default_open):
+        return
+    if section.formula:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(session.theme.accent, section.formula)
+        imgui.pop_text_wrap_pos()
+    flags = imgui.TableFlags_.sizing_stretch_prop | imgui.TableFlags_.pad_outer_x
+    if imgui.begin_table(section.title, 2, flags):
+        for line in section.lines:
+            imgui.table_next_row()
+            imgui.table_next_column()
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text_colored(session.theme.muted, line.name)
+            imgui.pop_text_wrap_pos()
+            imgui.table_next_column()
+            imgui.push_text_wrap_pos(0.0)
+            imgui.text(line.value)
+            imgui.pop_text_wrap_pos()
+        imgui.end_table()

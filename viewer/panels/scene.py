@@ -1,0 +1,185 @@
+"""The scene in 3D with the rays over it: drag to turn, shift-drag or right-drag to move, wheel to zoom, click a ray."""
+
+import math
+
+import numpy as np
+from imgui_bundle import imgui
+
+from tracer.nodes import SHADOW
+from viewer.canvas import Canvas, texture_ref
+from viewer.orbit import project
+from viewer.panels import draw as d
+from viewer.raylines import nearest_row
+from viewer.session import Session
+from viewer.theme import SMALL, STYLES, faded
+
+TITLE = "Scene"
+
+REACH = 9.0  # logical pixels: how near to a ray a click must be
+MOST_LABELS = 40
+
+
+def draw(session: Session, canvas: Canvas) -> None:
+    corner = imgui.get_cursor_screen_pos()
+    room = imgui.get_content_region_avail()
+    if room.x < 8 or room.y < 8:
+        return
+    flags = imgui.ButtonFlags_
+    imgui.invisible_button(
+        "stage", room, flags.mouse_button_left | flags.mouse_button_right | flags.mouse_button_middle
+    )
+    if not session.world:
+        return
+    _handle_mouse(session, canvas, corner, room)
+    pixels = imgui.get_io().display_framebuffer_scale
+    size = (int(room.x * pixels.x), int(room.y * pixels.y))
+    texture = canvas.view3d(size, d.unit() * pixels.x)
+    stage = imgui.get_window_draw_list()
+    end = (corner.x + room.x, corner.y + room.y)
+    stage.add_image(texture_ref(texture), corner, end, (0, 1), (1, 0))
+    stage.push_clip_rect(corner, end, True)
+    _Overlay(session, stage, corner, room).draw()
+    stage.pop_clip_rect()
+
+
+def _handle_mouse(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+    io = imgui.get_io()
+    orbit = session.orbit
+    button = imgui.MouseButton_
+    if imgui.is_item_active():
+        moved = io.mouse_delta
+        sideways = io.key_shift or imgui.is_mouse_down(button.right) or imgui.is_mouse_down(button.middle)
+        if sideways:
+            orbit.slide(moved.x / room.y, moved.y / room.y)
+        elif imgui.is_mouse_dragging(button.left):
+            orbit.turn(math.pi * moved.x / room.y, math.pi * moved.y / room.y)
+    if imgui.is_item_hovered() and io.mouse_wheel != 0.0:
+        orbit.zoom(io.mouse_wheel)
+    # A click is a press and release in one place: turning the view picks nothing.
+    if imgui.is_item_hovered() and imgui.is_mouse_released(button.left):
+        moved = io.mouse_drag_max_distance_sqr[0]
+        if moved < io.mouse_drag_threshold**2:
+            session.select(_row_at(session, canvas, corner, room))
+
+
+def _row_at(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImVec2) -> int | None:
+    if not canvas.lines:
+        return None
+    ends = np.array([(line.start, line.end) for line in canvas.lines])
+    matrix = session.orbit.matrix(room.x / room.y)
+    places, depths = project(ends.reshape(-1, 3), matrix, (room.x, room.y))
+    mouse = imgui.get_mouse_pos()
+    at = (mouse.x - corner.x, mouse.y - corner.y)
+    return nearest_row(canvas.lines, places.reshape(-1, 2, 2), depths.reshape(-1, 2), at, REACH * d.unit())
+
+
+class _Overlay:
+    """What is written over the 3D view: lights, the camera, ends of shadow rays, names of rays; nothing over another."""
+
+    def __init__(self, session: Session, stage: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+        self.session = session
+        self.stage = stage
+        self.corner = np.array([corner.x, corner.y])
+        self.size = (room.x, room.y)
+        self.matrix = session.orbit.matrix(room.x / room.y)
+        self.taken: list[tuple[float, float, float, float]] = []
+        self.unit = d.unit()
+
+    def draw(self) -> None:
+        session = self.session
+        if session.tree:
+            self._selected_hit()
+            self._crosses()
+        if session.shown.lights:
+            self._lights()
+        if session.shown.labels:
+            if session.tree:
+                self._ray_names()
+            if session.shown.camera:
+                self._camera_name()
+
+    def at(self, point: np.ndarray) -> tuple[float, float] | None:
+        """Where a point of the frame is on the screen; None behind the eye."""
+        places, depths = project(np.atleast_2d(point), self.matrix, self.size)
+        if depths[0] <= 0.0 or not np.isfinite(places).all():
+            return None
+        x, y = places[0] + self.corner
+        return (float(x), float(y))
+
+    def label(self, at: tuple[float, float], content: str, color: tuple, offset: tuple[float, float]) -> None:
+        """A text beside a point, unless another text is there already."""
+        size = SMALL * imgui.get_font_size()
+        width, height = d.text_size(content, size)
+        x, y = at[0] + offset[0] * self.unit, at[1] + offset[1] * self.unit
+        box = (x - 2, y - 1, x + width + 2, y + height + 1)
+        if any(box[0] < t[2] and t[0] < box[2] and box[1] < t[3] and t[1] < box[3] for t in self.taken):
+            return
+        self.taken.append(box)
+        d.text(self.stage, (x, y), color, content, size, self.session.theme.ground)
+
+    def _lights(self) -> None:
+        theme = self.session.theme
+        color = (1.0, 0.82, 0.25, 1.0) if theme.dark else (0.80, 0.55, 0.0, 1.0)
+        assert self.session.world
+        for j, light in enumerate(self.session.world.scene.lights):
+            if light.position is None:
+                continue
+            at = self.at(self.session.frame.inside(light.position))
+            if at:
+                d.sun(self.stage, at, 10.0 * self.unit, color, theme.ground)
+                if self.session.shown.labels:
+                    self.label(at, light.name or f"light {j}", theme.text, (13, -9))
+
+    def _camera_name(self) -> None:
+        assert self.session.world
+        at = self.at(self.session.frame.inside(self.session.world.view().eye))
+        if at:
+            self.stage.add_circle_filled(at, 4.0 * self.unit, d.u32(self.session.theme.text))
+            self.label(at, "eye", self.session.theme.text, (7, -9))
+
+    def _selected_hit(self) -> None:
+        session = self.session
+        assert session.tree
+        if session.selected is None:
+            return
+        point = session.tree.nodes["point"][session.selected]
+        if np.isfinite(point).all() and (at := self.at(session.frame.inside(point))):
+            self.stage.add_circle_filled(at, 6.5 * self.unit, d.u32(session.theme.ground))
+            self.stage.add_circle_filled(at, 4.5 * self.unit, d.u32(session.theme.accent))
+
+    def _crosses(self) -> None:
+        """Where blocked shadow rays end."""
+        session = self.session
+        if "shadow" not in session.shown.kinds:
+            return
+        assert session.tree
+        color = session.theme.ray("shadow")
+        for i in range(len(session.tree)):
+            if session.tree.end(i) != "blocked":
+                continue
+            at = self.at(session.frame.inside(session.tree.nodes["point"][i]))
+            if at:
+                d.cross(self.stage, at, 5.0 * self.unit, session.theme.ground, 5.0 * self.unit)
+                d.cross(self.stage, at, 5.0 * self.unit, color, 2.4 * self.unit)
+
+    def _ray_names(self) -> None:
+        """R, T and the row's number beside the middle of each ray; the selected one first, then the heaviest."""
+        session = self.session
+        tree = session.tree
+        assert tree
+        nodes = tree.nodes
+        rows = [i for i in range(len(tree)) if nodes["kind"][i] != SHADOW and tree.kind(i) in session.shown.kinds]
+        rows.sort(key=lambda i: (i != session.selected, -nodes["weight"][i].max(), i))
+        for i in rows[:MOST_LABELS]:
+            start = session.frame.inside(nodes["origin"][i])
+            end = session.frame.inside(nodes["point"][i])
+            if np.isnan(end).any():
+                end = start + 0.6 * nodes["direction"][i]
+            at = self.at(0.5 * (start + end))
+            if at is None:
+                continue
+            kind = tree.kind(i)
+            color = session.theme.ray(kind)
+            if session.selected is not None and i != session.selected:
+                color = faded(color, 0.7)
+            self.label(at, f"{STYLES[kind].letter} {i}" if i else "E", color, (8, 4))

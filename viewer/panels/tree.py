@@ -1,0 +1,267 @@
+"""The ray tree as a diagram: the eye on top, reflected rays to the left, refracted to the right, stubs to the lights."""
+
+import math
+
+import numpy as np
+from imgui_bundle import imgui
+
+from tracer.nodes import SHADOW
+from viewer.canvas import Canvas
+from viewer.explain import headline, shown
+from viewer.figures.layout import Place, heaviest_rows, layout
+from viewer.panels import draw as d
+from viewer.raylines import family
+from viewer.session import Session
+from viewer.theme import DIMMED, SMALL, STYLES, faded
+
+TITLE = "Ray tree"
+
+MOST_ROWS = 160  # drawn; of larger trees the heaviest rays
+COLUMN, LEVEL = 96.0, 92.0  # logical pixels between nodes
+RADIUS = 11.0
+SMALLEST = 0.45  # to which a wide tree shrinks before it has to be moved to be seen
+
+
+def draw(session: Session, canvas: Canvas) -> None:
+    corner = imgui.get_cursor_screen_pos()
+    room = imgui.get_content_region_avail()
+    if room.x < 8 or room.y < 8:
+        return
+    flags = imgui.ButtonFlags_
+    imgui.invisible_button("tree", room, flags.mouse_button_left | flags.mouse_button_right)
+    pad = imgui.get_window_draw_list()
+    if not session.tree or not session.full_tree:
+        _hint(session, pad, corner, room)
+        return
+    pad.push_clip_rect(corner, (corner.x + room.x, corner.y + room.y), True)
+    _Diagram(session, pad, corner, room).draw()
+    pad.pop_clip_rect()
+
+
+def _hint(session: Session, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+    content = "Click a pixel of the image: its rays appear here as a tree."
+    size = imgui.get_font_size()
+    width, height = d.text_size(content, size)
+    at = (corner.x + 0.5 * (room.x - width), corner.y + 0.5 * (room.y - height))
+    d.text(pad, at, session.theme.muted, content, size)
+
+
+class _Diagram:
+    def __init__(self, session: Session, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+        assert session.tree and session.full_tree
+        self.session = session
+        self.tree = session.tree
+        self.pad = pad
+        self.theme = session.theme
+        full = session.full_tree
+        wanted = {i for i in range(len(full)) if full.kind(i) in session.shown.kinds or i == 0}
+        wanted = _with_parents_only(full.nodes["parent"], wanted)
+        rows = heaviest_rows(full, MOST_ROWS, wanted)
+        places = layout(full, rows)
+        self.folded = len(self.tree) - sum(i < len(self.tree) for i in wanted & rows)
+        self._fit(places, corner, room)
+        self.rows = sorted(i for i in rows if i < len(self.tree))
+        self.kept = family(self.tree, session.selected) if session.selected is not None else None
+
+    def _fit(self, places: dict[int, Place], corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+        """From places to pixels: as large as fits, up to life size; then as the user moved it."""
+        look = self.session.tree_view
+        unit = d.unit()
+        xs = [place.x for place in places.values()]
+        ys = [place.y for place in places.values()]
+        left, right = min(xs) - 0.55, max(xs) + 0.95
+        lines = max(ys) + 1.35
+        width, height = COLUMN * unit, LEVEL * unit
+        scale = min(1.0, room.x / (width * (right - left)), room.y / (height * lines))
+        self.scale = max(SMALLEST, scale) * look.zoom
+        self.text_size = max(SMALL * imgui.get_font_size() * min(1.0, 0.35 + 0.65 * self.scale), 11.0 * unit)
+        # Levels use the height there is, columns the width, up to a spacing beyond which nothing gets clearer.
+        wide = min(1.7, max(self.scale, room.x / (width * (right - left)) * look.zoom))
+        tall = min(1.25, max(self.scale, room.y / (height * lines) * look.zoom))
+        step_x, step_y = width * wide, height * tall
+        middle = 0.5 * (left + right)
+        base_x = corner.x + 0.5 * room.x - middle * step_x + look.center[0] * unit
+        base_y = corner.y + 0.78 * step_y + look.center[1] * unit
+        if room.x < (right - left) * step_x * 0.999 and look.zoom == 1.0:
+            base_x = corner.x + 0.5 * room.x + look.center[0] * unit  # too wide: the eye stays in the middle
+        self.step_x, self.step_y = step_x, step_y
+        self.at = {i: (base_x + p.x * step_x, base_y + p.y * step_y) for i, p in places.items()}
+        self.radius = RADIUS * unit * min(1.0, max(0.55, self.scale))
+        self.corner, self.room = corner, room
+
+    def draw(self) -> None:
+        self._levels()
+        self._eye()
+        for i in reversed(self.rows):
+            self._edge(i)
+        for i in self.rows:
+            self._node(i)
+        self._foot()
+        self._handle_mouse()
+
+    def opacity(self, i: int) -> float:
+        return 1.0 if self.kept is None or i in self.kept else DIMMED
+
+    def _top(self, i: int) -> tuple[float, float]:
+        """Where the edge to row i begins: its parent, or the eye."""
+        parent = int(self.tree.nodes["parent"][i])
+        if parent >= 0:
+            return self.at[parent]
+        x, y = self.at[0]
+        return (x, y - 0.62 * self.step_y)
+
+    def _levels(self) -> None:
+        """The depths, as faint lines with their number."""
+        deepest = int(self.tree.nodes["depth"].max())
+        size = self.text_size
+        for depth in range(deepest + 1):
+            y = self.at[0][1] + depth * self.step_y
+            ink = faded(self.theme.border, 0.9)
+            d.line(self.pad, (self.corner.x + 60 * d.unit(), y), (self.corner.x + self.room.x, y), ink, 1.0)
+            d.text(self.pad, (self.corner.x + 6 * d.unit(), y - 0.5 * size), self.theme.muted, f"depth {depth}", size)
+
+    def _eye(self) -> None:
+        x, y = self._top(0)
+        r = 0.8 * self.radius
+        ink = d.u32(self.theme.text)
+        self.pad.path_elliptical_arc_to((x, y), (1.5 * r, 0.8 * r), 0.0, 0.0, 2 * math.pi, 32)
+        self.pad.path_stroke(ink, 1.6 * d.unit())
+        self.pad.add_circle_filled((x, y), 0.45 * r, ink)
+        d.text(self.pad, (x + 1.9 * r, y - 0.5 * self.text_size), self.theme.text, "eye", self.text_size)
+
+    def _edge(self, i: int) -> None:
+        tree = self.tree
+        kind = tree.kind(i)
+        style = STYLES[kind]
+        unit = d.unit()
+        color = faded(self.theme.ray(kind), self.opacity(i))
+        a, b = self._top(i), self.at[i]
+        if i == 0:
+            a = (a[0], a[1] + 0.65 * self.radius)
+        width = style.width * unit * (1.7 if i == self.session.selected else 1.0)
+        dash = style.dash
+        if tree.end(i) == "blocked":
+            dash = (4.0, 4.0)
+        d.line(self.pad, a, b, color, width, (dash[0] * unit * 0.8, dash[1] * unit * 0.8))
+        d.arrow(self.pad, a, b, 0.55, color, 9.0 * unit * min(1.0, self.scale + 0.2), style.arrow)
+        if kind != "shadow" and i > 0 and self.step_x > 52 * unit:
+            self._edge_label(i, a, b, style.letter)
+
+    def _edge_label(self, i: int, a: tuple, b: tuple, letter: str) -> None:
+        factor = float(self.tree.nodes["factor"][i].max())
+        content = f"{letter} × {shown(factor, 3)}"
+        size = 0.94 * self.text_size
+        width, height = d.text_size(content, size)
+        x, y = a[0] + 0.6 * (b[0] - a[0]), a[1] + 0.6 * (b[1] - a[1])
+        gap = 7.0 * d.unit()
+        x = x - width - gap if b[0] < a[0] - 1.0 else x + gap
+        color = faded(self.theme.ray(self.tree.kind(i)), self.opacity(i))
+        d.text(self.pad, (x, y - 0.5 * height), color, content, size, self.theme.panel)
+
+    def _node(self, i: int) -> None:
+        if self.tree.nodes["kind"][i] == SHADOW:
+            self._light_end(i)
+            return
+        x, y = self.at[i]
+        opacity = self.opacity(i)
+        r = self.radius
+        fill = faded(d.swatch(self.tree.nodes["radiance"][i]), opacity)
+        self.pad.add_circle_filled((x, y), r + 2.0 * d.unit(), d.u32(self.theme.panel))
+        self.pad.add_circle_filled((x, y), r, d.u32(fill))
+        ring = self.theme.accent if i == self.session.selected else faded(self.theme.text, 0.8 * opacity)
+        self.pad.add_circle((x, y), r, d.u32(ring), 0, (3.0 if i == self.session.selected else 1.4) * d.unit())
+        if self.step_x > 40 * d.unit():
+            self._node_label(i, x, y, opacity)
+
+    def _node_label(self, i: int, x: float, y: float, opacity: float) -> None:
+        name = self.tree.object_name(i) or "background"
+        end = self.tree.end(i)
+        note = {"depth": "cut: depth", "weight": "cut: weight", "nodes": "cut: limit"}.get(end or "", "")
+        size = self.text_size
+        color = faded(self.theme.text, opacity)
+        # To the right of the node there is room up to the next column, less where stubs hang below.
+        content = _shortened(f"{i}  {name}", size, 1.15 * self.step_x - 2.0 * self.radius)
+        d.text(self.pad, (x + 1.35 * self.radius, y - 1.05 * size), color, content, size, self.theme.panel)
+        if note:
+            muted = faded(self.theme.muted, opacity)
+            d.text(self.pad, (x + 1.35 * self.radius, y + 0.05 * size), muted, note, 0.9 * size, self.theme.panel)
+
+    def _light_end(self, i: int) -> None:
+        """A small sun where the light is reached, a cross where it is not."""
+        x, y = self.at[i]
+        opacity = self.opacity(i)
+        r = 0.62 * self.radius
+        selected = i == self.session.selected
+        if self.tree.end(i) == "blocked":
+            d.cross(self.pad, (x, y), 0.6 * r, faded(self.theme.ray("shadow"), opacity), 2.2 * d.unit())
+        else:
+            color = (1.0, 0.82, 0.25, opacity) if self.theme.dark else (0.80, 0.55, 0.0, opacity)
+            d.sun(self.pad, (x, y), r, color, self.theme.panel)
+            if self.tree.end(i) == "filtered":
+                self.pad.add_circle((x, y), 1.35 * r, d.u32(faded(self.theme.ray("shadow"), opacity)), 0, 1.2 * d.unit())
+        if selected:
+            self.pad.add_circle((x, y), 1.5 * r, d.u32(self.theme.accent), 0, 2.5 * d.unit())
+
+    def _foot(self) -> None:
+        parts = []
+        if self.folded > 0:
+            parts.append(f"{len(self.rows)} of {len(self.tree)} rays drawn")
+        if self.tree.residual > 0.0:
+            parts.append(f"rays that were cut carry {shown(self.tree.residual, 3)} of the weight")
+        if not parts:
+            return
+        content = "; ".join(parts)
+        size = self.text_size
+        at = (self.corner.x + 6 * d.unit(), self.corner.y + self.room.y - 1.3 * size)
+        d.text(self.pad, at, self.theme.muted, content, size, self.theme.panel)
+
+    def _handle_mouse(self) -> None:
+        io = imgui.get_io()
+        look = self.session.tree_view
+        unit = d.unit()
+        button = imgui.MouseButton_
+        hovered = imgui.is_item_hovered()
+        if imgui.is_item_active() and (imgui.is_mouse_dragging(button.left) or imgui.is_mouse_dragging(button.right)):
+            look.move(io.mouse_delta.x / unit, io.mouse_delta.y / unit)
+        if hovered and io.mouse_wheel != 0.0:
+            look.zoom = min(6.0, max(0.3, look.zoom * 1.12**io.mouse_wheel))
+        if not hovered:
+            return
+        row = self._row_at((imgui.get_mouse_pos().x, imgui.get_mouse_pos().y))
+        if row is not None and not imgui.is_mouse_down(button.left):
+            first, second = headline(self.tree, row)
+            imgui.set_tooltip(f"{first}\n{second}")
+        if imgui.is_mouse_released(button.left) and io.mouse_drag_max_distance_sqr[0] < io.mouse_drag_threshold**2:
+            self.session.select(row)
+
+    def _row_at(self, mouse: tuple[float, float]) -> int | None:
+        """The node under the mouse, or the edge."""
+        near = self.radius + 5.0 * d.unit()
+        best = min(self.rows, key=lambda i: math.dist(self.at[i], mouse))
+        if math.dist(self.at[best], mouse) <= near:
+            return best
+        reach = 6.0 * d.unit()
+        for i in self.rows:
+            a, b = np.array(self._top(i)), np.array(self.at[i])
+            along = b - a
+            t = min(1.0, max(0.0, float((np.array(mouse) - a) @ along) / max(1e-9, float(along @ along))))
+            if float(np.hypot(*(a + t * along - mouse))) <= reach:
+                return i
+        return None
+
+
+def _with_parents_only(parents: np.ndarray, wanted: set[int]) -> set[int]:
+    """Rows whose every ancestor is wanted too: a branch that is switched off takes what hangs on it along."""
+    kept: set[int] = set()
+    for i in sorted(wanted):
+        if i == 0 or int(parents[i]) in kept:
+            kept.add(i)
+    return kept
+
+
+def _shortened(content: str, size: float, room: float) -> str:
+    if d.text_size(content, size)[0] <= room:
+        return content
+    while len(content) > 4 and d.text_size(content + "…", size)[0] > room:
+        content = content[:-1]
+    return content.rstrip() + "…"

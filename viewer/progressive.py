@@ -1,0 +1,109 @@
+"""The image as it renders: coarse at once, then finer, on threads of its own; stopped within a tile when it is outdated."""
+
+import os
+import threading
+import time
+from collections import OrderedDict
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tracer.kernel import Limits
+from tracer.render import COARSE_TO_FINE, Job, Stopped, processors, tiles, trace_tiles
+from tracer.tile import Area
+from tracer.world import World
+from viewer.picture import srgb
+
+KEPT = 8  # finished images, so that stepping the depth back and forth shows them at once
+
+
+@dataclass(eq=False)
+class Picture:
+    """One image, finished or not."""
+
+    job: Job
+    shown: np.ndarray  # 8-bit sRGB (height, width, 3)
+    share: float = 0.0  # of its tiles, over all passes
+    seconds: float = 0.0
+    cancelled: threading.Event = field(default_factory=threading.Event)
+    version: int = 0  # grows with every tile
+
+    @property
+    def finished(self) -> bool:
+        return self.share >= 1.0
+
+
+class Progressive:
+    """Renders one image at a time; finished ones are kept for as long as their world is on show."""
+
+    def __init__(self, changed: Callable[[], None] = lambda: None) -> None:
+        self.changed = changed  # called from another thread when there is more to see
+        self.picture: Picture | None = None
+        self.kept: OrderedDict[tuple, Picture] = OrderedDict()
+        self.threads = processors()
+        self.pool = ThreadPoolExecutor(self.threads, initializer=_step_back)
+        self.runner = ThreadPoolExecutor(1)
+        self.last: object = None
+
+    def show(self, world: World, limits: Limits, size: tuple[int, int]) -> None:
+        """Make this the image to be seen: at once where it is kept, else begin it and drop the one in the making."""
+        key = (id(world), limits, size)
+        if self.picture and not self.picture.finished:
+            self.picture.cancelled.set()
+        if key in self.kept:
+            self.kept.move_to_end(key)
+            self.picture = self.kept[key]
+            return
+        job = Job(world, world.view(size), limits)
+        picture = Picture(job, np.zeros((size[1], size[0], 3), np.uint8))
+        self.picture = picture
+        self.last = self.runner.submit(self._run, picture, key)
+
+    def forget(self) -> None:
+        """Drop every image: another world is on show."""
+        if self.picture:
+            self.picture.cancelled.set()
+        self.picture = None
+        self.kept.clear()
+
+    def wait(self) -> None:
+        """Until the image to be seen is finished."""
+        if self.picture and not self.picture.finished:
+            self.last.result()  # type: ignore[attr-defined]
+
+    def close(self) -> None:
+        self.forget()
+        self.runner.shutdown()
+        self.pool.shutdown()
+
+    def _run(self, picture: Picture, key: tuple) -> None:
+        if picture.cancelled.is_set():
+            return
+        began = time.perf_counter()
+        width, height = picture.job.view.width, picture.job.view.height
+
+        def finished(area: Area, share: float) -> None:
+            inside = np.s_[area.top : area.bottom, area.left : area.right]
+            picture.shown[inside] = srgb(picture.job.pixels[inside])
+            picture.seconds = time.perf_counter() - began
+            picture.share = share
+            picture.version += 1
+            self.changed()
+
+        areas = list(tiles(width, height, COARSE_TO_FINE))
+        try:
+            trace_tiles(picture.job, areas, self.pool, 2 * self.threads, finished, picture.cancelled.is_set)
+        except Stopped:
+            return
+        if not picture.cancelled.is_set():
+            self.kept[key] = picture
+            while len(self.kept) > KEPT:
+                self.kept.popitem(last=False)
+
+
+def _step_back() -> None:
+    """Let the window go first: a lower priority for this thread, where the system has one for threads."""
+    if hasattr(os, "setpriority") and os.uname().sysname == "Linux":
+        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), 5)

@@ -1,0 +1,301 @@
+"""What is on show: the only state that changes. Panels read it and call its methods; it knows no panel and no GPU."""
+
+import dataclasses
+import math
+import threading
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+
+import tracer
+from tracer.kernel import MODELS
+from tracer.tree import RayTree, make_limits
+from tracer.world import World
+from viewer.lesson import Lesson, LessonView
+from viewer.orbit import Frame, Orbit
+from viewer.progressive import Progressive
+from viewer.theme import DARK, LECTURE_ZOOM, LIGHT, STYLES, Theme
+from viewer.warmup import Warmup
+from viewer.watch import Watch
+
+STEP_DEPTH = 3  # trees are laid out for at least this depth, so that stepping 0..3 moves nothing
+MOST_ROWS = 20_000  # of a tree in the window; the command line has no such limit
+
+
+@dataclasses.dataclass
+class Shown:
+    """What of the 3D view and the panels is switched on."""
+
+    kinds: set[str] = dataclasses.field(default_factory=lambda: set(STYLES))
+    camera: bool = True  # with its frustum and the image on the image plane
+    lights: bool = True
+    normals: bool = True
+    labels: bool = True
+
+
+@dataclasses.dataclass
+class Look:
+    """How a flat picture is moved and enlarged in its panel."""
+
+    zoom: float = 1.0
+    center: tuple[float, float] = (0.5, 0.5)
+
+    def move(self, dx: float, dy: float) -> None:
+        self.center = (self.center[0] + dx, self.center[1] + dy)
+
+    def zoom_about(self, at: tuple[float, float], steps: float) -> None:
+        """Enlarge so that the place `at` (in shares of the picture) stays where it is; never smaller than the panel."""
+        zoom = min(200.0, max(1.0, self.zoom * 1.2**steps))
+        share = 1.0 - self.zoom / zoom
+        self.center = (
+            self.center[0] + share * (at[0] - self.center[0]),
+            self.center[1] + share * (at[1] - self.center[1]),
+        )
+        self.zoom = zoom
+        if zoom == 1.0:
+            self.center = (0.5, 0.5)
+
+
+class Session:
+    """One scene, one picked pixel, one selected ray."""
+
+    def __init__(self, changed: Callable[[], None] = lambda: None) -> None:
+        self.changed = changed
+        self.warmup = Warmup()
+        self.loader = ThreadPoolExecutor(1)
+        self.loading: Future | None = None
+        self.image = Progressive(changed)
+        self.watch = Watch()
+        self.shown = Shown()
+        self.image_view = Look()
+        self.tree_view = Look(center=(0.0, 0.0))  # moved by logical pixels
+        self.theme: Theme = DARK
+        self.zoom = 1.0  # of all text
+        self.path: Path | None = None
+        self.lesson: Lesson | None = None
+        self.attempt: tuple[Path, Lesson | None] | None = None  # what was last to be opened, well or not
+        self.faults: list[str] = []  # of the file that could not be shown; the last good scene stays
+        self.world: World | None = None
+        self.frame = Frame(np.zeros(3), 1.0)
+        self.orbit = Orbit()
+        self.depth = 3
+        self.model = MODELS[0]
+        self.pixel: tuple[int, int] | None = None
+        self.tree: RayTree | None = None  # of the picked pixel at the depth on show
+        self.full_tree: RayTree | None = None  # the same pixel, at least STEP_DEPTH deep: its first rows are `tree`'s
+        self.selected: int | None = None
+        self.notice = ""  # what was last done, where nothing else shows it
+        self.shows_help = False
+        self.wants_open = False  # the dialog that opens a scene
+        self.wants_quit = False
+        self.folder: Path | None = None  # which that dialog shows
+        self.wanted_pixel: tuple[int, int] | None = None  # to be picked once the scene is there
+        self.wanted_depth: int | None = None
+
+    # --- opening scenes ---------------------------------------------------------------------------------------------
+
+    def open(self, path: Path, lesson: Lesson | None = None, depth: int | None = None, pixel: tuple | None = None) -> None:
+        """Load a scene in the background; until it is there, and if it has faults, what is on show stays."""
+        self.wanted_depth = depth if depth is not None else lesson.depth if lesson else None
+        self.wanted_pixel = pixel or (lesson.pixel if lesson else None)
+        self._load(path, lesson)
+
+    def reload(self) -> None:
+        """Read the file once more; of a scene that is on show already, pixel, depth and view stay."""
+        if self.attempt:
+            self._load(*self.attempt)
+
+    def _load(self, path: Path, lesson: Lesson | None) -> None:
+        self.attempt = (path, lesson)
+        self.watch.follow(path)
+        if self.loading:
+            self.loading.cancel()
+        again = self.world is not None and path == self.path
+
+        def load() -> tuple:
+            world = tracer.prepare(tracer.load(path))
+            return world, path, lesson, again
+
+        self.loading = self.loader.submit(self._and_tell, load)
+
+    def _and_tell(self, load: Callable[[], tuple]) -> tuple:
+        if not self.warmup.ready and self.warmup.compiles:
+            self.warmup.wait()  # what prepares a large scene is being compiled as well
+        try:
+            return load()
+        finally:
+            threading.Timer(0.0, self.changed).start()  # after the future is done
+
+    def update(self) -> bool:
+        """Take in what happened in the background since the last frame; whether there is anything new to see."""
+        news = False
+        if self.watch.changed():
+            self.reload()
+        if self.loading and self.loading.done():
+            self._finish_loading(self.loading)
+            self.loading = None
+            news = True
+        if self.world and self.warmup.ready and self.pixel and not self.tree:
+            self._trace()
+            news = True
+        if self.world and self.warmup.ready and not self.image.picture:
+            self._render()
+            news = True
+        return news
+
+    def _finish_loading(self, loading: Future) -> None:
+        try:
+            world, path, lesson, again = loading.result()
+        except tracer.SceneError as error:
+            self.faults = error.faults
+            return
+        except Exception as error:  # a fault of ours must not end a lecture: it is shown, the last scene stays
+            self.faults = [f"{type(error).__name__}: {error}"]
+            return
+        self.faults = []
+        scene = world.scene
+        self.image.forget()
+        self.world, self.path, self.lesson = world, path, lesson
+        self.watch.follow_meshes(path, scene)
+        self.frame = Frame.of(world)
+        self.tree = self.full_tree = None
+        self.model = scene.tracing.model
+        if not again:
+            self.depth = scene.tracing.depth if self.wanted_depth is None else self.wanted_depth
+            self.pixel = self.wanted_pixel
+            self.selected = None
+            self.home()
+        self._keep_pixel_inside()
+
+    def _keep_pixel_inside(self) -> None:
+        width, height = self.size
+        if self.pixel:
+            self.pixel = (min(self.pixel[0], width - 1), min(self.pixel[1], height - 1))
+
+    # --- the tree behind a pixel --------------------------------------------------------------------------------------
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Of the image, in pixels."""
+        assert self.world
+        return (self.world.scene.image.width, self.world.scene.image.height)
+
+    def pick(self, x: int, y: int) -> None:
+        """Show the tree behind this pixel; outside the image the nearest one counts."""
+        if not self.world:
+            return
+        width, height = self.size
+        pixel = (min(max(x, 0), width - 1), min(max(y, 0), height - 1))
+        if pixel != self.pixel:
+            self.pixel = pixel
+            self.selected = None
+            self.tree = None
+            self.update()
+
+    def nudge(self, dx: int, dy: int) -> None:
+        """Move the picked pixel; the first nudge picks the middle of the image."""
+        if not self.world:
+            return
+        width, height = self.size
+        x, y = self.pixel or (width // 2 - dx, height // 2 - dy)
+        self.pick(x + dx, y + dy)
+
+    def select(self, row: int | None) -> None:
+        """Select one ray of the tree, or none."""
+        if row is None or (self.tree and 0 <= row < len(self.tree)):
+            self.selected = row
+
+    def clear(self) -> None:
+        """First nothing is selected, then nothing is picked."""
+        if self.selected is not None:
+            self.selected = None
+        else:
+            self.pixel = self.tree = self.full_tree = None
+
+    def set_depth(self, depth: int) -> None:
+        depth = max(0, depth)
+        if depth != self.depth:
+            self.depth = depth
+            self._retrace()
+
+    def set_model(self, model: str) -> None:
+        if model != self.model:
+            self.model = model
+            self._retrace()
+
+    def toggle_model(self) -> None:
+        self.set_model(MODELS[1 - MODELS.index(self.model)])
+
+    def step(self, by: int) -> None:
+        """Select the next ray in the order of the table, or the one before."""
+        if self.tree:
+            row = (-1 if by > 0 else len(self.tree)) if self.selected is None else self.selected
+            self.selected = min(max(row + by, 0), len(self.tree) - 1)
+
+    def _retrace(self) -> None:
+        """The same pixel and image by other rules; the selected ray stays selected while it is there."""
+        if not self.world or not self.warmup.ready:
+            return
+        if self.pixel:
+            self._trace()
+        if self.selected is not None and self.tree and self.selected >= len(self.tree):
+            self.selected = None
+        self._render()
+
+    def _trace(self) -> None:
+        assert self.world and self.pixel
+        options = {"pixel": self.pixel, "model": self.model, "max_nodes": MOST_ROWS}
+        self.tree = tracer.trace(self.world, depth=self.depth, **options)
+        deeper = max(self.depth, STEP_DEPTH)
+        self.full_tree = self.tree if deeper == self.depth else tracer.trace(self.world, depth=deeper, **options)
+
+    def _render(self) -> None:
+        assert self.world
+        limits = make_limits(self.world, self.depth, 0.0, 10**6, self.model, records=False)
+        self.image.show(self.world, limits, self.size)
+
+    # --- how it is looked at ------------------------------------------------------------------------------------------
+
+    def home(self) -> None:
+        """The 3D view as the lesson or the scene begins."""
+        if not self.world:
+            return
+        view = self.lesson.view if self.lesson else LessonView()
+        up = self.world.scene.camera.up
+        self.orbit = Orbit.beside(self.world.view(), up, view.azimuth, view.elevation, view.distance)
+        if view.target:
+            self.orbit.target = self.frame.inside(view.target)
+
+    def through_camera(self) -> None:
+        """Look at the scene from where its own camera stands."""
+        if not self.world:
+            return
+        view = self.world.view()
+        eye = self.frame.inside(view.eye)
+        self.orbit = Orbit.beside(view, self.world.scene.camera.up, 0.0, 0.0, 1.0)
+        forward = np.array(view.forward)
+        self.orbit.elevation = math.asin(float(np.clip(-forward @ self.orbit.up, -1.0, 1.0)))
+        self.orbit.distance = max(0.5, float(-eye @ forward))
+        self.orbit.target = eye + self.orbit.distance * forward
+
+    def toggle_kind(self, kind: str) -> None:
+        self.shown.kinds ^= {kind}
+
+    def toggle_theme(self) -> None:
+        self.theme = LIGHT if self.theme is DARK else DARK
+
+    @property
+    def is_lecture_size(self) -> bool:
+        return self.zoom > 1.0
+
+    def toggle_lecture_size(self) -> None:
+        """Everything larger, for the last row."""
+        self.zoom = 1.0 if self.is_lecture_size else LECTURE_ZOOM
+
+    def close(self) -> None:
+        self.warmup.close()
+        self.image.close()
+        self.loader.shutdown(cancel_futures=True)
+

@@ -1,0 +1,132 @@
+"""Every colour, width and size that is drawn, with its reason.
+
+Four hues, not eight: the kinds of ray differ by dash and arrow as well, so that nothing hangs on colour alone. Both
+palettes keep at least 28 units of CIE76 distance between any two kinds, also as seen with deutan, protan or tritan
+vision (simulated after Machado et al. 2009), and a contrast of 4.7 to the ground they are drawn on (WCAG asks 3).
+"""
+
+from dataclasses import dataclass
+from enum import Enum
+
+Color = tuple[float, float, float, float]  # sRGB and opacity, each 0..1
+
+
+def rgb(code: str, opacity: float = 1.0) -> Color:
+    """'#0072B2' as a Color."""
+    r, g, b = (int(code[k : k + 2], 16) / 255.0 for k in (1, 3, 5))
+    return (r, g, b, opacity)
+
+
+def faded(color: Color, opacity: float) -> Color:
+    return (*color[:3], color[3] * opacity)
+
+
+class Arrow(Enum):
+    """What stands on a ray to say where it goes, and of which kind it is."""
+
+    NONE = 0
+    FILLED = 1
+    OPEN = 2  # a chevron
+    DOUBLE = 3  # two chevrons
+
+
+@dataclass(frozen=True)
+class RayStyle:
+    """How one kind of ray is drawn, in the window as in figures."""
+
+    label: str  # in the legend
+    letter: str  # at the ray: R, T, L as Whitted's figure has them
+    dark: str  # colour on a dark ground
+    light: str  # colour on a light ground
+    width: float  # pixels
+    dash: tuple[float, float]  # pixels on and off; (0, 0): solid
+    arrow: Arrow
+
+
+# The camera ray is thickest: the eye finds the start first. Shadow rays are dashed, for nothing travels along them
+# that is followed further; a blocked one has the shorter dash and ends in a cross.
+STYLES = {
+    "camera": RayStyle("camera ray", "E", "#FFFFFF", "#000000", 3.0, (0, 0), Arrow.FILLED),
+    "reflection": RayStyle("reflected", "R", "#56B4E9", "#0072B2", 2.4, (0, 0), Arrow.OPEN),
+    "refraction": RayStyle("refracted", "T", "#E69F00", "#B35C00", 2.4, (0, 0), Arrow.FILLED),
+    "tir": RayStyle("total internal reflection", "TIR", "#56B4E9", "#0072B2", 2.4, (14, 3), Arrow.DOUBLE),
+    "shadow": RayStyle("shadow ray", "L", "#B0B0B0", "#5A5A5A", 1.8, (9, 6), Arrow.NONE),
+}
+BLOCKED_DASH = (4.0, 5.0)
+FILTERED_DASH = (12.0, 4.0)
+
+HALO = 1.6  # pixels of ground colour on either side of a ray, so that it reads on any picture
+HIDDEN = 0.30  # opacity of what is behind or inside an opaque object
+DIMMED = 0.28  # opacity of what does not belong to the selected ray: dimmed, never hidden
+ARROW = 11.0  # pixels
+ARROW_AT = 0.58  # of the ray's length: an arrow at the end would hide in the surface
+ESCAPE = 0.9  # of the scene's radius: how far a ray that leaves the scene is drawn
+NORMAL = 0.16  # of the scene's radius: length of a normal
+NORMAL_WIDTH = 1.5
+FRAME_WIDTH = 1.2  # the camera's frustum
+
+FONT_SIZE = 16.0  # pixels at 1280x720; 18 is what a back row reads, 16 what four panels leave room for
+SMALL = 0.86  # of the font's size, for labels in figures
+LECTURE_ZOOM = 1.35  # what the lecture mode multiplies sizes by
+
+
+@dataclass(frozen=True)
+class Theme:
+    name: str
+    ground: Color  # behind everything
+    panel: Color
+    raised: Color  # buttons, tabs, table heads
+    hover: Color
+    text: Color
+    muted: Color  # text that is no answer: units, hints
+    accent: Color  # what is selected or switched on
+    on_accent: Color
+    fault: Color
+    sky: Color  # top of the 3D view
+    haze: Color  # bottom of the 3D view
+    border: Color
+    dark: bool
+
+    def ray(self, kind: str) -> Color:
+        style = STYLES[kind]
+        return rgb(style.dark if self.dark else style.light)
+
+    @property
+    def normal(self) -> Color:
+        """Normals are no rays: a green that no kind of ray has, thin, with a short bar at the foot."""
+        return rgb("#7FD6A2") if self.dark else rgb("#11723F")
+
+
+DARK = Theme(
+    name="dark",
+    ground=rgb("#16181C"),
+    panel=rgb("#1E2126"),
+    raised=rgb("#2B3038"),
+    hover=rgb("#3A414C"),
+    text=rgb("#ECEFF3"),
+    muted=rgb("#9AA4B2"),
+    accent=rgb("#F2C14E"),
+    on_accent=rgb("#16181C"),
+    fault=rgb("#FF8A80"),
+    sky=rgb("#262B33"),
+    haze=rgb("#16181C"),
+    border=rgb("#30363F"),
+    dark=True,
+)
+
+LIGHT = Theme(
+    name="light",
+    ground=rgb("#E9ECF0"),
+    panel=rgb("#FBFCFD"),
+    raised=rgb("#E3E8EE"),
+    hover=rgb("#CFD7E1"),
+    text=rgb("#14181D"),
+    muted=rgb("#5A6572"),
+    accent=rgb("#B0127B"),
+    on_accent=rgb("#FFFFFF"),
+    fault=rgb("#B3261E"),
+    sky=rgb("#FFFFFF"),
+    haze=rgb("#E4E9EF"),
+    border=rgb("#C3CBD5"),
+    dark=False,
+)
