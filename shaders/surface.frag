@@ -21,7 +21,7 @@ uniform float fade_from;  // distance from `fade_center` at which an endless pla
 uniform float fade_to;
 uniform vec3 fade_center;
 uniform vec3 origin;      // what is added to a place to count the checker's squares from the world's origin
-uniform float glass_pass; // 1: draws what transmits, 0: the rest
+uniform float ghost;      // > 0: the far side of a wall, only so opaque that one knows it is there
 
 in vec3 place;
 in vec3 n;
@@ -61,7 +61,6 @@ void main() {
     vec4 terms = texelFetch(materials, ivec2(which, 2), 0);
     vec4 glass = texelFetch(materials, ivec2(which, 3), 0);
     bool transmits = glass.x > 0.0;
-    if (transmits != (glass_pass > 0.5)) discard;
 
     vec3 base = first.rgb;
     if (second.w > 0.0)
@@ -91,6 +90,7 @@ void main() {
     } else {
         light += terms.w * mirrored;
     }
+    if (ghost > 0.0) alpha = ghost;
     if (fade_from > 0.0) alpha *= 1.0 - smoothstep(fade_from, fade_to, distance(place, fade_center));
     color = vec4(to_srgb(light + shine), alpha);
 }

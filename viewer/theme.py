@@ -66,7 +66,7 @@ NORMAL_WIDTH = 1.5
 FRAME_WIDTH = 1.2  # the camera's frustum
 
 FONT_SIZE = 16.0  # pixels at 1280x720; 18 is what a back row reads, 16 what four panels leave room for
-SMALL = 0.86  # of the font's size, for labels in figures
+SMALL = 0.9  # of the font's size, for labels in figures
 LECTURE_ZOOM = 1.35  # what the lecture mode multiplies sizes by
 
 

@@ -1,8 +1,8 @@
 """Where the nodes of a ray tree stand: the tidy tree of Reingold & Tilford, IEEE Trans. Softw. Eng. 7(2), 1981.
 
-A parent stands over the middle of the rays it sends out; no two nodes of a level come closer than their widths; the same
-subtree looks the same wherever it stands. Reflected rays go left, refracted ones right, and between them, half a level
-down, short stubs lead to the lights, as in Whitted's figure.
+Reflected rays go to the left of their hit, refracted ones to the right, and the hit stands over their middle. Between
+them, half a level down, short stubs lead to the lights, as in Whitted's figure. Nothing of one level comes closer than
+its width; the same subtree looks the same wherever it stands.
 """
 
 from dataclasses import dataclass
@@ -10,8 +10,12 @@ from dataclasses import dataclass
 from tracer.nodes import REFRACTION, SHADOW
 from tracer.tree import RayTree
 
-RAY_WIDTH = 1.0
-STUB_WIDTH = 0.5
+# In node widths. A node's name stands to its right.
+LEFT, RIGHT = 0.32, 0.92
+STUB_GAP = 0.32  # between two stubs
+STUB_HALF = 0.16
+LEAN = 0.5  # how far to its side an only child stands
+EDGE_ROOM = 0.2  # between a stub and the edges beside it
 
 
 @dataclass(frozen=True)
@@ -35,51 +39,69 @@ def layout(tree: RayTree, rows: set[int]) -> dict[int, Place]:
     """Places of these rows (with every row its parent must be there); the root at x = 0."""
     subtrees: dict[int, _Subtree] = {}
     for i in sorted(rows, reverse=True):
-        subtrees[i] = _join(tree, i, [child for child in tree.children[i] if child in rows], subtrees)
-    root = subtrees[0]
+        if tree.nodes["kind"][i] != SHADOW:
+            subtrees[i] = _join(tree, i, [child for child in tree.children[i] if child in rows], subtrees)
     half = tree.nodes["kind"] == SHADOW
-    return {i: Place(x, float(tree.nodes["depth"][i]) + (0.5 if half[i] else 0.0)) for i, x in root.offsets.items()}
+    offsets = subtrees[0].offsets
+    return {i: Place(x, float(tree.nodes["depth"][i]) + (0.5 if half[i] else 0.0)) for i, x in offsets.items()}
 
 
 def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtree]) -> _Subtree:
-    """The subtree of row i from those of its children, which are used up."""
+    """The subtree of row i from those of the rays it sends out, which are used up."""
     kinds = tree.nodes["kind"]
-    half_width = 0.5 * (STUB_WIDTH if kinds[i] == SHADOW else RAY_WIDTH)
-    ordered = sorted(children, key=lambda child: (_rank(kinds[child]), child))
-    # Each is pushed right of those before it, as far as their outlines demand.
-    shifts: list[float] = []
-    left: list[float] = []
-    right: list[float] = []
-    for child in ordered:
-        sub = subtrees[child]
-        down = 1 if kinds[child] == SHADOW else 2
-        shift = 0.0
-        for level, reach in enumerate(sub.left):
-            if level + down < len(right) and right[level + down] > -1e9:
-                shift = max(shift, right[level + down] - reach)
-        # Neighbours of one parent keep apart even where one hangs half a level lower.
-        if shifts:
-            shift = max(shift, shifts[-1] + 0.5 * STUB_WIDTH)
-        shifts.append(shift)
-        for level, (low, high) in enumerate(zip(sub.left, sub.right, strict=True)):
-            at = level + down
-            while len(left) <= at:
-                left.append(1e9)
-                right.append(-1e9)
-            left[at], right[at] = min(left[at], low + shift), max(right[at], high + shift)
-    middle = 0.5 * (shifts[0] + shifts[-1]) if shifts else 0.0
+    stubs = [child for child in children if kinds[child] == SHADOW]
+    thrown_back = [child for child in children if kinds[child] not in (SHADOW, REFRACTION)]
+    let_through = [child for child in children if kinds[child] == REFRACTION]
+    rays = [*thrown_back, *let_through]
+    shifts = _apart([subtrees[child] for child in rays])
+    if thrown_back and let_through:
+        # The edges must leave room for the stubs where they pass them, halfway down.
+        wanted = 4.0 * (0.5 * STUB_GAP * max(len(stubs) - 1, 0) + EDGE_ROOM) if stubs else 0.0
+        grow = max(0.0, wanted - (shifts[-1] - shifts[0]))
+        shifts = [shift + (grow if k >= len(thrown_back) else 0.0) for k, shift in enumerate(shifts)]
+        middle = 0.5 * (shifts[0] + shifts[-1])
+    elif rays:
+        middle = shifts[-1] + LEAN if thrown_back else shifts[0] - LEAN
+    else:
+        middle = 0.0
+    shifts = [shift - middle for shift in shifts]
     offsets = {i: 0.0}
-    for child, shift in zip(ordered, shifts, strict=True):
-        for row, x in subtrees.pop(child).offsets.items():
-            offsets[row] = x + shift - middle
-    reach_left = [-half_width, *(x - middle for x in left[1:])]
-    reach_right = [half_width, *(x - middle for x in right[1:])]
-    return _Subtree(offsets, reach_left, reach_right)
+    left, right = [-LEFT, 0.0], [RIGHT, 0.0]
+    for child, x in zip(stubs, _stub_places(len(stubs), bool(thrown_back), bool(let_through)), strict=True):
+        offsets[child] = x
+        left[1], right[1] = min(left[1], x - STUB_HALF), max(right[1], x + STUB_HALF)
+    for child, shift in zip(rays, shifts, strict=True):
+        sub = subtrees.pop(child)
+        offsets |= {row: x + shift for row, x in sub.offsets.items()}
+        left[1], right[1] = min(left[1], 0.5 * shift), max(right[1], 0.5 * shift)
+        for level, (low, high) in enumerate(zip(sub.left, sub.right, strict=True), start=2):
+            if level == len(left):
+                left.append(low + shift)
+                right.append(high + shift)
+            left[level], right[level] = min(left[level], low + shift), max(right[level], high + shift)
+    return _Subtree(offsets, left, right)
 
 
-def _rank(kind: int) -> int:
-    """Reflected, then the lights, then refracted, from left to right."""
-    return 2 if kind == REFRACTION else 1 if kind == SHADOW else 0
+def _apart(subtrees: list[_Subtree]) -> list[float]:
+    """Shifts that put subtrees side by side, each as far left as the outlines of those before it allow."""
+    shifts: list[float] = []
+    edge: list[float] = []
+    for sub in subtrees:
+        shift = max((edge[level] - reach for level, reach in enumerate(sub.left[: len(edge)])), default=0.0)
+        shifts.append(shift)
+        for level, reach in enumerate(sub.right):
+            if level == len(edge):
+                edge.append(reach + shift)
+            edge[level] = max(edge[level], reach + shift)
+    return shifts
+
+
+def _stub_places(count: int, ray_left: bool, ray_right: bool) -> list[float]:
+    """Where the stubs to the lights hang: in the middle, or on the side where no ray goes."""
+    if ray_left != ray_right:
+        sign = 1.0 if ray_left else -1.0
+        return [sign * (0.5 * EDGE_ROOM + STUB_GAP * k) for k in range(count)]
+    return [STUB_GAP * (k - 0.5 * (count - 1)) for k in range(count)]
 
 
 def heaviest_rows(tree: RayTree, most: int, rows: set[int]) -> set[int]:

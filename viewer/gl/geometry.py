@@ -12,6 +12,7 @@ from tracer.shapes.mesh import Mesh
 from tracer.shapes.plane import Plane
 from tracer.shapes.planar import newell
 from tracer.shapes.polygon import Polygon
+from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
 from tracer.vector import unit
 from viewer.orbit import Frame
@@ -34,8 +35,11 @@ def ball(segments: int) -> np.ndarray:
 
 
 def triangles(shape: object, frame: Frame) -> tuple[np.ndarray, np.ndarray]:
-    """(corners, normals), both (n, 3, 3), of any shape but a sphere."""
+    """(corners, normals), both (n, 3, 3), of any shape."""
     match shape:
+        case Sphere():
+            unit_ball = ball(64)
+            return np.array(shape.center) + shape.radius * unit_ball, unit_ball
         case Box():
             corners = _box(shape)
         case Triangle():

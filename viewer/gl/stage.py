@@ -71,14 +71,14 @@ class Stage:
         if self.surfaces:
             # Pushed back a little, so that lines that end on a surface stand before it.
             ctx.polygon_offset = 1.0, 2.0
-            self.surfaces.draw(orbit, matrix, theme, glass=False)
+            self.surfaces.draw(orbit, matrix, glass=False)
             ctx.polygon_offset = 0.0, 0.0
         self.target.drawn.depth_mask = False
         self._draw_lines(matrix, theme, size, scale, 1.0)
         if plane:
             self._draw_picture(matrix, plane)
         if self.surfaces:
-            self.surfaces.draw(orbit, matrix, theme, glass=True)
+            self.surfaces.draw(orbit, matrix, glass=True)
         ctx.depth_func = ">"
         self._draw_lines(matrix, theme, size, scale, HIDDEN)
         ctx.depth_func = "<="

@@ -1,33 +1,44 @@
-"""The scene's surfaces as the 3D view shows them: opaque ones first, glass over the rays, back faces before front ones."""
+"""The scene's surfaces as the 3D view shows them: opaque ones first, glass over the rays, back faces before front ones.
+
+Walls are one-way: seen from the side where the scene's camera is they are solid, from the other side a ghost. So one
+looks into a room from outside, as into a doll's house.
+"""
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import moderngl
 import numpy as np
 
 from tracer.shapes.plane import Plane
+from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
+from tracer.shapes.triangle import Triangle
 from tracer.world import World
 from viewer.gl.geometry import ball, triangles
 from viewer.gl.program import make_program, put
 from viewer.orbit import Frame, Orbit
-from viewer.theme import Theme
 
 MOST_LIGHTS = 8  # as in surface.frag
 ROUND = 96  # segments of a ball where few are drawn
 TRIANGLES = 400_000  # that all balls together may take
 
 
+GHOST = 0.13  # opacity of a wall seen from its other side
+FADES = {True: (1.1, 2.4), False: (3.0, 10.0)}  # where an endless plane of glass, or another, fades out
+
+
+@dataclass(frozen=True)
 class Group:
     """One draw call: triangles at one place, or one ball many times."""
 
-    def __init__(self, array: moderngl.VertexArray, middle: np.ndarray, glass: bool, endless: bool, count: int) -> None:
-        self.array = array
-        self.middle = middle
-        self.glass = glass
-        self.endless = endless
-        self.count = count
+    array: moderngl.VertexArray
+    middle: np.ndarray
+    glass: bool = False
+    endless: bool = False
+    wall: bool = False
+    count: int = 1
 
 
 class Surfaces:
@@ -40,6 +51,7 @@ class Surfaces:
         self.frame = frame
         self.owned: list[Any] = []
         self.groups: list[Group] = []
+        self.camera = np.array(world.view().eye)
         self._make_textures()
         self._make_balls()
         self._make_triangles()
@@ -49,33 +61,38 @@ class Surfaces:
             thing.release()
         self.owned.clear()
 
-    def draw(self, orbit: Orbit, matrix: np.ndarray, theme: Theme, glass: bool) -> None:
-        """The opaque surfaces, or those of glass, farthest first."""
-        if not any(group.glass == glass for group in self.groups):
-            return
-        self._set_uniforms(orbit, matrix, theme, glass)
-        chosen = [group for group in self.groups if group.glass == glass]
-        chosen.sort(key=lambda group: -float(np.linalg.norm(group.middle - orbit.eye)))
+    def draw(self, orbit: Orbit, matrix: np.ndarray, glass: bool) -> None:
+        """The opaque surfaces; or what one sees through: glass, farthest first, and walls from behind."""
+        self._set_uniforms(orbit, matrix)
         ctx = self.ctx
+        chosen = [group for group in self.groups if group.glass == glass]
         if not glass:
             for group in sorted(chosen, key=lambda group: group.endless):
-                self._draw_group(group)
+                self._draw_group(group, culled="back" if group.wall else None)
             return
+        chosen.sort(key=lambda group: -float(np.linalg.norm(group.middle - orbit.eye)))
         ctx.fbo.depth_mask = False
-        ctx.enable(moderngl.CULL_FACE)
         for group in chosen:
-            for face in ("front", "back"):  # what is culled: first the near side, so that the far side is drawn first
-                ctx.cull_face = face
-                self._draw_group(group)
-        ctx.disable(moderngl.CULL_FACE)
+            if not group.wall:
+                self._draw_group(group, culled="front")  # its far side first
+                self._draw_group(group, culled="back")
+        for group in self.groups:
+            if group.wall and not group.glass:
+                self._draw_group(group, culled="front", ghost=GHOST)
         ctx.fbo.depth_mask = True
 
-    def _draw_group(self, group: Group) -> None:
+    def _draw_group(self, group: Group, culled: str | None, ghost: float = 0.0) -> None:
+        if culled:
+            self.ctx.enable(moderngl.CULL_FACE)
+            self.ctx.cull_face = culled
         # An endless plane fades before its square's edge shows.
-        put(self.program, fade_from=3.0 if group.endless else 0.0, fade_to=10.0)
+        fade_from, fade_to = FADES[group.glass] if group.endless else (0.0, 0.0)
+        put(self.program, fade_from=fade_from, fade_to=fade_to, ghost=ghost)
         group.array.render(moderngl.TRIANGLES, instances=group.count)
+        if culled:
+            self.ctx.disable(moderngl.CULL_FACE)
 
-    def _set_uniforms(self, orbit: Orbit, matrix: np.ndarray, theme: Theme, glass: bool) -> None:
+    def _set_uniforms(self, orbit: Orbit, matrix: np.ndarray) -> None:
         lights = np.zeros((MOST_LIGHTS, 4), np.float32)
         colors = np.zeros((MOST_LIGHTS, 3), np.float32)
         rows = self.world.arrays.lights[:MOST_LIGHTS]
@@ -96,7 +113,6 @@ class Surfaces:
             sky_bottom=tuple(background * 0.25 + 0.05),
             fade_center=(0.0, 0.0, 0.0),
             origin=tuple(self.frame.middle / self.frame.radius),
-            glass_pass=1.0 if glass else 0.0,
         )
         self.program["lights"].write(lights.tobytes())  # type: ignore[union-attr]
         self.program["light_colors"].write(colors.tobytes())  # type: ignore[union-attr]
@@ -127,7 +143,7 @@ class Surfaces:
 
     def _make_balls(self) -> None:
         objects = self.world.scene.objects
-        balls = [(k, item.shape) for k, item in enumerate(objects) if isinstance(item.shape, Sphere)]
+        balls = [(k, item.shape) for k, item in enumerate(objects) if self._is_plain_ball(item.shape)]
         if not balls:
             return
         segments = int(min(ROUND, max(8, math.sqrt(TRIANGLES / len(balls)))))
@@ -136,50 +152,69 @@ class Surfaces:
         places = np.array([(*self.frame.inside(shape.center), shape.radius / self.frame.radius, k) for k, shape in balls])
         glass = np.array([objects[k].material.transmit > 0.0 for k, _ in balls])
         if (~glass).any():
-            self._ball_group(shared, places[~glass], False)
+            self._ball_group(shared, places[~glass], glass=False)
         for row in places[glass]:  # one by one: they are sorted by distance
-            self._ball_group(shared, row[None], True)
+            self._ball_group(shared, row[None], glass=True)
+
+    def _is_plain_ball(self, shape: object) -> bool:
+        """A ball that is not a room about the camera."""
+        return isinstance(shape, Sphere) and not shape.contains(self.camera)
 
     def _ball_group(self, shared: moderngl.Buffer, places: np.ndarray, glass: bool) -> None:
         own = self._buffer(places.astype(np.float32))
         content = [(shared, "3f 3f", "corner", "normal"), (own, "4f 1f/i", "ball", "material")]
-        self._add(content, places[:, :3].mean(axis=0), glass, False, len(places))
+        self._add(content, places[:, :3].mean(axis=0), glass=glass, count=len(places))
 
     def _make_triangles(self) -> None:
-        opaque = []
+        plain: list[np.ndarray] = []
+        walls: list[np.ndarray] = []
         for k, item in enumerate(self.world.scene.objects):
-            if isinstance(item.shape, Sphere):
+            if self._is_plain_ball(item.shape):
                 continue
             corners, normals = triangles(item.shape, self.frame)
+            wall = isinstance(item.shape, Polygon | Triangle) or item.shape.contains(self.camera)
+            glass = item.material.transmit > 0.0
+            endless = isinstance(item.shape, Plane)
+            if wall and not glass and not endless:
+                corners, normals = _turned(corners, normals, self.camera)
             rows = np.concatenate(
                 [self.frame.inside(corners), normals, np.full((*corners.shape[:2], 1), k)], axis=2
             ).reshape(-1, 7)
-            endless = isinstance(item.shape, Plane)
-            glass = item.material.transmit > 0.0
             if glass or endless:
-                self._triangle_group(rows, glass, endless)
+                self._triangle_group(rows, glass=glass, endless=endless)
             else:
-                opaque.append(rows)
-        if opaque:
-            self._triangle_group(np.concatenate(opaque), False, False)
+                (walls if wall else plain).append(rows)
+        if plain:
+            self._triangle_group(np.concatenate(plain))
+        if walls:
+            self._triangle_group(np.concatenate(walls), wall=True)
 
-    def _triangle_group(self, rows: np.ndarray, glass: bool, endless: bool) -> None:
+    def _triangle_group(self, rows: np.ndarray, **options: bool) -> None:
         everywhere = self._buffer(np.array([[0.0, 0.0, 0.0, 1.0]], np.float32))
         content = [
             (self._buffer(rows.astype(np.float32)), "3f 3f 1f", "corner", "normal", "material"),
             (everywhere, "4f/i", "ball"),
         ]
-        self._add(content, rows[:, :3].mean(axis=0), glass, endless, 1)
+        self._add(content, rows[:, :3].mean(axis=0), **options)
 
-    def _add(self, content: list, middle: np.ndarray, glass: bool, endless: bool, count: int) -> None:
+    def _add(self, content: list, middle: np.ndarray, **options: Any) -> None:
         array = self.ctx.vertex_array(self.program, content)
         self.owned.append(array)
-        self.groups.append(Group(array, middle, glass, endless, count))
+        self.groups.append(Group(array, middle, **options))
 
     def _buffer(self, rows: np.ndarray) -> moderngl.Buffer:
         buffer = self.ctx.buffer(np.ascontiguousarray(rows, np.float32).tobytes())
         self.owned.append(buffer)
         return buffer
+
+
+def _turned(corners: np.ndarray, normals: np.ndarray, camera: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Triangles with their front to the camera."""
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    away = (area * (camera - corners[:, 0])).sum(axis=1) < 0.0
+    corners, normals = corners.copy(), normals.copy()
+    corners[away], normals[away] = corners[away][:, ::-1], -normals[away][:, ::-1]
+    return corners, normals
 
 
 def make_surface_program(ctx: moderngl.Context) -> moderngl.Program:

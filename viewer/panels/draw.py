@@ -27,14 +27,15 @@ def text_size(text: str, size: float) -> Point:
     return (found.x * share, found.y * share)
 
 
-def text(draw: imgui.ImDrawList, at: Point, color: Color, content: str, size: float, halo: Color | None = None) -> None:
-    """A text with its top left corner at `at`; with a halo it reads on any picture."""
-    if halo:
-        seam = u32(faded(halo, 0.85))
-        step = max(1.0, size / 14.0)
-        for dx, dy in ((-step, 0), (step, 0), (0, -step), (0, step)):
-            draw.add_text(imgui.get_font(), size, (at[0] + dx, at[1] + dy), seam, content)
-    draw.add_text(imgui.get_font(), size, at, u32(color), content)
+def text(draw: imgui.ImDrawList, at: Point, color: Color, content: str, size: float, plate: Color | None = None) -> None:
+    """A text with its top left corner at `at`; on a plate of the ground's colour it reads on any picture."""
+    size = round(size)
+    x, y = round(at[0]), round(at[1])  # between pixels letters blur
+    if plate:
+        width, height = text_size(content, size)
+        grow = round(0.18 * size)
+        draw.add_rect_filled((x - grow, y - 1), (x + width + grow, y + height + 1), u32(faded(plate, 0.78)), 0.25 * size)
+    draw.add_text(imgui.get_font(), size, (x, y), u32(color), content)
 
 
 def line(draw: imgui.ImDrawList, a: Point, b: Point, color: Color, width: float, dash: Point = (0.0, 0.0)) -> None:

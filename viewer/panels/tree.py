@@ -17,9 +17,11 @@ from viewer.theme import DIMMED, SMALL, STYLES, faded
 TITLE = "Ray tree"
 
 MOST_ROWS = 160  # drawn; of larger trees the heaviest rays
-COLUMN, LEVEL = 96.0, 92.0  # logical pixels between nodes
+# Logical pixels: between neighbours and between levels, at most and at least; smaller and the tree has to be moved.
+WIDEST, NARROWEST = 170.0, 34.0
+TALLEST, LOWEST = 104.0, 40.0
+EYE_ROOM = 50.0  # above the first hit
 RADIUS = 11.0
-SMALLEST = 0.45  # to which a wide tree shrinks before it has to be moved to be seen
 
 
 def draw(session: Session, canvas: Canvas) -> None:
@@ -64,29 +66,23 @@ class _Diagram:
         self.kept = family(self.tree, session.selected) if session.selected is not None else None
 
     def _fit(self, places: dict[int, Place], corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
-        """From places to pixels: as large as fits, up to life size; then as the user moved it."""
+        """From places to pixels: as far apart as there is room for, up to a spacing beyond which nothing gets clearer."""
         look = self.session.tree_view
         unit = d.unit()
-        xs = [place.x for place in places.values()]
-        ys = [place.y for place in places.values()]
-        left, right = min(xs) - 0.55, max(xs) + 0.95
-        lines = max(ys) + 1.35
-        width, height = COLUMN * unit, LEVEL * unit
-        scale = min(1.0, room.x / (width * (right - left)), room.y / (height * lines))
-        self.scale = max(SMALLEST, scale) * look.zoom
-        self.text_size = max(SMALL * imgui.get_font_size() * min(1.0, 0.35 + 0.65 * self.scale), 11.0 * unit)
-        # Levels use the height there is, columns the width, up to a spacing beyond which nothing gets clearer.
-        wide = min(1.7, max(self.scale, room.x / (width * (right - left)) * look.zoom))
-        tall = min(1.25, max(self.scale, room.y / (height * lines) * look.zoom))
-        step_x, step_y = width * wide, height * tall
-        middle = 0.5 * (left + right)
-        base_x = corner.x + 0.5 * room.x - middle * step_x + look.center[0] * unit
-        base_y = corner.y + 0.78 * step_y + look.center[1] * unit
-        if room.x < (right - left) * step_x * 0.999 and look.zoom == 1.0:
-            base_x = corner.x + 0.5 * room.x + look.center[0] * unit  # too wide: the eye stays in the middle
-        self.step_x, self.step_y = step_x, step_y
-        self.at = {i: (base_x + p.x * step_x, base_y + p.y * step_y) for i, p in places.items()}
-        self.radius = RADIUS * unit * min(1.0, max(0.55, self.scale))
+        left = min(place.x for place in places.values()) - 0.9
+        right = max(place.x for place in places.values()) + 1.0
+        lowest = max(0.5, *(place.y for place in places.values()))
+        head, foot = EYE_ROOM * unit, 22.0 * unit
+        width = min(WIDEST, max(NARROWEST, room.x / unit / (right - left)))
+        height = min(TALLEST, max(LOWEST, (room.y - head - foot) / unit / lowest))
+        self.step_x, self.step_y = width * unit * look.zoom, height * unit * look.zoom
+        fits = room.x >= (right - left) * width * unit * 0.999
+        middle = 0.5 * (left + right) if fits else 0.0  # too wide: the eye stays in the middle
+        base_x = corner.x + 0.5 * room.x - middle * self.step_x + look.center[0] * unit
+        base_y = corner.y + head + look.center[1] * unit
+        self.at = {i: (base_x + p.x * self.step_x, base_y + p.y * self.step_y) for i, p in places.items()}
+        self.text_size = SMALL * imgui.get_font_size()
+        self.radius = min(RADIUS, 0.2 * self.step_y / unit, 0.2 * self.step_x / unit) * unit
         self.corner, self.room = corner, room
 
     def draw(self) -> None:
@@ -95,8 +91,10 @@ class _Diagram:
         for i in reversed(self.rows):
             self._edge(i)
         for i in self.rows:
+            self._edge_label(i)
+        for i in self.rows:
             self._node(i)
-        self._foot()
+        self._note()
         self._handle_mouse()
 
     def opacity(self, i: int) -> float:
@@ -108,7 +106,7 @@ class _Diagram:
         if parent >= 0:
             return self.at[parent]
         x, y = self.at[0]
-        return (x, y - 0.62 * self.step_y)
+        return (x, y - 36 * d.unit())
 
     def _levels(self) -> None:
         """The depths, as faint lines with their number."""
@@ -143,17 +141,20 @@ class _Diagram:
         if tree.end(i) == "blocked":
             dash = (4.0, 4.0)
         d.line(self.pad, a, b, color, width, (dash[0] * unit * 0.8, dash[1] * unit * 0.8))
-        d.arrow(self.pad, a, b, 0.55, color, 9.0 * unit * min(1.0, self.scale + 0.2), style.arrow)
-        if kind != "shadow" and i > 0 and self.step_x > 52 * unit:
-            self._edge_label(i, a, b, style.letter)
+        d.arrow(self.pad, a, b, 0.55, color, 9.0 * unit, style.arrow)
 
-    def _edge_label(self, i: int, a: tuple, b: tuple, letter: str) -> None:
-        factor = float(self.tree.nodes["factor"][i].max())
-        content = f"{letter} × {shown(factor, 3)}"
-        size = 0.94 * self.text_size
+    def _edge_label(self, i: int) -> None:
+        """What the parent multiplies this ray by, beside its edge, where there is room for it."""
+        unit = d.unit()
+        kind = self.tree.kind(i)
+        if kind == "shadow" or i == 0 or self.step_x < 74 * unit or self.step_y < 52 * unit:
+            return
+        a, b = self._top(i), self.at[i]
+        content = f"{STYLES[kind].letter} × {shown(float(self.tree.nodes['factor'][i].max()), 3)}"
+        size = self.text_size
         width, height = d.text_size(content, size)
         x, y = a[0] + 0.6 * (b[0] - a[0]), a[1] + 0.6 * (b[1] - a[1])
-        gap = 7.0 * d.unit()
+        gap = 8.0 * unit
         x = x - width - gap if b[0] < a[0] - 1.0 else x + gap
         color = faded(self.theme.ray(self.tree.kind(i)), self.opacity(i))
         d.text(self.pad, (x, y - 0.5 * height), color, content, size, self.theme.panel)
@@ -202,7 +203,8 @@ class _Diagram:
         if selected:
             self.pad.add_circle((x, y), 1.5 * r, d.u32(self.theme.accent), 0, 2.5 * d.unit())
 
-    def _foot(self) -> None:
+    def _note(self) -> None:
+        """In the corner: what is not to be seen of this tree."""
         parts = []
         if self.folded > 0:
             parts.append(f"{len(self.rows)} of {len(self.tree)} rays drawn")
@@ -212,7 +214,8 @@ class _Diagram:
             return
         content = "; ".join(parts)
         size = self.text_size
-        at = (self.corner.x + 6 * d.unit(), self.corner.y + self.room.y - 1.3 * size)
+        width, _ = d.text_size(content, size)
+        at = (self.corner.x + self.room.x - width - 8 * d.unit(), self.corner.y + 4 * d.unit())
         d.text(self.pad, at, self.theme.muted, content, size, self.theme.panel)
 
     def _handle_mouse(self) -> None:
