@@ -86,7 +86,8 @@ void main() {
         float fresnel = r0 + (1.0 - r0) * pow(1.0 - c1, 5.0);
         float rim = clamp(terms.w + 0.85 * fresnel + 0.16 * pow(1.0 - c1, 2.0), 0.0, 1.0);
         light = light + mix(0.55 * mix(sky(v), base, 0.5), mirrored, rim);
-        alpha = clamp(0.10 + (1.0 - glass.x) + rim + dot(shine, vec3(0.33)), 0.0, 0.92);
+        alpha = clamp(0.07 + 0.6 * (1.0 - glass.x) + rim, 0.0, fade_from > 0.0 ? 0.2 : 0.85);
+        alpha = clamp(alpha + dot(shine, vec3(0.33)), 0.0, 0.92);
     } else {
         light += terms.w * mirrored;
     }

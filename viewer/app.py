@@ -1,6 +1,7 @@
 """The frame loop: events in, the session brought up to date, every panel drawn, and sleep while nothing happens."""
 
 import contextlib
+import time
 from collections.abc import Callable
 
 from imgui_bundle import imgui
@@ -15,7 +16,8 @@ from viewer.window import Offscreen, Window
 DOCK = "dock"
 
 IDLE = 0.3  # seconds of sleep between looks at the scene's file
-BUSY = 1 / 30  # between frames while an image renders: more would take time from it
+BUSY = 1 / 30  # between frames while an image renders, at least
+SHARE = 0.3  # of the time that frames may take from an image that renders
 AFTERGLOW = 3  # frames drawn after the last event: imgui needs one or two to settle
 
 
@@ -36,14 +38,19 @@ class App:
 
     def run(self) -> None:
         glow = AFTERGLOW
+        drawn = took = 0.0
         while not self.surface.closing and not self.session.wants_quit:
             busy = self._is_busy()
             self.surface.wait(BUSY if busy else 0.0 if glow > 0 else IDLE)
-            news = self.session.update() or busy
+            news = self.session.update()
             had_events = self._has_events()
             glow = AFTERGLOW if news or had_events else glow - 1
-            if glow > 0 and not self.surface.minimised:
+            now = time.perf_counter()
+            due = glow > 0 or (busy and now - drawn > max(BUSY, took / SHARE))
+            if due and not self.surface.minimised:
                 self.frame()
+                drawn = time.perf_counter()
+                took = drawn - now
 
     def settle(self, frames: int = 3) -> None:
         """Draw until everything is there: the scene, the first full image, the tree."""

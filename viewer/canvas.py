@@ -1,5 +1,7 @@
 """What panels share of the GPU: the 3D stage and the picture's texture, made anew only when something has changed."""
 
+import time
+
 import moderngl
 import numpy as np
 from imgui_bundle import imgui
@@ -8,6 +10,9 @@ from viewer.gl.stage import ImagePlane, Stage
 from viewer.raylines import RayLine, ray_lines
 from viewer.session import Session
 from viewer.stagelines import StageLines, frustum_lines, image_plane, normal_lines, style_rays
+
+
+REFRESH = 0.4  # seconds between the states of an unfinished image that the 3D view shows
 
 
 class Canvas:
@@ -20,6 +25,8 @@ class Canvas:
         self._image_key: object = None
         self._world: object = None
         self._drawn_key: object = None
+        self._image_in_view: object = None
+        self._refreshed = 0.0
         self._plane: np.ndarray | None = None
 
     def picture(self) -> moderngl.Texture | None:
@@ -59,12 +66,21 @@ class Canvas:
         session = self.session
         orbit, shown = session.orbit, session.shown
         eye = (orbit.azimuth, orbit.elevation, orbit.distance, *orbit.target)
-        picture = self._image_key if shown.camera else None
+        picture = self._image_state() if shown.camera else None
         switches = (frozenset(shown.kinds), shown.camera, shown.normals)
         return (
             size, scale, eye, picture, switches, id(session.world), id(session.tree), session.selected,
             session.theme.name,
         )  # fmt: skip
+
+    def _image_state(self) -> object:
+        """Which state of the image stands on the image plane: not every tile is worth drawing the scene again."""
+        shown = self.session.image.picture
+        now = time.monotonic()
+        if shown is None or shown.finished or now - self._refreshed > REFRESH:
+            self._image_in_view = self._image_key
+            self._refreshed = now
+        return self._image_in_view
 
     def _set_world(self) -> None:
         session = self.session

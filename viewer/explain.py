@@ -101,7 +101,7 @@ def explain(tree: RayTree, world: World, i: int) -> list[Section]:
     if math.isnan(row["t"]):
         return [_sum(tree, i), numbers(tree, i)]
     material = world.scene.objects[row["object"]].material
-    sections = [_sum(tree, i)]
+    sections = [_sum(tree, i), numbers(tree, i)]
     tir = row["radicand"] <= 0.0
     if not math.isnan(row["radicand"]):
         sections.append(_snell(tree, i))
@@ -112,8 +112,7 @@ def explain(tree: RayTree, world: World, i: int) -> list[Section]:
             sections.append(_fresnel(tree, i, material))
     if material.reflect > 0.0 or tir or tree.model == MODELS[1] and material.transmit > 0.0:
         sections.append(_reflection(tree, i))
-    sections.append(_local(tree, world, i))
-    return [*sections, numbers(tree, i)]
+    return [*sections, _local(tree, world, i)]
 
 
 def _sum(tree: RayTree, i: int) -> Section:

@@ -20,26 +20,26 @@ from viewer.orbit import Frame
 PLANE_REACH = 12.0  # radii of the scene
 
 
-def ball(segments: int) -> np.ndarray:
-    """The unit ball as triangles (n, 3, 3), by circles of latitude; its corners are its normals."""
+def ball(segments: int) -> tuple[np.ndarray, np.ndarray]:
+    """The unit ball by circles of latitude: (corners (n, 3), which are its normals too, faces (m, 3))."""
     lines = segments // 2
     theta = np.linspace(0.0, math.pi, lines + 1)[:, None]
     phi = np.linspace(0.0, 2 * math.pi, segments + 1)[None, :]
     grid = np.stack(
         [np.sin(theta) * np.cos(phi), np.cos(theta) * np.ones_like(phi), -np.sin(theta) * np.sin(phi)], axis=-1
     )
-    a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
-    return np.concatenate(
-        [np.stack([a, b, c], axis=2).reshape(-1, 3, 3), np.stack([a, c, d], axis=2).reshape(-1, 3, 3)]
-    )
+    a = (np.arange(lines)[:, None] * (segments + 1) + np.arange(segments)[None, :]).ravel()
+    b, c, d = a + segments + 1, a + segments + 2, a + 1
+    faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+    return grid.reshape(-1, 3), faces
 
 
 def triangles(shape: object, frame: Frame) -> tuple[np.ndarray, np.ndarray]:
     """(corners, normals), both (n, 3, 3), of any shape."""
     match shape:
         case Sphere():
-            unit_ball = ball(64)
-            return np.array(shape.center) + shape.radius * unit_ball, unit_ball
+            corners, faces = ball(64)
+            return (np.array(shape.center) + shape.radius * corners)[faces], corners[faces]
         case Box():
             corners = _box(shape)
         case Triangle():

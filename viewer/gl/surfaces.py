@@ -21,7 +21,7 @@ from viewer.gl.program import make_program, put
 from viewer.orbit import Frame, Orbit
 
 MOST_LIGHTS = 8  # as in surface.frag
-ROUND = 96  # segments of a ball where few are drawn
+ROUND = 64  # segments of a ball where few are drawn
 TRIANGLES = 400_000  # that all balls together may take
 
 
@@ -147,8 +147,10 @@ class Surfaces:
         if not balls:
             return
         segments = int(min(ROUND, max(8, math.sqrt(TRIANGLES / len(balls)))))
-        corners = ball(segments - segments % 2).reshape(-1, 3).astype(np.float32)
+        corners, faces = ball(segments - segments % 2)
         shared = self._buffer(np.hstack([corners, corners]))
+        self.faces = self.ctx.buffer(faces.astype(np.uint32).tobytes())
+        self.owned.append(self.faces)
         places = np.array([(*self.frame.inside(shape.center), shape.radius / self.frame.radius, k) for k, shape in balls])
         glass = np.array([objects[k].material.transmit > 0.0 for k, _ in balls])
         if (~glass).any():
@@ -163,7 +165,7 @@ class Surfaces:
     def _ball_group(self, shared: moderngl.Buffer, places: np.ndarray, glass: bool) -> None:
         own = self._buffer(places.astype(np.float32))
         content = [(shared, "3f 3f", "corner", "normal"), (own, "4f 1f/i", "ball", "material")]
-        self._add(content, places[:, :3].mean(axis=0), glass=glass, count=len(places))
+        self._add(content, places[:, :3].mean(axis=0), self.faces, glass=glass, count=len(places))
 
     def _make_triangles(self) -> None:
         plain: list[np.ndarray] = []
@@ -195,10 +197,10 @@ class Surfaces:
             (self._buffer(rows.astype(np.float32)), "3f 3f 1f", "corner", "normal", "material"),
             (everywhere, "4f/i", "ball"),
         ]
-        self._add(content, rows[:, :3].mean(axis=0), **options)
+        self._add(content, rows[:, :3].mean(axis=0), None, **options)
 
-    def _add(self, content: list, middle: np.ndarray, **options: Any) -> None:
-        array = self.ctx.vertex_array(self.program, content)
+    def _add(self, content: list, middle: np.ndarray, faces: moderngl.Buffer | None, **options: Any) -> None:
+        array = self.ctx.vertex_array(self.program, content, index_buffer=faces)
         self.owned.append(array)
         self.groups.append(Group(array, middle, **options))
 
