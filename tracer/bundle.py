@@ -36,7 +36,9 @@ class Bundle:
         self.numba_type = BundleType(tuple(_layout(name, value, writable) for name, value in fields._asdict().items()))
 
     def __getattr__(self, name: str) -> Any:
-        return getattr(self._fields, name)
+        value = getattr(self._fields, name)
+        # With its fields as attributes, as compiled code has them: so kernels run as plain Python too.
+        return value.view(np.recarray) if isinstance(value, np.ndarray) and value.dtype.names else value
 
 
 class Entry(NamedTuple):

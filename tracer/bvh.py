@@ -58,10 +58,10 @@ def build(bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             return box, np.zeros(0, np.int32)
         box["low"], box["high"], box["count"] = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0), n
         return box, np.arange(n, dtype=np.int32)
-    boxes = np.zeros(2 * n, BOX)
+    boxes = np.zeros(2 * n, BOX).view(np.recarray)
     order = np.arange(n, dtype=np.int32)
     used = split_all(np.ascontiguousarray(bounds), boxes, order, Scratch.make())
-    return boxes[:used].copy(), order
+    return boxes[:used].view(np.ndarray).copy(), order
 
 
 @kernel

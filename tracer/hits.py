@@ -29,15 +29,23 @@ def distance(world: Any, s: int, ray: Ray, floor: float, floor_id: int, above: f
     return intersect(world, world.surfaces[s], ray, least)
 
 
-@routine
+@compiled
 def closest(world: Any, ray: Ray, floor: float, floor_id: int, stack: Any) -> tuple[float, int, bool]:
     """(t, surface, tied): the first hit after (floor, floor_id); surface -1 for none, tied: another is as close."""
+    return closest_within(world, ray, floor, floor_id, math.inf, stack)
+
+
+@routine
+def closest_within(
+    world: Any, ray: Ray, floor: float, floor_id: int, limit: float, stack: Any
+) -> tuple[float, int, bool]:
+    """`closest` among the hits no farther than `limit`."""
     above = np.nextafter(floor, math.inf) if floor > 0.0 else SMALLEST
-    best, found, tied = math.inf, -1, False
+    best, found, tied = limit, -1, False
     for k in range(len(world.unbounded)):
         s = world.unbounded[k]
         t = distance(world, s, ray, floor, floor_id, above)
-        if t < best:
+        if t < best or (t == best and found < 0 and t < math.inf):
             best, found, tied = t, s, False
         elif t == best and t < math.inf:
             found, tied = min(found, s), True
@@ -57,7 +65,7 @@ def closest(world: Any, ray: Ray, floor: float, floor_id: int, stack: Any) -> tu
             for k in range(box.second, box.second + box.count):
                 s = world.order[k]
                 t = distance(world, s, ray, floor, floor_id, above)
-                if t < best:
+                if t < best or (t == best and found < 0 and t < math.inf):
                     best, found, tied = t, s, False
                 elif t == best and t < math.inf:
                     found, tied = min(found, s), True
@@ -79,7 +87,7 @@ def enters(box: Any, ray: Ray, best: float) -> bool:
     for k in range(3):
         low = (box.low[k] - ray.origin[k]) * ray.inverse[k]
         high = (box.high[k] - ray.origin[k]) * ray.inverse[k]
-        if ray.direction[k] < 0.0:
+        if ray.inverse[k] < 0.0:  # and not the direction: it may be -0, its inverse is then -inf
             low, high = high, low
         high *= OUTWARD
         if low > near:

@@ -7,12 +7,13 @@ hidden: no row, no depth, no shading. A thin sheet bounds no medium and is alway
 
 from typing import Any
 
-from tracer.hits import closest, transmit
+from tracer.hits import closest, closest_within, transmit
 from tracer.jit import compiled, routine
 from tracer.media import contains, medium, put
 from tracer.rays import Ray
 from tracer.shapes import locate
-from tracer.vector import dot
+from tracer.shapes.planar import NEAR
+from tracer.vector import dot, vector
 
 
 @compiled
@@ -31,73 +32,79 @@ def meet_interface(world: Any, ray: Ray, solids: Any, stack: Any) -> tuple[float
     before, behind = solids[0], solids[1]
     t, s, tied = closest(world, ray, 0.0, -1, stack)
     while s >= 0:
-        material_transmits = transmit(world, s) > 0.0
-        if not tied and not material_transmits:
+        if not tied and transmit(world, s) == 0.0:
             return (t, s)
-        shown, last = cross(world, ray, t, s, tied, before, behind, stack)
+        shown, last_t, last = cross(world, ray, t, s, before, behind, stack)
         if shown >= 0:
             return (t, shown)
         for k in range(len(before)):
             before[k] = behind[k]
-        t, s, tied = closest(world, ray, t, last, stack)
+        t, s, tied = closest(world, ray, last_t, last, stack)
     return (t, s)
 
 
 @routine
-def cross(
-    world: Any, ray: Ray, t: float, s: int, tied: bool, before: Any, behind: Any, stack: Any
-) -> tuple[int, int]:
-    """(surface shown or -1, last surface at this t): goes through all surfaces at t, solid by solid."""
-    opaque, sheet, first_solid = -1, -1, -1
-    last = s
-    here = t
-    while s >= 0 and here == t:
-        last = s
-        this = world.objects[world.surfaces[s].object]
-        if transmit(world, s) == 0.0:
-            if opaque < 0:
-                opaque = s
-        elif this.solid < 0:
-            if sheet < 0:
-                sheet = s
-        else:
-            if first_solid < 0:
-                first_solid = s
-            change_medium(world, this, s, ray, t, before, behind)
-        if not tied:
-            break
-        here, s, _ = closest(world, ray, t, s, stack)
-    if opaque >= 0:
-        return (opaque, last)
-    old, new = medium(before), medium(behind)
-    if old != new:
-        seen = max(old, new) if min(old, new) < 0 else min(old, new)
-        return (surface_of(world, ray, t, seen, first_solid, last, tied, stack), last)
-    return (sheet, last)
+def cross(world: Any, ray: Ray, t: float, s: int, before: Any, behind: Any, stack: Any) -> tuple[int, float, int]:
+    """(surface shown or -1, t and surface last passed): goes through all surfaces at t, solid by solid.
 
-
-@routine
-def change_medium(world: Any, this: Any, s: int, ray: Ray, t: float, before: Any, behind: Any) -> None:
-    """Put the solid in or out of the set behind the surface, by the side from which the ray comes.
-
-    Two faces of one solid at the same t, one entered and one left, are an edge that is grazed: nothing changes. A solid
-    that is left without having been entered was around the ray from its start, if it starts in the eye or if the solid
-    is open, so that only its surface can tell.
+    Faces of one mesh that rounding cannot tell from t belong to the same crossing. Entered twice, at the edge of two
+    faces, is entered; entered and left, at the edge that one sees as its outline, is grazed: nothing changes.
     """
-    entering = is_entering(world, s, ray, t)
-    was_inside = contains(before, this.solid)
-    is_inside = contains(behind, this.solid)
-    if was_inside != is_inside and entering != is_inside:
-        put(behind, this.solid, was_inside)
+    opaque, sheet = -1, -1
+    solid, closed, enters, leaves = -1, False, False, False
+    first, last_t, last = s, t, s
+    here = t
+    while s >= 0:
+        this = world.objects[world.surfaces[s].object]
+        same_crossing = this.solid >= 0 and this.solid == solid
+        if here != t and not same_crossing:
+            break
+        last_t, last = here, s
+        if transmit(world, s) == 0.0:
+            opaque = s if opaque < 0 else opaque
+        elif this.solid < 0:
+            sheet = s if sheet < 0 else sheet
+        else:
+            if this.solid != solid:
+                if solid >= 0:
+                    change_medium(ray, solid, closed, enters, leaves, before, behind)
+                solid, closed, enters, leaves = this.solid, this.closed, False, False
+            entering = is_entering(world, s, ray, here)
+            enters, leaves = enters or entering, leaves or not entering
+        # What lies behind matters only as far as rounding could have pulled it there.
+        limit = t + (doubt(world, last, ray) if solid >= 0 else 0.0)
+        here, s, _ = closest_within(world, ray, last_t, last, limit, stack)
+    if opaque >= 0:
+        return (opaque, last_t, last)
+    if solid >= 0:
+        change_medium(ray, solid, closed, enters, leaves, before, behind)
+    old, new = medium(before), medium(behind)
+    if old == new:
+        return (sheet, last_t, last)
+    seen = max(old, new) if min(old, new) < 0 else min(old, new)
+    shown = first
+    while world.objects[world.surfaces[shown].object].solid != seen:
+        _, shown, _ = closest(world, ray, t, shown, stack)
+    return (shown, last_t, last)
+
+
+@compiled
+def doubt(world: Any, s: int, ray: Ray) -> float:
+    """How far apart two faces of a mesh may come out along the ray where they really meet; 0 for other shapes."""
+    surface = world.surfaces[s]
+    if surface.count != 3:
+        return 0.0
+    return 2.0 * NEAR * (surface.r + ray.reach) / abs(dot(vector(surface.normal), ray.direction))
+
+
+@compiled
+def change_medium(ray: Ray, solid: int, closed: bool, enters: bool, leaves: bool, before: Any, behind: Any) -> None:
+    """Put a solid in or out of the set behind the surface.
+
+    An open solid that is left without having been entered was around the ray all along: only its surface can tell.
+    """
+    if enters and leaves:
         return
-    if not entering and not was_inside and (ray.start < 0 or not this.closed):
-        put(before, this.solid, True)
-    put(behind, this.solid, entering)
-
-
-@routine
-def surface_of(world: Any, ray: Ray, t: float, solid: int, s: int, last: int, tied: bool, stack: Any) -> int:
-    """The first surface from s to last, all at distance t, that bounds the solid."""
-    while tied and s < last and world.objects[world.surfaces[s].object].solid != solid:
-        _, s, _ = closest(world, ray, t, s, stack)
-    return s
+    if leaves and not closed and not contains(before, solid):
+        put(before, solid, True)
+    put(behind, solid, enters)

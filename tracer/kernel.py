@@ -114,7 +114,7 @@ def trace_ray(world: Any, space: Any, i: int) -> None:
     row = space.table[i]
     solids = space.solids
     d = vector(row.direction)
-    ray = make_ray(vector(row.origin), d, row.start, row.side)
+    ray = make_ray(vector(row.origin), d, row.start, row.side, row.reach)
     t, s = meet_interface(world, ray, solids[i], space.stack)
     n1 = index_of(world, medium(solids[i, 0]))
     row.n1 = n1
@@ -176,7 +176,7 @@ def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> 
             light = world.lights[j]
             to_light, far = towards_light(light, point)
             if dot(n, to_light) > 0.0 and dot(face_n, to_light) > 0.0:
-                ray = make_ray(point, to_light, s, row.hit_side)
+                ray = make_ray(point, to_light, s, row.hit_side, way_length(row))
                 visible, end = trace_shadow(world, limits, ray, far, space.stack)
                 share = (0.0, 0.0, 0.0)
                 if visible > 0.0:
@@ -335,12 +335,19 @@ def send(
         store(row.direction, direction)
         row.start = parent.surface
         row.side = side
+        row.reach = way_length(parent)
         own = 1 if kind == REFRACTION else 0
         for k_word in range(solids.shape[2]):
             solids[count, 0, k_word] = solids[i, own, k_word]
             solids[count, 1, k_word] = solids[i, own, k_word]
         return (count + 1, planned + room, 0.0)
     return (count, planned, heaviest)
+
+
+@compiled
+def way_length(row: Any) -> float:
+    """How large the numbers are that a hit was computed from: its rounding errors are small beside this."""
+    return abs(row.origin[0]) + abs(row.origin[1]) + abs(row.origin[2]) + row.t
 
 
 @compiled

@@ -40,6 +40,7 @@ NODE = np.dtype(
         ("end", np.int32),
         # From here on for the kernel alone:
         ("start", np.int32),  # the surface the ray leaves
+        ("reach", np.float64),  # scale of the rounding errors in its origin
         ("surface", np.int32),  # the surface it hits
         ("side", np.float64),  # of its start's normal, on which it leaves: +1, -1
         ("hit_side", np.float64),  # of the hit surface's normal, from which it comes

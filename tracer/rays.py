@@ -17,13 +17,13 @@ class Ray(NamedTuple):
     inverse: Vector  # 1/direction, component by component; infinite where that is 0
     axis: int  # the direction's largest component
     shear: tuple[float, float]  # the two others over the largest
-    reach: float  # |x| + |y| + |z| of the origin: the scale of its rounding errors
+    reach: float  # the scale of the origin's rounding errors: |x| + |y| + |z| of what it was computed from
     start: int  # the surface it leaves, -1 for a ray from the eye
     side: float  # +1.0: it leaves to the side its start's normal points to, -1.0: to the other
 
 
 @compiled
-def make_ray(origin: Vector, direction: Vector, start: int, side: float) -> Ray:
+def make_ray(origin: Vector, direction: Vector, start: int, side: float, reach: float) -> Ray:
     x, y, z = abs(direction[0]), abs(direction[1]), abs(direction[2])
     inverse = (1.0 / direction[0], 1.0 / direction[1], 1.0 / direction[2])
     if x >= y and x >= z:
@@ -32,7 +32,6 @@ def make_ray(origin: Vector, direction: Vector, start: int, side: float) -> Ray:
         axis, shear = 1, (direction[2] / direction[1], direction[0] / direction[1])
     else:
         axis, shear = 2, (direction[0] / direction[2], direction[1] / direction[2])
-    reach = abs(origin[0]) + abs(origin[1]) + abs(origin[2])
     return Ray(origin, direction, inverse, axis, shear, reach, start, side)
 
 

@@ -37,12 +37,12 @@ def phong(material: Any, color: Vector, light: Vector, n: Vector, to_light: Vect
 def surface_color(material: Any, surface: Any, point: Vector) -> Vector:
     """C: the material's colour, or its checker's second one where the squares' indices add up to an odd number.
 
-    Squares lie along the surface's own two axes on planes and polygons (`surface.flat`), cubes along the world's three
+    Squares lie along the surface's own two axes on planes and polygons (`surface.tiled`), cubes along the world's three
     axes elsewhere.
     """
     size = material.checker_size
     if size > 0.0:
-        if surface.flat:
+        if surface.tiled:
             cells = np.floor(dot(vector(surface.u), point) / size) + np.floor(dot(vector(surface.v), point) / size)
         else:
             cells = np.floor(point[0] / size) + np.floor(point[1] / size) + np.floor(point[2] / size)

@@ -127,6 +127,7 @@ def trace_pixel(
         store(row.direction, pixel_direction(view, x + dx, y + dy))
         row.start = -1
         row.side = 0.0
+        row.reach = abs(view.eye[0]) + abs(view.eye[1]) + abs(view.eye[2])
         for word in range(solids.shape[2]):
             solids[0, 0, word] = eye_solids[word]
             solids[0, 1, word] = eye_solids[word]

@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.lib.recfunctions import repack_fields
 
 from tracer.camera import View
 from tracer.kernel import MODELS, Limits
@@ -186,7 +187,7 @@ def trace(
     area = Area(x, y, x + 1, y + 1, 1, 0)
     run(world.arrays, view, limits, samples, area, solids_at(world, view.eye), pixels, workspace)
     space = workspace.arrays
-    nodes = space.table[: int(space.tree[0])][list(PUBLIC)].copy()
+    nodes = repack_fields(space.table[: int(space.tree[0])][list(PUBLIC)])
     _fill_angles(nodes, scene)
     nodes.flags.writeable = False
     residual = float(space.tree[1])

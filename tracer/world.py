@@ -15,6 +15,7 @@ from tracer.plan import Need, needs
 from tracer.scene import Material, Object, Scene, SceneError
 from tracer.shapes import CODES
 from tracer.shapes.mesh import Mesh
+from tracer.shapes.planar import NEAR
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.triangle import Triangle
@@ -29,7 +30,7 @@ SURFACE = np.dtype(
         ("r", np.float64),
         ("first", np.int32),  # of a polygon's corners, -1 for none
         ("count", np.int32),  # corners of a flat face, 0 for what has none
-        ("shape", np.int32),
+        ("form", np.int32),  # which shape, as CODES numbers them
         ("object", np.int32),
         ("smooth", np.int32),  # row of `smooth`, -1 for none
     ],
@@ -41,7 +42,7 @@ OBJECT = np.dtype(
         ("material", np.int32),
         ("solid", np.int32),  # its rank among the transparent solids, -1 for what bounds no medium
         ("closed", np.bool_),  # whether it has an inside that a point can be tested for
-        ("flat", np.bool_),  # whether a checker lies along its own two axes
+        ("tiled", np.bool_),  # whether a checker lies along its own two axes
         ("u", np.float64, 3),
         ("v", np.float64, 3),
     ],
@@ -127,7 +128,7 @@ def prepare(scene: Scene) -> World:
     unbounded = np.array([k for k, box in enumerate(bounds) if box is None], np.int32)
     bounded = np.array([k for k, box in enumerate(bounds) if box is not None], np.int32)
     boxes = np.array([box for box in bounds if box is not None]).reshape(-1, 2, 3)
-    hierarchy, order = build(boxes)
+    hierarchy, order = build(_padded(boxes))
     arrays = Arrays(
         surfaces=surfaces,
         corners=corners,
@@ -136,8 +137,8 @@ def prepare(scene: Scene) -> World:
         materials=np.array([_material(material) for material in materials], MATERIAL),
         lights=_lights(scene),
         indices=np.array([scene.objects[k].material.ior for k in solids], np.float64),
-        background=np.array(scene.background.color),
-        ambient=np.array(scene.tracing.ambient),
+        background=np.array(scene.background.color, np.float64),
+        ambient=np.array(scene.tracing.ambient, np.float64),
         unbounded=unbounded,
         hierarchy=hierarchy,
         order=bounded[order],
@@ -160,7 +161,7 @@ def _surfaces(scene: Scene) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[np
         boxes = shape.bounds()
         rows = np.zeros(1 if boxes is None else len(boxes), SURFACE)
         rows["object"], rows["first"], rows["smooth"] = k, -1, -1
-        rows["shape"] = CODES["triangle" if isinstance(shape, Mesh) else _name(shape)]
+        rows["form"] = CODES["triangle" if isinstance(shape, Mesh) else _name(shape)]
         shape.pack(rows)
         if isinstance(shape, Polygon):
             rows["first"] = corner_count
@@ -173,6 +174,12 @@ def _surfaces(scene: Scene) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[np
         blocks.append(rows)
         bounds += [None] if boxes is None else list(boxes)
     return np.concatenate(blocks), np.concatenate(corners), np.concatenate(smooth), bounds
+
+
+def _padded(boxes: np.ndarray) -> np.ndarray:
+    """Boxes with room for a ray that starts on the surface inside, but for rounding beside it."""
+    pad = 4.0 * NEAR * np.abs(boxes).sum(axis=2).max(axis=1, initial=0.0)
+    return np.stack([boxes[:, 0] - pad[:, None], boxes[:, 1] + pad[:, None]], axis=1)
 
 
 def _name(shape: Any) -> str:

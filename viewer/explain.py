@@ -272,17 +272,7 @@ def _color(world: World, tree: RayTree, i: int) -> np.ndarray:
     row = tree.nodes[i]
     this = world.arrays.objects[row["object"]]
     material = world.arrays.materials[this["material"]]
-    return np.array(surface_color(_Record(material), _Record(this), vector(row["point"])))
-
-
-class _Record:
-    """A row of an array with its fields as attributes, as compiled code sees it."""
-
-    def __init__(self, row: np.void) -> None:
-        self._row = row
-
-    def __getattr__(self, name: str) -> object:
-        return self._row[name]
+    return np.array(surface_color(material, this, vector(row["point"])))
 
 
 def shown(x: float, digits: int = 5) -> str:

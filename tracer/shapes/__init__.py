@@ -35,7 +35,7 @@ def _fold(part: str, otherwise: Callable[..., Any], link: Callable[..., Any]) ->
 def _link_intersect(code: int, own: Any, rest: Any) -> Any:
     @compiled
     def choose(world: Any, surface: Any, ray: Ray, floor: float) -> float:
-        if surface.shape == code:
+        if surface.form == code:
             return own(world, surface, ray, floor)
         return rest(world, surface, ray, floor)
 
@@ -45,7 +45,7 @@ def _link_intersect(code: int, own: Any, rest: Any) -> Any:
 def _link_again(code: int, own: Any, rest: Any) -> Any:
     @compiled
     def choose(world: Any, surface: Any, ray: Ray) -> float:
-        if surface.shape == code:
+        if surface.form == code:
             return own(world, surface, ray)
         return rest(world, surface, ray)
 
@@ -55,7 +55,7 @@ def _link_again(code: int, own: Any, rest: Any) -> Any:
 def _link_locate(code: int, own: Any, rest: Any) -> Any:
     @compiled
     def choose(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-        if surface.shape == code:
+        if surface.form == code:
             return own(world, surface, ray, t)
         return rest(world, surface, ray, t)
 

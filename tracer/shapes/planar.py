@@ -48,17 +48,22 @@ def side_of(world: Any, face: Any, plane: Any) -> int:
 
 
 @compiled
-def plane_distance(world: Any, surface: Any, ray: Ray) -> float:
-    """t > 0 to the plane of the face; 0 where the ray starts on it and crosses it; else infinite."""
+def plane_distance(world: Any, surface: Any, ray: Ray) -> tuple[float, float]:
+    """(t, slack): t > 0 to the plane of the face, 0 where the ray starts on it and crosses it, else infinite.
+
+    The slack is 0, but where the ray starts on the plane: there it is how far outside of the face's outline rounding may
+    have put a point that lies on the edge of both faces.
+    """
     normal = vector(surface.normal)
     height = dot(normal, subtract(vector(surface.a), ray.origin))
     speed = dot(normal, ray.direction)
     if speed == 0.0:
-        return math.inf
+        return (math.inf, 0.0)
     t = height / speed
-    if ray.start >= 0 and abs(height) <= NEAR * (surface.r + ray.reach):
-        return touching_distance(world, surface, ray, t, speed)
-    return t if t > 0.0 else math.inf
+    error = NEAR * (surface.r + ray.reach)
+    if ray.start >= 0 and abs(height) <= error:
+        return (touching_distance(world, surface, ray, t, speed), 2.0 * error)
+    return (t if t > 0.0 else math.inf, 0.0)
 
 
 @routine
@@ -79,6 +84,15 @@ def touching_distance(world: Any, surface: Any, ray: Ray, t: float, speed: float
         if beyond != 2 and beyond != heading:
             return math.inf
     return max(t, 0.0)
+
+
+@compiled
+def is_beside(ax: float, ay: float, bx: float, by: float, slack: float) -> bool:
+    """Whether the edge from a to b passes the ray, at (0, 0), no farther than `slack`."""
+    ex, ey = bx - ax, by - ay
+    size = math.sqrt(ex * ex + ey * ey)
+    along = -(ax * ex + ay * ey)
+    return abs(ax * by - ay * bx) <= slack * size and -slack * size <= along <= size * (size + slack)
 
 
 @compiled

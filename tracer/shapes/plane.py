@@ -35,7 +35,7 @@ class Plane:
 
 @compiled
 def intersect(world: Any, surface: Any, ray: Ray, floor: float) -> float:
-    t = plane_distance(world, surface, ray)
+    t, _ = plane_distance(world, surface, ray)
     return t if t >= floor else np.inf
 
 

@@ -14,7 +14,7 @@ from tracer.jit import compiled
 from tracer.rays import Ray, sheared
 from tracer import fields
 from tracer.shapes import planar
-from tracer.shapes.planar import newell, plane_distance
+from tracer.shapes.planar import is_beside, newell, plane_distance
 from tracer.vector import Vector, vector
 
 NAME = "polygon"
@@ -60,7 +60,7 @@ class Polygon:
 
 @compiled
 def intersect(world: Any, surface: Any, ray: Ray, floor: float) -> float:
-    t = plane_distance(world, surface, ray)
+    t, slack = plane_distance(world, surface, ray)
     if not floor <= t < math.inf:
         return math.inf
     inside = False
@@ -75,6 +75,8 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float) -> float:
                 return t
             if (turn > 0.0) == (y1 > y0):
                 inside = not inside
+        if slack > 0.0 and is_beside(x0, y0, x1, y1, slack):
+            return t
         x0, y0 = x1, y1
     return t if inside else math.inf
 

@@ -15,7 +15,7 @@ from tracer.jit import compiled
 from tracer.rays import Ray, sheared
 from tracer import fields
 from tracer.shapes import planar
-from tracer.shapes.planar import newell, plane_distance
+from tracer.shapes.planar import is_beside, newell, plane_distance
 from tracer.vector import Vector, add, cross, dot, scale, subtract, unit, vector
 
 NAME = "triangle"
@@ -51,7 +51,7 @@ def pack_triangles(rows: Any, corners: np.ndarray) -> None:
 
 @compiled
 def intersect(world: Any, surface: Any, ray: Ray, floor: float) -> float:
-    t = plane_distance(world, surface, ray)
+    t, slack = plane_distance(world, surface, ray)
     if not floor <= t < math.inf:
         return math.inf
     ax, ay = sheared(ray, vector(surface.a))
@@ -61,7 +61,10 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float) -> float:
     v = ax * cy - ay * cx
     w = bx * ay - by * ax
     if (u < 0.0 or v < 0.0 or w < 0.0) and (u > 0.0 or v > 0.0 or w > 0.0):
-        return math.inf
+        beside = slack > 0.0 and (
+            is_beside(ax, ay, bx, by, slack) or is_beside(bx, by, cx, cy, slack) or is_beside(cx, cy, ax, ay, slack)
+        )
+        return t if beside else math.inf
     return t
 
 

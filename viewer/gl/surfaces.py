@@ -130,7 +130,7 @@ class Surfaces:
             table[1, k] = (*material["checker_color"], material["checker_size"] / self.frame.radius)
             table[2, k] = (material["diffuse"], material["specular"], material["shininess"], material["reflect"])
             table[3, k] = (material["transmit"], material["ior"], 0.0, 0.0)
-            axes[0, k] = (*item["u"], float(item["flat"]))
+            axes[0, k] = (*item["u"], float(item["tiled"]))
             axes[1, k] = (*item["v"], 0.0)
         self.materials = self._texture(table)
         self.axes = self._texture(axes)

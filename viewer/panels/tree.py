@@ -182,10 +182,12 @@ class _Diagram:
         color = faded(self.theme.text, opacity)
         # To the right of the node there is room up to the next column, less where stubs hang below.
         content = _shortened(f"{i}  {name}", size, 1.15 * self.step_x - 2.0 * self.radius)
-        d.text(self.pad, (x + 1.35 * self.radius, y - 1.05 * size), color, content, size, self.theme.panel)
+        # Level with the node: there the edges from above and to below have parted.
+        at = x + self.radius + 7.0 * d.unit()
+        d.text(self.pad, (at, y - 0.5 * size), color, content, size, self.theme.panel)
         if note:
-            muted = faded(self.theme.muted, opacity)
-            d.text(self.pad, (x + 1.35 * self.radius, y + 0.05 * size), muted, note, 0.9 * size, self.theme.panel)
+            at += d.text_size(content, size)[0] + 6.0 * d.unit()
+            d.text(self.pad, (at, y - 0.5 * size), faded(self.theme.muted, opacity), note, size, self.theme.panel)
 
     def _light_end(self, i: int) -> None:
         """A small sun where the light is reached, a cross where it is not."""

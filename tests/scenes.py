@@ -1,0 +1,62 @@
+"""Small scenes with answers that are known in advance."""
+
+import dataclasses
+from collections.abc import Sequence
+
+import tracer
+from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, Tracing
+from tracer.shapes.box import Box
+from tracer.shapes.plane import Plane
+from tracer.shapes.polygon import Polygon
+from tracer.shapes.sphere import Sphere
+from tracer.shapes.triangle import Triangle
+
+Shape = Sphere | Plane | Polygon | Triangle | Box
+
+GLASS = Material("glass", transmit=1.0, ior=1.5)
+MIRROR = Material("mirror", reflect=1.0)
+MATTE = Material("matte", diffuse=1.0)
+DARK = Material("dark")
+
+
+def ball(
+    center: Sequence[float] = (0, 0, 0), radius: float = 1.0, material: Material = MATTE, name: str = "ball", **more: object
+) -> Object:
+    x, y, z = (float(value) for value in center)
+    return Object(Sphere((x, y, z), radius), material, name, **more)  # type: ignore[arg-type]
+
+
+def plane(point: Sequence[float], normal: Sequence[float], material: Material = MATTE, name: str = "plane") -> Object:
+    return Object(Plane(_three(point), _three(normal)), material, name)
+
+
+def box(low: Sequence[float], high: Sequence[float], material: Material = MATTE, name: str = "box", **more: object) -> Object:
+    return Object(Box(_three(low), _three(high)), material, name, **more)  # type: ignore[arg-type]
+
+
+def world_of(*objects: Object, lights: Sequence[Light] = (), **options: object) -> tracer.World:
+    """A prepared scene of these; options: background, ambient, model, shadows, depth, camera, image."""
+    tracing = Tracing()
+    for name in ("ambient", "model", "shadows", "depth"):
+        if name in options:
+            tracing = dataclasses.replace(tracing, **{name: options.pop(name)})
+    background = Background(options.pop("background", (0.0, 0.0, 0.0)))  # type: ignore[arg-type]
+    camera = options.pop("camera", Camera(position=(0.0, 0.0, 10.0), look_at=(0.0, 0.0, 0.0)))
+    image = options.pop("image", Image(64, 48))
+    assert not options, options
+    return tracer.prepare(
+        Scene(tuple(objects), tuple(lights), camera, image, background, tracing)  # type: ignore[arg-type]
+    )
+
+
+def kinds(tree: tracer.RayTree) -> list[str]:
+    return [tree.kind(i) for i in range(len(tree))]
+
+
+def ends(tree: tracer.RayTree) -> list[str | None]:
+    return [tree.end(i) for i in range(len(tree))]
+
+
+def _three(values: Sequence[float]) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in values)
+    return (x, y, z)
