@@ -346,8 +346,11 @@ def send(
 
 @compiled
 def way_length(row: Any) -> float:
-    """How large the numbers are that a hit was computed from: its rounding errors are small beside this."""
-    return abs(row.origin[0]) + abs(row.origin[1]) + abs(row.origin[2]) + row.t
+    """How large the numbers are that a hit was computed from: its rounding errors are small beside this.
+
+    What the ray's own start was computed from counts too: a ray in a corner meets the next wall where it starts.
+    """
+    return max(row.reach, abs(row.origin[0]) + abs(row.origin[1]) + abs(row.origin[2]) + row.t)
 
 
 @compiled
