@@ -1,0 +1,148 @@
+"""The same scene for an independent program: POV-Ray (the Debian package povray), by Whitted's model.
+
+Its finish has our terms under its own names: ambient, diffuse, phong, reflection, and transmit of the pigment, by which it
+scales ambient and diffuse down. It counts the camera ray as a level.
+"""
+
+import math
+import re
+import shutil
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from tracer.scene import Material, Object, Scene
+from tracer.shapes.box import Box
+from tracer.shapes.mesh import Mesh
+from tracer.shapes.plane import Plane
+from tracer.shapes.polygon import Polygon
+from tracer.shapes.sphere import Sphere
+from tracer.shapes.triangle import Triangle
+from tracer.world import prepare
+
+
+def available() -> bool:
+    return shutil.which("povray") is not None
+
+
+def write_scene(scene: Scene, depth: int, size: tuple[int, int]) -> str:
+    """The scene in POV-Ray's language."""
+    view = prepare(scene).view(size)
+    aspect = size[0] / size[1]
+    angle = 2.0 * math.degrees(math.atan(math.hypot(*view.up) * aspect))
+    look_at = np.add(view.eye, view.forward)
+    parts = [
+        "#version 3.7;",
+        f"global_settings {{ assumed_gamma 1 max_trace_level {depth + 1} adc_bailout 0 ambient_light {_rgb(scene.tracing.ambient)} }}",
+        f"background {{ {_rgb(scene.background.color)} }}",
+        # Right-handed: its x axis runs the other way.
+        f"camera {{ location {_v(view.eye)} sky {_v(scene.camera.up)} up y right -{aspect!r}*x angle {angle!r} look_at {_v(look_at)} }}",
+    ]
+    for light in scene.lights:
+        assert light.position is not None
+        shadowless = ""
+        parts.append(f"light_source {{ {_v(light.position)} {_rgb(light.color)} {shadowless}}}")
+    parts += [_object(item) for item in scene.objects]
+    return "\n".join(parts) + "\n"
+
+
+def _object(item: Object) -> str:
+    finish = _finish(item.shape, item.material)
+    match item.shape:
+        case Sphere(center, radius):
+            return f"sphere {{ {_v(center)}, {radius!r} {finish} }}"
+        case Plane(point, normal):
+            unit = np.array(normal) / np.linalg.norm(normal)
+            return f"plane {{ {_v(unit)}, {float(unit @ point)!r} {finish} }}"
+        case Box():
+            return f"box {{ {_v(item.shape.min)}, {_v(item.shape.max)} {finish} }}"
+        case Polygon(vertices):
+            corners = ", ".join(_v(corner) for corner in (*vertices, vertices[0]))
+            return f"polygon {{ {len(vertices) + 1}, {corners} {finish} }}"
+        case Triangle(vertices):
+            return f"triangle {{ {', '.join(map(_v, vertices))} {finish} }}"
+        case Mesh():
+            faces = " ".join(f"triangle {{ {', '.join(map(_v, face))} }}" for face in item.shape.placed())
+            return f"mesh {{ {faces} inside_vector <0.3, 0.9, 0.2> {finish} }}"
+    raise TypeError(type(item.shape).__name__)
+
+
+def _finish(shape: object, material: Material) -> str:
+    opaque = 1.0 - material.transmit
+    pigment = f"color {_rgb(material.color)} transmit {material.transmit!r}"
+    if material.checker:
+        assert material.transmit == 0.0
+        size = material.checker.size
+        pigment = f"checker color {_rgb(material.color)} color {_rgb(material.checker.color)} scale {size!r}"
+        if isinstance(shape, Polygon | Plane):
+            pigment += f" translate {_v(_into_a_cell(shape, size))}"
+    shares = {
+        "ambient": material.ambient / opaque,
+        "diffuse": material.diffuse / opaque,
+        "phong": material.specular,
+        "phong_size": material.shininess,
+        "reflection": material.reflect,
+    }
+    finish = " ".join(f"{name} {value!r}" for name, value in shares.items())
+    interior = f"interior {{ ior {material.ior!r} }}" if material.transmit > 0.0 else ""
+    return f"texture {{ pigment {{ {pigment} }} finish {{ {finish} }} }} {interior}"
+
+
+def _into_a_cell(shape: Polygon | Plane, size: float) -> np.ndarray:
+    """Its checker is one of cubes: moved along the face's normal, an axis, so that the face lies in the middle of cubes
+    whose third number is even."""
+    point = np.array(shape.vertices[0] if isinstance(shape, Polygon) else shape.point)
+    if isinstance(shape, Polygon):
+        corners = np.array(shape.vertices)
+        normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    else:
+        normal = np.array(shape.normal)
+    axis = int(np.abs(normal).argmax())
+    assert np.count_nonzero(normal) == 1, "only faces along the axes"
+    return (point[axis] - 0.5 * size) * np.eye(3)[axis]
+
+
+def render(
+    source: str, size: tuple[int, int], folder: Path, threads: int = 2
+) -> tuple[np.ndarray, float, dict[str, int]]:
+    """(linear image (height, width, 3) clipped to 0..1, its trace time in seconds, rays by kind)."""
+    scene, image = folder / "scene.pov", folder / "scene.ppm"
+    scene.write_text(source)
+    run = subprocess.run(
+        [
+            "povray", f"+I{scene}", f"+O{image}", f"+W{size[0]}", f"+H{size[1]}", f"+WT{threads}", "-D", "-A", "+FP16",
+            "File_Gamma=1.0",
+        ],
+        capture_output=True,
+        text=True,
+        cwd=folder,
+        check=False,
+    )  # fmt: skip
+    if run.returncode != 0:
+        raise RuntimeError(run.stderr[-2000:])
+    seconds = re.search(r"Trace Time:.*\(([\d.]+) seconds\)", run.stderr)
+    assert seconds
+    counts = {
+        kind: int(found.group(1)) if (found := re.search(rf"{label}:\s+(\d+)", run.stderr)) else 0
+        for kind, label in (("reflected", "Reflected Rays"), ("refracted", "Refracted Rays"), ("tir", "Total Internal"))
+    }
+    return read_ppm(image), float(seconds.group(1)), counts
+
+
+def read_ppm(path: Path) -> np.ndarray:
+    """A 16-bit PPM as numbers from 0 to 1."""
+    found = re.match(rb"P6\s+(?:#.*\s+)*(\d+)\s+(\d+)\s+(\d+)\s", content := path.read_bytes())
+    assert found
+    width, height, highest = map(int, found.groups())
+    numbers = np.frombuffer(content, ">u2", width * height * 3, found.end())
+    return numbers.reshape(height, width, 3) / highest
+
+
+def _rgb(color: Sequence[float]) -> str:
+    return f"rgb {_v(color)}"
+
+
+def _v(xyz: Sequence[float] | np.ndarray) -> str:
+    return "<" + ", ".join(repr(float(value)) for value in xyz) + ">"
