@@ -23,7 +23,10 @@ BOX = np.dtype(
     align=True,
 )
 
-FLAT = 16  # up to so many surfaces a leaf is cheaper than two more boxes
+# A box that a search has put off, and where the ray enters it.
+WAITING = np.dtype([("node", np.int64), ("near", np.float64)])
+
+FLAT = 8  # up to so many surfaces a leaf is cheaper than two more boxes
 BINS = 16
 HALVING = 40  # the level from which on a box is simply halved: so no hierarchy is deeper than
 DEEPEST = 64  # levels

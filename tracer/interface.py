@@ -34,7 +34,7 @@ def meet_interface(world: Any, ray: Ray, solids: Any, stack: Any) -> tuple[float
     while s >= 0:
         if not tied and transmit(world, s) == 0.0:
             return (t, s)
-        shown, last_t, last = cross(world, ray, t, s, before, behind, stack)
+        shown, last_t, last = cross(world, ray, t, s, tied, before, behind, stack)
         if shown >= 0:
             return (t, shown)
         for k in range(len(before)):
@@ -44,7 +44,9 @@ def meet_interface(world: Any, ray: Ray, solids: Any, stack: Any) -> tuple[float
 
 
 @routine
-def cross(world: Any, ray: Ray, t: float, s: int, before: Any, behind: Any, stack: Any) -> tuple[int, float, int]:
+def cross(
+    world: Any, ray: Ray, t: float, s: int, tied: bool, before: Any, behind: Any, stack: Any
+) -> tuple[int, float, int]:
     """(surface shown or -1, t and surface last passed): goes through all surfaces at t, solid by solid.
 
     Faces of one mesh that rounding cannot tell from t belong to the same crossing. Entered twice, at the edge of two
@@ -73,6 +75,8 @@ def cross(world: Any, ray: Ray, t: float, s: int, before: Any, behind: Any, stac
             enters, leaves = enters or entering, leaves or not entering
         # What lies behind matters only as far as rounding could have pulled it there.
         limit = t + (doubt(world, last, ray) if solid >= 0 else 0.0)
+        if not tied and limit == t:
+            break
         here, s, _ = closest_within(world, ray, last_t, last, limit, stack)
     if opaque >= 0:
         return (opaque, last_t, last)

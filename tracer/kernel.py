@@ -8,7 +8,6 @@ The sums then run back up. An image keeps the first row's radiance of every tabl
 import math
 from typing import Any, NamedTuple
 
-from tracer.hits import CLEAR, OPAQUE, filtering, obstruction, occluder, towards_light
 from tracer.interface import meet_interface
 from tracer.jit import compiled, routine
 from tracer.media import index_of, medium
@@ -31,6 +30,7 @@ from tracer.nodes import (
 from tracer.optics import cosine, fresnel_shares, radicand, reflect, sine, transmission
 from tracer.rays import Ray, make_ray
 from tracer.shading import ambient, phong, surface_color
+from tracer.shadows import light_through, occluder, towards_light
 from tracer.shapes import locate
 from tracer.vector import Vector, add, dot, largest, multiply, scale, store, vector
 
@@ -177,65 +177,48 @@ def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> 
             to_light, far = towards_light(light, point)
             if dot(n, to_light) > 0.0 and dot(face_n, to_light) > 0.0:
                 ray = make_ray(point, to_light, s, row.hit_side, way_length(row))
-                visible, end = trace_shadow(world, limits, ray, far, space.stack)
+                visible, glass = light_through(world, ray, far, limits.glass_blocks, space)
                 share = (0.0, 0.0, 0.0)
                 if visible > 0.0:
                     share = scale(visible, phong(material, color, vector(light.color), n, to_light, d))
                     local = add(local, share)
                 table[count].kind = SHADOW
                 if limits.records:
-                    record_shadow(world, limits, table, count, i, j, ray, far, visible, end, share, space.stack)
+                    record_shadow(world, limits, space, count, i, j, ray, far, visible, glass, share)
                 count += 1
     store(row.local, local)
     return count
-
-
-@compiled
-def trace_shadow(world: Any, limits: Limits, ray: Ray, far: float, stack: Any) -> tuple[float, int]:
-    """(share, end): how much of the light gets through; 0 where an opaque surface is nearer than the light.
-
-    Transparent surfaces multiply it by their `transmit`, straight through and unbent: a simplification, since the light
-    that really arrives there was bent on its way.
-    """
-    found = obstruction(world, ray, far, limits.glass_blocks, stack)
-    if found == OPAQUE:
-        return (0.0, BLOCKED)
-    if found == CLEAR:
-        return (1.0, LIT)
-    share, _ = filtering(world, ray, far, stack)
-    return (share, FILTERED)
 
 
 @routine
 def record_shadow(
     world: Any,
     limits: Limits,
-    table: Any,
+    space: Any,
     i: int,
     parent: int,
     light: int,
     ray: Ray,
     far: float,
     visible: float,
-    end: int,
+    glass: int,
     share: Vector,
-    stack: Any,
 ) -> None:
-    """Row i: a shadow ray, with what stands in its way by name."""
+    """Row i: a shadow ray to a light at distance `far`, with what stands in its way by name."""
+    table = space.table
     attenuation = (visible, visible, visible)
     weight = multiply(vector(table[parent].weight), attenuation)
     row = start_row(limits, table, i, parent, SHADOW, table[parent].depth, attenuation, weight)
     row.light = light
-    row.end = end
     store(row.origin, ray.origin)
     store(row.direction, ray.direction)
     store(row.local, share)
     store(row.radiance, share)
-    t, met = far, NONE
-    if end == BLOCKED:
-        t, met = occluder(world, ray, far, limits.glass_blocks, stack)
-    elif end == FILTERED:
-        _, met = filtering(world, ray, far, stack)
+    t, met = far, glass
+    row.end = FILTERED if glass >= 0 else LIT
+    if visible == 0.0:
+        row.end = BLOCKED
+        t, met = occluder(world, ray, far, limits.glass_blocks, space.stack)
     if met >= 0:
         row.object = world.surfaces[met].object
     if t < math.inf:

@@ -27,11 +27,11 @@ def make_ray(origin: Vector, direction: Vector, start: int, side: float, reach: 
     x, y, z = abs(direction[0]), abs(direction[1]), abs(direction[2])
     inverse = (1.0 / direction[0], 1.0 / direction[1], 1.0 / direction[2])
     if x >= y and x >= z:
-        axis, shear = 0, (direction[1] / direction[0], direction[2] / direction[0])
+        axis, shear = 0, (direction[1] * inverse[0], direction[2] * inverse[0])
     elif y >= z:
-        axis, shear = 1, (direction[2] / direction[1], direction[0] / direction[1])
+        axis, shear = 1, (direction[2] * inverse[1], direction[0] * inverse[1])
     else:
-        axis, shear = 2, (direction[0] / direction[2], direction[1] / direction[2])
+        axis, shear = 2, (direction[0] * inverse[2], direction[1] * inverse[2])
     return Ray(origin, direction, inverse, axis, shear, reach, start, side)
 
 

@@ -25,7 +25,7 @@ from tracer.tile import CENTER, Area, Samples, Workspace, run, trace_area
 from tracer.tree import MAX_NODES, make_limits, solids_at, trace, words
 from tracer.world import World, prepare
 
-TILE = 32  # pixels a side: some milliseconds of work, so that cancelling is quick and threads end together
+TILE = 64  # pixels a side: some milliseconds of work, so that cancelling is quick and threads end together
 COARSE_TO_FINE = (8, 4, 2, 1)
 
 Progress = Callable[[float], None]

@@ -9,12 +9,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tracer.bundle import Bundle
-from tracer.bvh import DEEPEST
+from tracer.bvh import DEEPEST, WAITING
 from tracer.camera import View, pixel_direction
 from tracer.jit import compiled, kernel
 from tracer.kernel import Limits, start_row, trace_tree
 from tracer.nodes import CAMERA, KINDS, NODE
 from tracer.sampler import sample_offset
+from tracer.shadows import CROSSING, MOST_CROSSINGS
 from tracer.vector import Vector, add, store, vector
 
 
@@ -49,6 +50,7 @@ class Space(NamedTuple):
     table: np.ndarray
     solids: np.ndarray  # (rows, 2, words)
     stack: np.ndarray  # of boxes still to be entered
+    crossed: np.ndarray  # glass on the way to a light
     rays: np.ndarray  # traced so far, by kind
     tree: np.ndarray  # rows and residual of the last tree
     residuals: np.ndarray  # largest and sum over the pixels so far
@@ -61,7 +63,8 @@ class Workspace:
         self.arrays = Space(
             np.zeros(rows, NODE),
             np.zeros((rows, 2, words), np.int64),
-            np.zeros(DEEPEST, np.int64),
+            np.zeros(DEEPEST, WAITING),
+            np.zeros(MOST_CROSSINGS, CROSSING),
             np.zeros(len(KINDS), np.int64),
             np.zeros(2),
             np.zeros(2),

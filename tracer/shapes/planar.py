@@ -19,6 +19,9 @@ from tracer.vector import Vector, add, dot, scale, subtract, vector
 NEAR = 16 * 2.0**-53
 
 
+LOOSE = 1.0 + 2.0**-50
+
+
 @compiled
 def corner(world: Any, surface: Any, k: int) -> Vector:
     """The k-th corner of a face with `surface.count` corners (none: the face is a whole plane)."""
@@ -48,7 +51,7 @@ def side_of(world: Any, face: Any, plane: Any) -> int:
 
 
 @compiled
-def plane_distance(world: Any, surface: Any, ray: Ray) -> tuple[float, float]:
+def plane_distance(world: Any, surface: Any, ray: Ray, ceiling: float) -> tuple[float, float]:
     """(t, slack): t > 0 to the plane of the face, 0 where the ray starts on it and crosses it, else infinite.
 
     The slack is 0, but where the ray starts on the plane: there it is how far outside of the face's outline rounding may
@@ -57,13 +60,15 @@ def plane_distance(world: Any, surface: Any, ray: Ray) -> tuple[float, float]:
     normal = vector(surface.normal)
     height = dot(normal, subtract(vector(surface.a), ray.origin))
     speed = dot(normal, ray.direction)
-    if speed == 0.0:
-        return (math.inf, 0.0)
-    t = height / speed
     error = NEAR * (surface.r + ray.reach)
-    if ray.start >= 0 and abs(height) <= error:
-        return (touching_distance(world, surface, ray, t, speed), 2.0 * error)
-    return (t if t > 0.0 else math.inf, 0.0)
+    if ray.start >= 0 and abs(height) <= error and speed != 0.0:
+        return (touching_distance(world, surface, ray, height / speed, speed), 2.0 * error)
+    # Most planes lie behind or too far: that is seen without dividing. Nothing is dropped that would round to the ceiling.
+    if (height > 0.0) != (speed > 0.0) or abs(height) > abs(speed) * (ceiling * LOOSE):
+        return (math.inf, 0.0)
+    if height == 0.0 or speed == 0.0:
+        return (math.inf, 0.0)
+    return (height / speed, 0.0)
 
 
 @routine

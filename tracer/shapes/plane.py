@@ -34,8 +34,8 @@ class Plane:
 
 
 @compiled
-def intersect(world: Any, surface: Any, ray: Ray, floor: float) -> float:
-    t, _ = plane_distance(world, surface, ray)
+def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
+    t, _ = plane_distance(world, surface, ray, ceiling)
     return t if t >= floor else np.inf
 
 

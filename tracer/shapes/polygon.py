@@ -59,9 +59,9 @@ class Polygon:
 
 
 @compiled
-def intersect(world: Any, surface: Any, ray: Ray, floor: float) -> float:
-    t, slack = plane_distance(world, surface, ray)
-    if not floor <= t < math.inf:
+def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
+    t, slack = plane_distance(world, surface, ray, ceiling)
+    if not (floor <= t <= ceiling and t < math.inf):
         return math.inf
     inside = False
     x0, y0 = sheared(ray, vector(world.corners[surface.first + surface.count - 1]))

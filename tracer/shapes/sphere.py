@@ -38,7 +38,7 @@ class Sphere:
 
 
 @compiled
-def intersect(world: Any, surface: Any, ray: Ray, floor: float) -> float:
+def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
     f = subtract(ray.origin, vector(surface.a))
     b = -dot(f, ray.direction)
     beside = add(f, scale(b, ray.direction))  # from the centre to the ray's closest point

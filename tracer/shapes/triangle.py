@@ -50,9 +50,9 @@ def pack_triangles(rows: Any, corners: np.ndarray) -> None:
 
 
 @compiled
-def intersect(world: Any, surface: Any, ray: Ray, floor: float) -> float:
-    t, slack = plane_distance(world, surface, ray)
-    if not floor <= t < math.inf:
+def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
+    t, slack = plane_distance(world, surface, ray, ceiling)
+    if not (floor <= t <= ceiling and t < math.inf):
         return math.inf
     ax, ay = sheared(ray, vector(surface.a))
     bx, by = sheared(ray, vector(surface.b))

@@ -1,0 +1,159 @@
+"""What a ray meets on its way to a light, and how much of the light gets through.
+
+An opaque surface on the way blocks it. Each transparent one multiplies it by its `transmit`, straight through and unbent: a
+simplification, since the light that really arrives there was bent on its way. Or, if the scene wants it, glass blocks too.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from tracer.hits import SMALLEST, closest, distance, entry, transmit
+from tracer.jit import compiled, routine, stay_apart
+from tracer.rays import Ray
+from tracer.vector import Vector, scale
+
+# A transparent surface crossed on the way, and the room for so many before the slower way is taken.
+CROSSING = np.dtype([("t", np.float64), ("surface", np.int64)])
+MOST_CROSSINGS = 32
+
+OPAQUE, TOO_MANY = -1, -2  # instead of a number of crossings
+
+
+@compiled
+def towards_light(light: Any, point: Vector) -> tuple[Vector, float]:
+    """(unit direction, distance) from a point to a light; a light at infinity is infinitely far."""
+    if light.distant:
+        return ((light.towards[0], light.towards[1], light.towards[2]), math.inf)
+    x, y, z = light.position[0] - point[0], light.position[1] - point[1], light.position[2] - point[2]
+    far = math.sqrt(x * x + y * y + z * z)
+    return (scale(1.0 / far, (x, y, z)), far)
+
+
+@compiled
+def light_through(world: Any, ray: Ray, end: float, glass_blocks: bool, space: Any) -> tuple[float, int]:
+    """(share of the light, first transparent surface crossed or -1); share 0 where an opaque one is nearer than `end`."""
+    count = obstruction(world, ray, end, glass_blocks, space)
+    if count == 0:
+        return (1.0, -1)
+    if count == OPAQUE:
+        return (0.0, -1)
+    if count == TOO_MANY:
+        return filter_step_by_step(world, ray, end, space.stack)
+    return filter_at_once(world, space.crossed, count)
+
+
+@routine
+def obstruction(world: Any, ray: Ray, end: float, glass_blocks: bool, space: Any) -> int:
+    """How many times transparent surfaces are crossed nearer than `end`, gathered in no order; OPAQUE as soon as
+    anything is found that lets no light through; TOO_MANY."""
+    count = 0
+    stack = space.stack
+    for k in range(len(world.unbounded)):
+        count = gather(world, world.unbounded[k], ray, end, glass_blocks, space.crossed, count)
+        if count == OPAQUE:
+            return OPAQUE
+    depth = 0
+    node = 0 if len(world.hierarchy) > 0 and entry(world.hierarchy[0], ray, end) < math.inf else -1
+    while node >= 0:
+        box = world.hierarchy[node]
+        if box.count > 0:
+            for k in range(box.second, box.second + box.count):
+                count = gather(world, world.order[k], ray, end, glass_blocks, space.crossed, count)
+                if count == OPAQUE:
+                    return OPAQUE
+            node = -1
+        else:
+            node, other = node + 1, box.second
+            near, far = entry(world.hierarchy[node], ray, end), entry(world.hierarchy[other], ray, end)
+            if far < near:
+                near, far = far, near
+                node, other = other, node
+            if far < math.inf:
+                stack[depth].node = other
+                depth += 1
+            if near == math.inf:
+                node = -1
+        if node < 0 and depth > 0:
+            depth -= 1
+            node = stack[depth].node
+    return count
+
+
+@compiled
+def gather(world: Any, s: int, ray: Ray, end: float, glass_blocks: bool, crossed: Any, count: int) -> int:
+    """The count after surface s has been looked at."""
+    t = distance(world, s, ray, 0.0, -1, SMALLEST, end)
+    if t >= end:
+        return count
+    if glass_blocks or transmit(world, s) == 0.0:
+        return OPAQUE
+    return gather_glass(world, s, ray, t, end, crossed, count)
+
+
+@routine
+def gather_glass(world: Any, s: int, ray: Ray, t: float, end: float, crossed: Any, count: int) -> int:
+    """Note where the transparent surface s is crossed, first at t: a ball may be crossed twice."""
+    stay_apart()
+    while t < end:
+        if count == TOO_MANY or count == len(crossed):
+            return TOO_MANY
+        crossed[count].t = t
+        crossed[count].surface = s
+        count += 1
+        t = distance(world, s, ray, t, s, np.nextafter(t, math.inf), end)
+    return count
+
+
+@routine
+def filter_at_once(world: Any, crossed: Any, count: int) -> tuple[float, int]:
+    """(product of `transmit`, first surface) over the crossings gathered, nearest first.
+
+    Surfaces of one object at the same distance are one: a ray through the edge between two faces crosses once.
+    """
+    stay_apart()
+    share, first = 1.0, -1
+    last_t, last_object = -1.0, -1
+    for done in range(count):
+        k = done
+        for j in range(done + 1, count):
+            nearer = crossed[j].t < crossed[k].t
+            if nearer or (crossed[j].t == crossed[k].t and crossed[j].surface < crossed[k].surface):
+                k = j
+        t, s = crossed[k].t, crossed[k].surface
+        crossed[k].t, crossed[k].surface = crossed[done].t, crossed[done].surface
+        this = world.surfaces[s].object
+        if t != last_t or this != last_object:
+            share *= transmit(world, s)
+        if first < 0:
+            first = s
+        last_t, last_object = t, this
+    return (share, first)
+
+
+@routine
+def filter_step_by_step(world: Any, ray: Ray, end: float, stack: Any) -> tuple[float, int]:
+    """The same, crossing by crossing, however many there are."""
+    stay_apart()
+    share, first = 1.0, -1
+    last_t, last_object = -1.0, -1
+    t, s, _ = closest(world, ray, 0.0, -1, stack)
+    while s >= 0 and t < end:
+        this = world.surfaces[s].object
+        if t != last_t or this != last_object:
+            share *= transmit(world, s)
+        if first < 0:
+            first = s
+        last_t, last_object = t, this
+        t, s, _ = closest(world, ray, t, s, stack)
+    return (share, first)
+
+
+@routine
+def occluder(world: Any, ray: Ray, end: float, glass_blocks: bool, stack: Any) -> tuple[float, int]:
+    """(t, surface) of the nearest one that blocks."""
+    t, s, _ = closest(world, ray, 0.0, -1, stack)
+    while s >= 0 and t < end and not glass_blocks and transmit(world, s) > 0.0:
+        t, s, _ = closest(world, ray, t, s, stack)
+    return (t, s)
