@@ -32,7 +32,7 @@ def world(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> tr
 
 
 @pytest.fixture
-def scene_file(tmp_path: Path):  # noqa: ANN201
+def scene_file(tmp_path: Path):
     """Writes a scene file; gives its path."""
 
     def write(text: str, name: str = "scene.toml") -> Path:

@@ -1,7 +1,7 @@
 """The same scene for an independent program: POV-Ray (the Debian package povray), by Whitted's model.
 
-Its finish has our terms under its own names: ambient, diffuse, phong, reflection, and transmit of the pigment, by which it
-scales ambient and diffuse down. It counts the camera ray as a level.
+Its finish has our terms under its own names: ambient, diffuse, phong, reflection, and transmit of the pigment, by
+which it scales ambient and diffuse down. It counts the camera ray as a level.
 """
 
 import math
@@ -35,15 +35,16 @@ def write_scene(scene: Scene, depth: int, size: tuple[int, int]) -> str:
     look_at = np.add(view.eye, view.forward)
     parts = [
         "#version 3.7;",
-        f"global_settings {{ assumed_gamma 1 max_trace_level {depth + 1} adc_bailout 0 ambient_light {_rgb(scene.tracing.ambient)} }}",
+        f"global_settings {{ assumed_gamma 1 max_trace_level {depth + 1} adc_bailout 0",
+        f"  ambient_light {_rgb(scene.tracing.ambient)} }}",
         f"background {{ {_rgb(scene.background.color)} }}",
         # Right-handed: its x axis runs the other way.
-        f"camera {{ location {_v(view.eye)} sky {_v(scene.camera.up)} up y right -{aspect!r}*x angle {angle!r} look_at {_v(look_at)} }}",
+        f"camera {{ location {_v(view.eye)} sky {_v(scene.camera.up)} up y right -{aspect!r}*x",
+        f"  angle {angle!r} look_at {_v(look_at)} }}",
     ]
     for light in scene.lights:
         assert light.position is not None
-        shadowless = ""
-        parts.append(f"light_source {{ {_v(light.position)} {_rgb(light.color)} {shadowless}}}")
+        parts.append(f"light_source {{ {_v(light.position)} {_rgb(light.color)} }}")
     parts += [_object(item) for item in scene.objects]
     return "\n".join(parts) + "\n"
 

@@ -1,7 +1,7 @@
 """Small scenes with answers that are known in advance."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import tracer
 from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, Tracing
@@ -20,7 +20,11 @@ DARK = Material("dark")
 
 
 def ball(
-    center: Sequence[float] = (0, 0, 0), radius: float = 1.0, material: Material = MATTE, name: str = "ball", **more: object
+    center: Sequence[float] = (0, 0, 0),
+    radius: float = 1.0,
+    material: Material = MATTE,
+    name: str = "ball",
+    **more: object,
 ) -> Object:
     x, y, z = (float(value) for value in center)
     return Object(Sphere((x, y, z), radius), material, name, **more)  # type: ignore[arg-type]
@@ -30,7 +34,9 @@ def plane(point: Sequence[float], normal: Sequence[float], material: Material = 
     return Object(Plane(_three(point), _three(normal)), material, name)
 
 
-def box(low: Sequence[float], high: Sequence[float], material: Material = MATTE, name: str = "box", **more: object) -> Object:
+def box(
+    low: Sequence[float], high: Sequence[float], material: Material = MATTE, name: str = "box", **more: object
+) -> Object:
     return Object(Box(_three(low), _three(high)), material, name, **more)  # type: ignore[arg-type]
 
 
@@ -55,6 +61,10 @@ def kinds(tree: tracer.RayTree) -> list[str]:
 
 def ends(tree: tracer.RayTree) -> list[str | None]:
     return [tree.end(i) for i in range(len(tree))]
+
+
+def polygon(corners: Iterable[Iterable[float]], material: Material = MATTE, name: str = "face") -> Object:
+    return Object(Polygon(tuple(_three(list(corner)) for corner in corners)), material, name)
 
 
 def _three(values: Sequence[float]) -> tuple[float, float, float]:

@@ -1,8 +1,9 @@
 """A hierarchy of boxes over the bounded surfaces, so that a ray tests only those near its way.
 
-Binary, split where the surface area heuristic expects the least work, tried at the borders of equal bins (Wald, "On fast
-Construction of SAH-based Bounding Volume Hierarchies", IRT 2007). Nodes are laid out depth first: a box's first half
-follows it, `second` says where the other half stands. Few surfaces are one leaf: the flat loop is then the fastest.
+Binary, split where the surface area heuristic expects the least work, tried at the borders of equal bins (Wald, "On
+fast Construction of SAH-based Bounding Volume Hierarchies", IRT 2007). Nodes are laid out depth first: a box's first
+half follows it, `second` says where the other half stands. Few surfaces are one leaf: the flat loop is then the
+fastest.
 """
 
 import math

@@ -1,7 +1,8 @@
 """The pinhole camera: from a place in the image to a ray, and where it stands when the author did not say.
 
-(x, y) counts in pixels from the image's top left corner, so pixel (i, j) covers i..i+1, j..j+1 and its centre is at +0.5.
-The field of view is over the image's full height. Directions are -z forward, x right, y up in the camera's frame.
+(x, y) counts in pixels from the image's top left corner, so pixel (i, j) covers i..i+1, j..j+1 and its centre is at
++0.5. The field of view is over the image's full height. Directions are -z forward, x right, y up in the camera's
+frame.
 """
 
 import math

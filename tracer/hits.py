@@ -14,7 +14,6 @@ from tracer.jit import compiled, routine
 from tracer.rays import Ray
 from tracer.shapes import again, intersect
 
-
 SMALLEST = 5e-324  # the number after 0
 
 
@@ -89,7 +88,10 @@ OUTWARD = 1.0 + 8 * 2.0**-53
 
 @compiled
 def entry(box: Any, ray: Ray, best: float) -> float:
-    """Where the ray enters the box, 0 from inside; infinite if not before `best`. A 0 * inf sets no limit: comparing is false."""
+    """Where the ray enters the box, 0 from inside; infinite if not before `best`.
+
+    A 0 * inf sets no limit: comparing with it is false.
+    """
     near, far = 0.0, best
     for k in range(3):
         low = (box.low[k] - ray.origin[k]) * ray.inverse[k]

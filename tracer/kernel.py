@@ -297,7 +297,7 @@ def send(
     k: float,
     side: float,
 ) -> tuple[int, int, float]:
-    """(rows, rows planned, weight cut): one child of row i, or the reason why it is not followed in the parent's end."""
+    """(rows, rows planned, weight cut): one child of row i, or in its end the reason why that is not followed."""
     table, solids = space.table, space.solids
     parent = table[i]
     factor = (k, k, k)

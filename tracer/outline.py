@@ -3,6 +3,8 @@
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from tracer.nodes import SHADOW
 from tracer.tree import RayTree
 
@@ -25,7 +27,7 @@ WHY = {
 
 def outline(tree: RayTree) -> str:
     """The whole tree, children below their parent, with a head of two lines."""
-    rows = [HEADINGS]
+    rows: list[tuple[str, ...]] = [HEADINGS]
     stems = _stems(tree)
     for i in tree.walk():
         rows.append(_row(tree, i, stems[i]))
@@ -87,7 +89,7 @@ def degrees(radians: float) -> str:
     return "" if math.isnan(radians) else f"{math.degrees(radians):.2f}°"
 
 
-def triple(rgb: Sequence[float], same: bool = False) -> str:
+def triple(rgb: Sequence[float] | np.ndarray, same: bool = False) -> str:
     """Three numbers, or with `same` one where all are equal."""
     if same and rgb[0] == rgb[1] == rgb[2]:
         return f"{rgb[0]:.4g}"

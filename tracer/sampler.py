@@ -1,8 +1,9 @@
 """Where inside a pixel its samples lie: points that fill the square evenly, at any number of them.
 
-Sobol's first two dimensions, a (0,2)-sequence: of the first 4, 16, 64 ... points each cell of the 2x2, 4x4, 8x8 ... grid
-holds one (Kollig & Keller, "Efficient Multidimensional Sampling", Eurographics 2002). Each pixel turns over its own
-random bits of all points, so that neighbouring pixels do not repeat a pattern. Whole numbers only: the same everywhere.
+Sobol's first two dimensions, a (0,2)-sequence: of the first 4, 16, 64 ... points each cell of the 2x2, 4x4, 8x8 ...
+grid holds one (Kollig & Keller, "Efficient Multidimensional Sampling", Eurographics 2002). Each pixel turns over its
+own random bits of all points, so that neighbouring pixels do not repeat a pattern. Whole numbers only: the same
+everywhere.
 """
 
 import numpy as np

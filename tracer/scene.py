@@ -1,7 +1,7 @@
 """What an author writes: a scene as frozen dataclasses, each field with its rule and its default beside it.
 
-Format 1 of the scene file has the same names; `formats/` reads files into these. Lengths are in the author's unit, colours
-linear RGB, angles in degrees, the frame right-handed.
+Format 1 of the scene file has the same names; `formats/` reads files into these. Lengths are in the author's unit,
+colours linear RGB, angles in degrees, the frame right-handed.
 """
 
 import math

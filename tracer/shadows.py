@@ -1,7 +1,8 @@
 """What a ray meets on its way to a light, and how much of the light gets through.
 
-An opaque surface on the way blocks it. Each transparent one multiplies it by its `transmit`, straight through and unbent: a
-simplification, since the light that really arrives there was bent on its way. Or, if the scene wants it, glass blocks too.
+An opaque surface on the way blocks it. Each transparent one multiplies it by its `transmit`, straight through and
+unbent: a simplification, since the light that really arrives there was bent on its way. Or, if the scene wants it,
+glass blocks too.
 """
 
 import math
@@ -33,7 +34,7 @@ def towards_light(light: Any, point: Vector) -> tuple[Vector, float]:
 
 @compiled
 def light_through(world: Any, ray: Ray, end: float, glass_blocks: bool, space: Any) -> tuple[float, int]:
-    """(share of the light, first transparent surface crossed or -1); share 0 where an opaque one is nearer than `end`."""
+    """(share of the light, first transparent surface crossed or -1); 0 where an opaque one is nearer than `end`."""
     count = obstruction(world, ray, end, glass_blocks, space)
     if count == 0:
         return (1.0, -1)

@@ -1,7 +1,7 @@
 """The kernel's one entry point: the trees behind a tile of pixels.
 
-An image is all its tiles; a click is the tile of one pixel, whose table is then kept; a ray given by hand is the one pixel
-of a view that sees nothing else.
+An image is all its tiles; a click is the tile of one pixel, whose table is then kept; a ray given by hand is the one
+pixel of a view that sees nothing else.
 """
 
 from typing import Any, NamedTuple

@@ -1,7 +1,7 @@
 """The tree of rays behind one pixel: a read-only view of the node table, and the calls that get one.
 
-    tree = trace(world, pixel=(320, 240), depth=3)
-    tree.radiance, tree.nodes["t"], tree.to_json()
+tree = trace(world, pixel=(320, 240), depth=3)
+tree.radiance, tree.nodes["t"], tree.to_json()
 """
 
 import json
@@ -73,8 +73,10 @@ class RayTree:
         return (self.scene.lights[j].name or f"light {j}") if j >= 0 else None
 
     def path(self, i: int) -> str:
-        """The surfaces between the eye and the ray's end, eye first (Heckbert 1990): E the eye, S a mirror or glass that
-        sent the ray on, D a surface whose own colour is seen, L a light that is reached."""
+        """The surfaces between the eye and the ray's end, eye first (Heckbert 1990).
+
+        E the eye, S a mirror or glass that sent the ray on, D a surface whose own colour is seen, L a light reached.
+        """
         row = self.nodes[i]
         letters = "E" + "S" * int(row["depth"])
         if row["kind"] == SHADOW:
@@ -164,8 +166,8 @@ def trace(
 ) -> RayTree:
     """The tree behind a pixel of the image (counted from the top left), or of a ray (origin, direction).
 
-    `size` (width, height) is the scene's by default, `depth` and `model` too; `sample` is the number of one point of the
-    pixel's sampler, its centre by default. ValueError for a pixel outside the image or a ray without a direction.
+    `size` (width, height) is the scene's by default, `depth` and `model` too; `sample` is the number of one point of
+    the pixel's sampler, its centre by default. ValueError for a pixel outside the image or a ray without a direction.
     """
     if (pixel is None) == (ray is None):
         raise ValueError("either a pixel or a ray is traced: give one of them")

@@ -133,7 +133,10 @@ def prepare(scene: Scene) -> World:
         surfaces=surfaces,
         corners=corners,
         smooth=smooth,
-        objects=np.array([_object(item, materials.index(item.material), ranks.get(k, -1)) for k, item in enumerate(scene.objects)], OBJECT),
+        objects=np.array(
+            [_object(item, materials.index(item.material), ranks.get(k, -1)) for k, item in enumerate(scene.objects)],
+            OBJECT,
+        ),
         materials=np.array([_material(material) for material in materials], MATERIAL),
         lights=_lights(scene),
         indices=np.array([scene.objects[k].material.ior for k in solids], np.float64),
@@ -244,6 +247,6 @@ def _lights(scene: Scene) -> np.ndarray:
         if light.direction is not None:
             x, y, z = unit(light.direction)
             row["towards"] = (-x, -y, -z)
-        else:
+        elif light.position is not None:
             row["position"] = light.position
     return rows

@@ -171,5 +171,5 @@ class App:
 
 
 def _pending_events() -> list:
-    context = internal.get_current_context() if hasattr(internal, "get_current_context") else imgui.get_current_context()
-    return list(context.input_events_queue)
+    """What imgui's callbacks have noted and no frame has taken up."""
+    return list(imgui.get_current_context().input_events_queue)

@@ -11,7 +11,6 @@ from viewer.raylines import RayLine, ray_lines
 from viewer.session import Session
 from viewer.stagelines import StageLines, frustum_lines, image_plane, normal_lines, style_rays
 
-
 REFRESH = 0.4  # seconds between the states of an unfinished image that the 3D view shows
 
 

@@ -1,4 +1,4 @@
-"""The command line: what can be said, and nothing else. What the commands do stands in `commands`, loaded when needed."""
+"""The command line: what can be said, and nothing else. What is then done stands in `commands`, loaded when needed."""
 
 import argparse
 import re
@@ -106,7 +106,7 @@ def _joined(arguments: list[str]) -> list[str]:
     return joined
 
 
-def pair(separator: str):  # noqa: ANN201
+def pair(separator: str):
     """Reader of two whole numbers, as in 320,240 or 640x480."""
 
     def read(text: str) -> tuple[int, int]:
@@ -132,7 +132,7 @@ def six(text: str) -> tuple[float, ...]:
     return numbers
 
 
-def at_least(least: int):  # noqa: ANN201
+def at_least(least: int):
     def read(text: str) -> int:
         if not re.fullmatch(r"-?\d+", text) or int(text) < least:
             raise argparse.ArgumentTypeError(f'a whole number >= {least}, got "{text}"')

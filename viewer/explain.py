@@ -1,7 +1,7 @@
 """What the picked ray does and why, in the lecture's formulas with its own numbers put in.
 
-Sections of lines, for panels to lay out and tests to read: nothing here draws. Every number is taken from the node table
-or worked out again from it by the formulas of `tracer.optics`.
+Sections of lines, for panels to lay out and tests to read: nothing here draws. Every number is taken from the node
+table or worked out again from it by the formulas of `tracer.optics`.
 """
 
 import math
@@ -110,7 +110,7 @@ def explain(tree: RayTree, world: World, i: int) -> list[Section]:
         sections.append(_transmission(tree, i))
         if tree.model == MODELS[1] and not tir:
             sections.append(_fresnel(tree, i, material))
-    if material.reflect > 0.0 or tir or tree.model == MODELS[1] and material.transmit > 0.0:
+    if material.reflect > 0.0 or tir or (tree.model == MODELS[1] and material.transmit > 0.0):
         sections.append(_reflection(tree, i))
     return [*sections, _local(tree, world, i)]
 
@@ -299,5 +299,3 @@ def same(rgb: np.ndarray) -> str:
 
 def _pair(first: str, second: str) -> str:
     return f"{first} → {second}" if second != "–" else first
-
-

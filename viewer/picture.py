@@ -1,4 +1,4 @@
-"""Pictures as files: PNG clipped to 8-bit sRGB, NumPy and OpenEXR linear. A new format is a writer and its line in WRITERS."""
+"""Pictures as files: PNG clipped to 8-bit sRGB, NumPy and OpenEXR linear. A new format: a writer, a line in WRITERS."""
 
 import io
 import tempfile

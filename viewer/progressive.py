@@ -1,4 +1,4 @@
-"""The image as it renders: coarse at once, then finer, on threads of its own; stopped within a tile when it is outdated."""
+"""The image as it renders: coarse at once, then finer, on threads of its own; stopped within a tile when outdated."""
 
 import os
 import threading

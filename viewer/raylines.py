@@ -1,4 +1,4 @@
-"""From a ray tree to the lines that show it, in the window's 3D view as in the pick that finds a line under the mouse."""
+"""From a ray tree to the lines that show it, in the 3D view as in the pick that finds a line under the mouse."""
 
 import math
 from collections.abc import Set

@@ -96,7 +96,9 @@ class Session:
 
     # --- opening scenes ---------------------------------------------------------------------------------------------
 
-    def open(self, path: Path, lesson: Lesson | None = None, depth: int | None = None, pixel: tuple | None = None) -> None:
+    def open(
+        self, path: Path, lesson: Lesson | None = None, depth: int | None = None, pixel: tuple | None = None
+    ) -> None:
         """Load a scene in the background; until it is there, and if it has faults, what is on show stays."""
         self.wanted_depth = depth if depth is not None else lesson.depth if lesson else None
         self.wanted_pixel = pixel or (lesson.pixel if lesson else None)
@@ -298,4 +300,3 @@ class Session:
         self.warmup.close()
         self.image.close()
         self.loader.shutdown(cancel_futures=True)
-

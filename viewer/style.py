@@ -12,10 +12,10 @@ def apply(theme: Theme, scale: float, zoom: float) -> None:
     style.font_size_base = FONT_SIZE
     style.font_scale_dpi = scale
     style.font_scale_main = zoom
-    style.window_padding = (8, 6)
-    style.frame_padding = (7, 4)
-    style.item_spacing = (8, 5)
-    style.cell_padding = (5, 2)
+    style.window_padding = imgui.ImVec2(8, 6)
+    style.frame_padding = imgui.ImVec2(7, 4)
+    style.item_spacing = imgui.ImVec2(8, 5)
+    style.cell_padding = imgui.ImVec2(5, 2)
     style.scrollbar_size = 11
     style.frame_rounding = 4
     style.grab_rounding = 4

@@ -1,7 +1,7 @@
 """The one file that knows glfw and imgui's backend: a window on a screen, or the same without one.
 
-Both give a GL context, feed imgui, and present what it drew. `imgui_bundle` is imported before `glfw`, so that on systems
-where each brings its own copy of that library, both use the same.
+Both give a GL context, feed imgui, and present what it drew. `imgui_bundle` is imported before `glfw`, so that on
+systems where each brings its own copy of that library, both use the same.
 """
 
 import ctypes
@@ -10,11 +10,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+# isort: off
+import imgui_bundle  # before glfw
+import glfw
+
+# isort: on
 import moderngl
 import numpy as np
-from imgui_bundle import imgui  # isort: skip  # before glfw
-import glfw
-import imgui_bundle
+from imgui_bundle import imgui
 from imgui_bundle.imgui import backends
 
 from viewer.theme import FONT_SIZE
@@ -42,7 +45,7 @@ class Surface:
         _load_fonts()
 
     def grab(self) -> np.ndarray:
-        """What imgui drew last as 8-bit RGB (height, width, 3), top row first; drawn once more into a buffer of our own."""
+        """What imgui drew last as 8-bit RGB (height, width, 3), top row first; drawn again into a buffer of our own."""
         data = imgui.get_draw_data()
         width = max(1, int(data.display_size.x * data.framebuffer_scale.x))
         height = max(1, int(data.display_size.y * data.framebuffer_scale.y))
@@ -86,12 +89,15 @@ class Window(Surface):
         self.ctx = moderngl.create_context(require=330)
         self._start_imgui(ini)
         # Ours first: imgui's backend calls on to what it finds.
-        glfw.set_drop_callback(self.window, lambda _, paths: self.dropped.extend(Path(path) for path in paths))
+        glfw.set_drop_callback(self.window, self._drop)  # type: ignore[arg-type]  # its stub says int for a list
         glfw.set_window_refresh_callback(self.window, lambda _: self.on_refresh())
         address = ctypes.cast(self.window, ctypes.c_void_p).value
         assert address is not None
         backends.glfw_init_for_opengl(address, True)
         backends.opengl3_init(GLSL)
+
+    def _drop(self, _: object, paths: list[str]) -> None:
+        self.dropped += [Path(path) for path in paths]
 
     @property
     def scale(self) -> float:
@@ -166,7 +172,7 @@ class Offscreen(Surface):
         self.scale = 1.0
 
     def resize(self, size: tuple[int, int]) -> None:
-        imgui.get_io().display_size = size
+        imgui.get_io().display_size = imgui.ImVec2(*size)
 
     def close_requested(self) -> None:
         self.closing = True

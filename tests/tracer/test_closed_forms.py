@@ -1,4 +1,4 @@
-"""Scenes whose answers are known in closed form. Tolerances: units of rounding error times a stated condition number."""
+"""Scenes with answers in closed form. Tolerances: units of rounding error times a stated condition number."""
 
 import math
 
@@ -15,7 +15,7 @@ U = 2.0**-53
 @pytest.mark.parametrize("n", [1.0003, 4 / 3, 1.5, 2.42, 100.0])
 @pytest.mark.parametrize("depth", [2, 3, 7])
 def test_ray_through_the_centre_of_a_ball_goes_straight_on(n: float, depth: int) -> None:
-    """P. Shirley's first test: down the z axis through a unit ball, in at (0,0,1), out at (0,0,-1), whatever its index."""
+    """P. Shirley's first test: down the z axis through a unit ball, in at (0,0,1), out at (0,0,-1), any index."""
     world = world_of(ball(material=Material("glass", transmit=1.0, ior=n)), background=(0.25, 0.5, 0.75))
     tree = tracer.trace(world, ray=((0, 0, 5), (0, 0, -1)), depth=depth)
     assert kinds(tree) == ["camera", "refraction", "refraction"]
@@ -74,7 +74,7 @@ def test_critical_angle_of_water_is_decided_on_the_right_side(aside: float, mode
 
 
 def test_parallel_mirrors_are_met_at_equal_steps() -> None:
-    """Between x = 0 and x = 1, rising 2^-10 a crossing: y_N = (N - 1/2) / 1024. 100 bounces, and no more rounding than theirs."""
+    """Between x = 0 and x = 1, rising 2^-10 a crossing: y_N = (N - 1/2) / 1024, to the rounding of N bounces."""
     world = world_of(plane((0, 0, 0), (1, 0, 0), MIRROR, "left"), plane((1, 0, 0), (-1, 0, 0), MIRROR, "right"))
     tree = tracer.trace(world, ray=((0.5, 0, 0), (1, 2.0**-10, 0)), depth=100)
     hits = tree.nodes["point"]
@@ -112,7 +112,9 @@ def test_white_furnace(depth: int) -> None:
 
 
 def test_mirror_of_weight_one_has_one_child() -> None:
-    tree = tracer.trace(world_of(plane((0, 0, 0), (0, 1, 0), MIRROR), background=(1, 1, 1)), ray=((0, 1, 0), (1, -1, 0)))
+    tree = tracer.trace(
+        world_of(plane((0, 0, 0), (0, 1, 0), MIRROR), background=(1, 1, 1)), ray=((0, 1, 0), (1, -1, 0))
+    )
     assert kinds(tree) == ["camera", "reflection"]
     assert tree.nodes["direction"][1].tolist() == pytest.approx([math.sqrt(0.5), math.sqrt(0.5), 0.0], abs=2 * U)
 
@@ -153,15 +155,20 @@ def test_no_epsilon_swallows_near_surfaces() -> None:
 
 
 def tree_length(gap: float) -> float:
-    """Length of the refracted path through a coat of thickness 1 at an impact of 0.2, n = 1.5, to first order in the gap."""
+    """Length of the refracted path through a coat of thickness 1, impact 0.2, n = 1.5, to first order."""
     return 1.0 / math.sqrt(1.0 - (0.2 / 1.5) ** 2)
 
 
 def test_two_panes_with_a_hair_between_them_are_four_surfaces() -> None:
     for gap in (1e-2, 1e-6, 1e-12):
         glass = Material("glass", transmit=1.0, ior=1.5)
-        panes = [box((-99, 0, -99), (99, 1, 99), glass, "first"), box((-99, 1 + gap, -99), (99, 2, 99), glass, "second")]
-        tree = tracer.trace(world_of(*panes), ray=((0, -1, 0), (math.sin(math.pi / 6), math.cos(math.pi / 6), 0)), depth=5)
+        panes = [
+            box((-99, 0, -99), (99, 1, 99), glass, "first"),
+            box((-99, 1 + gap, -99), (99, 2, 99), glass, "second"),
+        ]
+        tree = tracer.trace(
+            world_of(*panes), ray=((0, -1, 0), (math.sin(math.pi / 6), math.cos(math.pi / 6), 0)), depth=5
+        )
         assert [tree.object_name(i) for i in range(4)] == ["first", "first", "second", "second"]
         assert np.degrees(tree.nodes["theta1"][[0, 2]]) == pytest.approx([30, 30], abs=1e-12)
         assert np.abs(tree.nodes["direction"][4] - tree.nodes["direction"][0]).max() <= 16 * U

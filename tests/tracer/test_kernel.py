@@ -105,7 +105,9 @@ def test_phong_highlight() -> None:
     """ks (R.V)^p at 45 degrees in and straight up out: cos(45)^2 = 1/2."""
     shiny = Material("shiny", specular=0.5, shininess=2.0)
     lamp = Light("lamp", position=(4.0, 4.0, 0.0))
-    tree = tracer.trace(world_of(plane((0, 0, 0), (0, 1, 0), shiny), lights=[lamp]), ray=((0, 2, 0), (0, -1, 0)), depth=0)
+    tree = tracer.trace(
+        world_of(plane((0, 0, 0), (0, 1, 0), shiny), lights=[lamp]), ray=((0, 2, 0), (0, -1, 0)), depth=0
+    )
     assert tree.radiance == pytest.approx([0.25] * 3, rel=1e-14)
 
 
@@ -122,7 +124,7 @@ def test_glass_filters_or_blocks_shadow_rays(shadows: str, share: float, end: st
     assert tree.radiance[0] == pytest.approx(share, rel=4e-16)
 
 
-def tracer_sheet(height: float, material: Material):  # noqa: ANN201
+def tracer_sheet(height: float, material: Material):
     from tracer.scene import Object
 
     corners = ((-9.0, height, -9.0), (-9.0, height, 9.0), (9.0, height, 9.0), (9.0, height, -9.0))
@@ -257,12 +259,16 @@ def test_mirrored_scene_has_the_mirrored_tree() -> None:
 
     def tree(sign: int) -> tracer.RayTree:
         objects = (
-            ball((0.3 * sign, 0, 0), 1, Material("glass", diffuse=0.2, specular=0.2, reflect=0.2, transmit=0.8, ior=1.5)),
+            ball(
+                (0.3 * sign, 0, 0), 1, Material("glass", diffuse=0.2, specular=0.2, reflect=0.2, transmit=0.8, ior=1.5)
+            ),
             box((min(1.5 * sign, 2.5 * sign), -1, -2), (max(1.5 * sign, 2.5 * sign), 1, 0), MIRROR),
             plane((0, -1, 0), (0, 1, 0)),
         )
         lamp = Light("lamp", position=(2.0 * sign, 5.0, 3.0))
-        return tracer.trace(world_of(*objects, lights=[lamp]), ray=((0.2 * sign, 0.5, 5), (0.03 * sign, -0.1, -1)), depth=6)
+        return tracer.trace(
+            world_of(*objects, lights=[lamp]), ray=((0.2 * sign, 0.5, 5), (0.03 * sign, -0.1, -1)), depth=6
+        )
 
     right, left = tree(1), tree(-1)
     assert len(right) >= 20

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import tracer
-from tests.scenes import MATTE, ball, box, kinds, world_of
+from tests.scenes import MATTE, ball, box, kinds, polygon, world_of
 from tracer.bvh import FLAT, build
 from tracer.nodes import BACKGROUND
 from tracer.scene import Material, Object
@@ -16,7 +16,7 @@ from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.triangle import Triangle
 
-STAR = ((0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (4.0, 3.0, 0.0), (3.0, 3.0, 0.0), (3.0, 1.0, 0.0), (1.0, 1.0, 0.0), (1.0, 3.0, 0.0), (0.0, 3.0, 0.0))  # fmt: skip
+LETTER_U = tuple((float(x), float(y), 0.0) for x, y in ((0, 0), (4, 0), (4, 3), (3, 3), (3, 1), (1, 1), (1, 3), (0, 3)))
 OPEN = Material("open", ambient=1.0)
 
 
@@ -26,14 +26,21 @@ def hits(world: tracer.World, origin: tuple, direction: tuple) -> bool:
 
 def test_concave_polygon_is_open_where_it_is_cut_out() -> None:
     """A U: its two arms and its bar are hit, the gap between them is not."""
-    world = world_of(Object(Polygon(STAR), OPEN, "U"))
-    for x, y, inside in ((0.5, 2, True), (3.5, 2, True), (2, 0.5, True), (2, 2, False), (2, 1.01, False), (5, 1, False)):
+    world = world_of(Object(Polygon(LETTER_U), OPEN, "U"))
+    for x, y, inside in (
+        (0.5, 2, True),
+        (3.5, 2, True),
+        (2, 0.5, True),
+        (2, 2, False),
+        (2, 1.01, False),
+        (5, 1, False),
+    ):
         assert hits(world, (x, y, 5), (0, 0, -1)) == inside
         assert hits(world, (x + 1, y - 2, -3), (-1 / 3, 2 / 3, 1)) == inside
 
 
 def test_polygon_normal_is_on_the_side_from_which_its_corners_run_counter_clockwise() -> None:
-    for corners, sign in ((STAR, 1.0), (STAR[::-1], -1.0)):
+    for corners, sign in ((LETTER_U, 1.0), (LETTER_U[::-1], -1.0)):
         world = world_of(Object(Polygon(corners), Material("glass", transmit=1.0, ior=1.5), "face"))
         tree = tracer.trace(world, ray=((0.5, 0.5, 5), (0, 0, -1)), depth=1)
         # Transparent: what it bounds lies behind its normal, so from the front the ray enters.
@@ -48,7 +55,7 @@ def test_polygons_that_share_edges_leave_no_gap() -> None:
         for j in range(6):
             corners = [(i, j, 0), (i + 1, j, 0), (i + 1, j + 1, 0), (i, j + 1, 0)]
             turned = (np.array(corners, float) / 3.0 - 1.0) @ turn.T
-            objects.append(Object(Polygon(tuple(map(tuple, turned))), OPEN))
+            objects.append(polygon(turned, OPEN))
     world = world_of(*objects)
     random = np.random.default_rng(5)
     for _ in range(400):
@@ -113,7 +120,7 @@ def test_glass_mesh_is_entered_and_left_at_its_edges_too() -> None:
 
 
 def test_corner_of_a_room_of_polygons_keeps_rays_in() -> None:
-    """Mirrors that meet at right angles: rays into their edges and corner come back, none slips through between them."""
+    """Mirrors that meet at right angles: rays into their edges and corner come back, none slips through."""
     mirror = Material("mirror", reflect=1.0)
     s = 1e6
     walls = [
@@ -124,9 +131,7 @@ def test_corner_of_a_room_of_polygons_keeps_rays_in() -> None:
     random = np.random.default_rng(2)
     axes, _ = np.linalg.qr(random.normal(size=(3, 3)))
     for turn in (np.eye(3), axes):
-        objects = [
-            Object(Polygon(tuple(tuple(float(x) for x in turn @ np.array(p, float)) for p in wall)), mirror) for wall in walls
-        ]
+        objects = [polygon((turn @ np.array(corner, float) for corner in wall), mirror) for wall in walls]
         world = world_of(*objects, background=(1, 1, 1))
         for k in range(600):
             target = np.array([0.0, 0.0, 0.0])
@@ -144,7 +149,7 @@ def test_convex_edge_does_not_stop_a_ray_that_leaves_it() -> None:
     """Two faces of a roof: a ray reflected at its ridge goes up, and does not meet the other face first."""
     mirror = Material("mirror", reflect=1.0)
     faces = [((-1, 0, -5), (-1, 0, 5), (0, 1, 5), (0, 1, -5)), ((0, 1, -5), (0, 1, 5), (1, 0, 5), (1, 0, -5))]
-    world = world_of(*(Object(Polygon(tuple(tuple(map(float, p)) for p in face)), mirror) for face in faces))
+    world = world_of(*(polygon(face, mirror) for face in faces))
     random = np.random.default_rng(4)
     for _ in range(500):
         target = np.array([0.0, 1.0, random.uniform(-4, 4)])
@@ -168,7 +173,7 @@ def test_needle_triangle_is_hit() -> None:
 
 
 def test_ray_in_the_plane_of_a_face_misses_it() -> None:
-    world = world_of(Object(Polygon(STAR), OPEN))
+    world = world_of(Object(Polygon(LETTER_U), OPEN))
     assert not hits(world, (-3, 0.5, 0), (1, 0, 0))
 
 
@@ -238,9 +243,7 @@ def test_hierarchy_finds_what_trying_all_surfaces_finds(balls: list, rays: list)
         if max(abs(dx), abs(dy), abs(dz)) < 1e-6:
             continue
         tree = tracer.trace(world, ray=((ox, oy, oz), (dx, dy, dz)), depth=0)
-        best = min(
-            (t, k) for k in range(len(balls)) for t in [_alone(objects[k], (ox, oy, oz), (dx, dy, dz))]
-        )
+        best = min((t, k) for k in range(len(balls)) for t in [_alone(objects[k], (ox, oy, oz), (dx, dy, dz))])
         if math.isinf(best[0]):
             assert tree.nodes["end"][0] == BACKGROUND
         else:

@@ -104,7 +104,7 @@ def _geometry(path: Path, mesh: Any) -> Geometry:
 
 def _material(mesh: Any, documents: dict[str, Any]) -> Material:
     """What the file says of the surface, in our terms."""
-    visual = getattr(mesh.visual, "material", None)
+    visual: Any = getattr(mesh.visual, "material", None)
     kind = type(visual).__name__
     if kind == "SimpleMaterial":
         return _from_obj(visual)
@@ -198,7 +198,9 @@ def _check_glb(path: Path) -> dict[str, Any]:
     for k, count in enumerate(counts):
         # Every element takes at least a byte of the file, save where an accessor leaves its data out.
         if not 0 <= count <= size or ("bufferView" not in accessors[k] and count > MOST_FACES // 100):
-            raise MeshError(f"mesh {path.name}: accessor {k} must have no more elements than the file holds, got {count}")
+            raise MeshError(
+                f"mesh {path.name}: accessor {k} must have no more elements than the file holds, got {count}"
+            )
     return document
 
 

@@ -192,9 +192,7 @@ class Reader:
         except MeshError as error:
             self.fault(where, str(error))
             return []
-        return [
-            (Mesh(part.geometry, **values), part.name if len(parts) > 1 else "", part.material) for part in parts
-        ]
+        return [(Mesh(part.geometry, **values), part.name if len(parts) > 1 else "", part.material) for part in parts]
 
 
 def known(names: Iterable[str]) -> str:

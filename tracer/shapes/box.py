@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from tracer import fields
 from tracer.jit import compiled
 from tracer.rays import Ray
-from tracer import fields
-from tracer.vector import Vector, add, scale, vector
+from tracer.vector import Vector, add, scale
 
 NAME = "box"
 

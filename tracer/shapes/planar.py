@@ -54,8 +54,8 @@ def side_of(world: Any, face: Any, plane: Any) -> int:
 def plane_distance(world: Any, surface: Any, ray: Ray, ceiling: float) -> tuple[float, float]:
     """(t, slack): t > 0 to the plane of the face, 0 where the ray starts on it and crosses it, else infinite.
 
-    The slack is 0, but where the ray starts on the plane: there it is how far outside of the face's outline rounding may
-    have put a point that lies on the edge of both faces.
+    The slack is 0, but where the ray starts on the plane: there it is how far outside of the face's outline rounding
+    may have put a point that lies on the edge of both faces.
     """
     normal = vector(surface.normal)
     height = dot(normal, subtract(vector(surface.a), ray.origin))
@@ -63,7 +63,8 @@ def plane_distance(world: Any, surface: Any, ray: Ray, ceiling: float) -> tuple[
     error = NEAR * (surface.r + ray.reach)
     if ray.start >= 0 and abs(height) <= error and speed != 0.0:
         return (touching_distance(world, surface, ray, height / speed, speed), 2.0 * error)
-    # Most planes lie behind or too far: that is seen without dividing. Nothing is dropped that would round to the ceiling.
+    # Most planes lie behind or too far: that is seen without dividing. Nothing is dropped that would round to the
+    # ceiling.
     if (height > 0.0) != (speed > 0.0) or abs(height) > abs(speed) * (ceiling * LOOSE):
         return (math.inf, 0.0)
     if height == 0.0 or speed == 0.0:

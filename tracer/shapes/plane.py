@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from tracer import fields
 from tracer.jit import compiled
 from tracer.rays import Ray
-from tracer import fields
 from tracer.shapes import planar
 from tracer.shapes.planar import plane_distance
 from tracer.vector import Vector, unit
@@ -27,7 +27,7 @@ class Plane:
 
     def bounds(self) -> None:
         """None: it has no end."""
-        return None
+        return
 
     def contains(self, p: np.ndarray) -> bool:
         return bool(np.dot(np.subtract(p, self.point), self.normal) < 0.0)

@@ -1,4 +1,4 @@
-"""Polygon: a flat face with any number of corners, convex or not. Packed as a plane; its corners stand in world.corners.
+"""Polygon: a flat face with any number of corners, convex or not. Packed as a plane, its corners in world.corners.
 
 Inside is where a line from the hit to infinity crosses the outline an odd number of times. The crossings are counted
 in the ray's own sheared coordinates, in which an edge shared by two faces is the same two numbers for both.
@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from tracer import fields
 from tracer.jit import compiled
 from tracer.rays import Ray, sheared
-from tracer import fields
 from tracer.shapes import planar
 from tracer.shapes.planar import is_beside, newell, plane_distance
 from tracer.vector import Vector, vector

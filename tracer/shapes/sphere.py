@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from tracer import fields
 from tracer.jit import compiled
 from tracer.rays import Ray
-from tracer import fields
 from tracer.vector import Vector, add, dot, length, scale, subtract, vector
 
 NAME = "sphere"

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from tracer import fields
 from tracer.jit import compiled
 from tracer.rays import Ray, sheared
-from tracer import fields
 from tracer.shapes import planar
 from tracer.shapes.planar import is_beside, newell, plane_distance
 from tracer.vector import Vector, add, cross, dot, scale, subtract, unit, vector

@@ -9,8 +9,8 @@ import numpy as np
 
 from tracer.shapes.box import Box
 from tracer.shapes.mesh import Mesh
-from tracer.shapes.plane import Plane
 from tracer.shapes.planar import newell
+from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle

@@ -1,4 +1,4 @@
-"""Lines of constant width with their arrow heads, drawn as small faces: wide lines are not to be had from every driver."""
+"""Lines of constant width with their arrow heads, drawn as small faces: not every driver draws wide lines."""
 
 from dataclasses import dataclass
 

@@ -61,7 +61,13 @@ class Stage:
         matrix = orbit.matrix(size[0] / size[1])
         self.target.use()
         ctx.enable_only(moderngl.BLEND)
-        ctx.blend_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
+        # The picture itself stays opaque, whatever is blended into it.
+        ctx.blend_func = (  # type: ignore[assignment]  # its stub has forgotten the form with four
+            moderngl.SRC_ALPHA,
+            moderngl.ONE_MINUS_SRC_ALPHA,
+            moderngl.ONE,
+            moderngl.ONE_MINUS_SRC_ALPHA,
+        )
         put(self.ground, top=theme.sky[:3], bottom=theme.haze[:3])
         self.target.drawn.depth_mask = False
         self.empty.render(moderngl.TRIANGLES, vertices=3)
@@ -86,7 +92,9 @@ class Stage:
         ctx.disable(moderngl.DEPTH_TEST)
         self.target.finish()
 
-    def _draw_lines(self, matrix: np.ndarray, theme: Theme, size: tuple[int, int], scale: float, opacity: float) -> None:
+    def _draw_lines(
+        self, matrix: np.ndarray, theme: Theme, size: tuple[int, int], scale: float, opacity: float
+    ) -> None:
         self.marks.draw(matrix, size, scale, opacity)
         self.rays.draw(matrix, size, scale, opacity, halo=theme.ground)
         self.rays.draw(matrix, size, scale, opacity)

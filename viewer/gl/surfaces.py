@@ -143,7 +143,8 @@ class Surfaces:
 
     def _make_balls(self) -> None:
         objects = self.world.scene.objects
-        balls = [(k, item.shape) for k, item in enumerate(objects) if self._is_plain_ball(item.shape)]
+        shapes = [(k, item.shape) for k, item in enumerate(objects)]
+        balls = [(k, shape) for k, shape in shapes if isinstance(shape, Sphere) and self._is_plain_ball(shape)]
         if not balls:
             return
         segments = int(min(ROUND, max(8, math.sqrt(TRIANGLES / len(balls)))))
@@ -151,7 +152,9 @@ class Surfaces:
         shared = self._buffer(np.hstack([corners, corners]))
         self.faces = self.ctx.buffer(faces.astype(np.uint32).tobytes())
         self.owned.append(self.faces)
-        places = np.array([(*self.frame.inside(shape.center), shape.radius / self.frame.radius, k) for k, shape in balls])
+        places = np.array(
+            [(*self.frame.inside(shape.center), shape.radius / self.frame.radius, k) for k, shape in balls]
+        )
         glass = np.array([objects[k].material.transmit > 0.0 for k, _ in balls])
         if (~glass).any():
             self._ball_group(shared, places[~glass], glass=False)

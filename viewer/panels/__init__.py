@@ -1,4 +1,4 @@
-"""Panels: each a function of the session that draws itself with imgui. A new one is a file here and its line in PANELS."""
+"""Panels: each a function of the session that draws itself. A new one is a file here and its line in PANELS."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

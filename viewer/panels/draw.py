@@ -27,14 +27,18 @@ def text_size(text: str, size: float) -> Point:
     return (found.x * share, found.y * share)
 
 
-def text(draw: imgui.ImDrawList, at: Point, color: Color, content: str, size: float, plate: Color | None = None) -> None:
+def text(
+    draw: imgui.ImDrawList, at: Point, color: Color, content: str, size: float, plate: Color | None = None
+) -> None:
     """A text with its top left corner at `at`; on a plate of the ground's colour it reads on any picture."""
     size = round(size)
     x, y = round(at[0]), round(at[1])  # between pixels letters blur
     if plate:
         width, height = text_size(content, size)
         grow = round(0.18 * size)
-        draw.add_rect_filled((x - grow, y - 1), (x + width + grow, y + height + 1), u32(faded(plate, 0.78)), 0.25 * size)
+        draw.add_rect_filled(
+            (x - grow, y - 1), (x + width + grow, y + height + 1), u32(faded(plate, 0.78)), 0.25 * size
+        )
     draw.add_text(imgui.get_font(), size, (x, y), u32(color), content)
 
 

@@ -182,9 +182,7 @@ def _open_dialog(session: Session) -> None:
     if session.folder is None:
         session.folder = session.path.resolve().parent if session.path and not session.lesson else Path.cwd()
     imgui.set_next_item_width(-1)
-    entered, written = imgui.input_text(
-        "##path", str(session.folder), imgui.InputTextFlags_.enter_returns_true
-    )
+    entered, written = imgui.input_text("##path", str(session.folder), imgui.InputTextFlags_.enter_returns_true)
     if entered:
         _go(session, Path(written).expanduser())
     if imgui.begin_child("files", (0, -imgui.get_frame_height_with_spacing())):
@@ -226,7 +224,9 @@ def _help(session: Session) -> None:
     flags = imgui.WindowFlags_
     imgui.push_style_color(imgui.Col_.window_bg, session.theme.raised)
     opened, stays = imgui.begin(
-        "Keys and mouse", True, flags.no_docking | flags.always_auto_resize | flags.no_collapse | flags.no_saved_settings
+        "Keys and mouse",
+        True,
+        flags.no_docking | flags.always_auto_resize | flags.no_collapse | flags.no_saved_settings,
     )
     if opened and imgui.begin_table("keys", 2, imgui.TableFlags_.sizing_fixed_fit):
         for key, meaning in keys.HELP:
@@ -238,4 +238,4 @@ def _help(session: Session) -> None:
         imgui.end_table()
     imgui.end()
     imgui.pop_style_color()
-    session.shows_help = stays
+    session.shows_help = bool(stays)

@@ -74,7 +74,7 @@ def _row_at(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.
 
 
 class _Overlay:
-    """What is written over the 3D view: lights, the camera, ends of shadow rays, names of rays; nothing over another."""
+    """What is written over the 3D view: lights, the camera, ends of shadow rays, names; nothing over another."""
 
     def __init__(self, session: Session, stage: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
         self.session = session

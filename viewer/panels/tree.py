@@ -1,4 +1,4 @@
-"""The ray tree as a diagram: the eye on top, reflected rays to the left, refracted to the right, stubs to the lights."""
+"""The ray tree as a diagram: the eye on top, reflected rays to the left, refracted right, stubs to the lights."""
 
 import math
 
@@ -66,7 +66,7 @@ class _Diagram:
         self.kept = family(self.tree, session.selected) if session.selected is not None else None
 
     def _fit(self, places: dict[int, Place], corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
-        """From places to pixels: as far apart as there is room for, up to a spacing beyond which nothing gets clearer."""
+        """From places to pixels: as far apart as there is room for, up to where nothing gets clearer."""
         look = self.session.tree_view
         unit = d.unit()
         left = min(place.x for place in places.values()) - 0.9
@@ -201,7 +201,9 @@ class _Diagram:
             color = (1.0, 0.82, 0.25, opacity) if self.theme.dark else (0.80, 0.55, 0.0, opacity)
             d.sun(self.pad, (x, y), r, color, self.theme.panel)
             if self.tree.end(i) == "filtered":
-                self.pad.add_circle((x, y), 1.35 * r, d.u32(faded(self.theme.ray("shadow"), opacity)), 0, 1.2 * d.unit())
+                self.pad.add_circle(
+                    (x, y), 1.35 * r, d.u32(faded(self.theme.ray("shadow"), opacity)), 0, 1.2 * d.unit()
+                )
         if selected:
             self.pad.add_circle((x, y), 1.5 * r, d.u32(self.theme.accent), 0, 2.5 * d.unit())
 
