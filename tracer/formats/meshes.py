@@ -61,35 +61,39 @@ def load_parts(path: Path) -> list[Part]:
     if not 0 < size <= LARGEST_FILE:
         raise MeshError(f"mesh {path.name} must have from 1 to {LARGEST_FILE} bytes, got {size}")
     document = _check_glb(path) if path.suffix.lower() == ".glb" else {}
-    if path.suffix.lower() == ".ply":
-        _check_ply(path)
+    promised = _check_ply(path) if path.suffix.lower() == ".ply" else 0
     meshes = _load(path)
     glass = {str(entry.get("name")): entry for entry in document.get("materials", []) if isinstance(entry, dict)}
-    parts = [Part(name, _geometry(path, mesh), _material(mesh, glass)) for name, mesh in meshes]
+    parts = [Part(name, _geometry(path, mesh, place), _material(mesh, glass)) for name, mesh, place in meshes]
     faces = sum(len(part.geometry.faces) for part in parts)
+    if 0 < faces < promised:
+        raise MeshError(f"mesh {path.name} must have {promised} faces as its head says, got {faces}")
     if not 0 < faces <= MOST_FACES:
         raise MeshError(f"mesh {path.name} must have from 1 to {MOST_FACES} triangles, got {faces}")
     return parts
 
 
-def _load(path: Path) -> list[tuple[str, Any]]:
+def _load(path: Path) -> list[tuple[str, Any, np.ndarray]]:
+    """(name, mesh, its place as a 4x4 matrix) for everything in the file that has faces."""
     import trimesh  # not needed by most scenes, and slow to import
 
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)  # what it would say comes back as our one line
     try:
         # Without processing: it would drop corners that are no numbers, and weld flat faces into smooth ones.
         scene = trimesh.load_scene(path, process=False)
-        dumped = scene.dump()
+        placed = [scene.graph[node] for node in scene.graph.nodes_geometry]
+        found = [(str(name), scene.geometry[name], np.array(place, float)) for place, name in placed]
     except Exception as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         raise MeshError(f"mesh {path.name} cannot be read as {path.suffix[1:].upper()}: {reason[:120]}") from None
-    found = [mesh for mesh in dumped if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces)]
-    return [(str(mesh.metadata.get("name", path.stem)), mesh) for mesh in found]
+    return [item for item in found if isinstance(item[1], trimesh.Trimesh) and len(item[1].faces)]
 
 
-def _geometry(path: Path, mesh: Any) -> Geometry:
-    vertices = np.array(mesh.vertices, np.float64)
+def _geometry(path: Path, mesh: Any, place: np.ndarray) -> Geometry:
+    vertices = np.array(mesh.vertices, np.float64) @ place[:3, :3].T + place[:3, 3]
     faces = np.array(mesh.faces, np.int64)
+    if not np.isfinite(place).all():
+        raise MeshError(f"mesh {path.name}: a part's place in the scene must be finite numbers")
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise MeshError(f"mesh {path.name}: faces must name one of its {len(vertices)} vertices, got {faces.max()}")
     bad = ~np.isfinite(vertices).all(axis=1)
@@ -97,8 +101,10 @@ def _geometry(path: Path, mesh: Any) -> Geometry:
         raise MeshError(f"mesh {path.name}: vertex {int(bad.argmax())} must be three finite numbers")
     normals = None
     if "vertex_normals" in mesh._cache.cache:  # asked for by name, trimesh would make them up
-        normals = np.array(mesh.vertex_normals, np.float64)
-        normals[~np.isfinite(normals).all(axis=1)] = 0.0
+        normals = np.array(mesh.vertex_normals, np.float64) @ np.linalg.pinv(place[:3, :3])
+        size = np.sqrt((normals * normals).sum(axis=1, keepdims=True))
+        usable = np.isfinite(size) & (size > 0.0)
+        normals = np.where(usable, normals / np.where(usable, size, 1.0), 0.0)
     return Geometry(vertices, faces, normals)
 
 
@@ -204,14 +210,19 @@ def _check_glb(path: Path) -> dict[str, Any]:
     return document
 
 
-def _check_ply(path: Path) -> None:
+def _check_ply(path: Path) -> int:
+    """How many faces the head of a PLY file promises, its counts held against the file's size."""
+    promised = 0
     size = path.stat().st_size
     with path.open("rb") as file:
         head = file.read(65536)
     for line in head.split(b"end_header")[0].splitlines():
         words = line.split()
-        if len(words) == 3 and words[0] == b"element" and words[2].isdigit() and int(words[2]) > size:
-            name = words[1].decode("ascii", "replace")
-            raise MeshError(
-                f"mesh {path.name}: it must have no more elements than bytes, got {int(words[2])} of {name}"
-            )
+        if len(words) != 3 or words[0] != b"element" or not words[2].isdigit():
+            continue
+        name, count = words[1].decode("ascii", "replace"), int(words[2])
+        if count > size:
+            raise MeshError(f"mesh {path.name}: it must have no more elements than bytes, got {count} of {name}")
+        if name == "face":
+            promised = count
+    return promised
