@@ -18,6 +18,7 @@ DOCK = "dock"
 IDLE = 0.3  # seconds of sleep between looks at the scene's file
 BUSY = 1 / 30  # between frames while an image renders, at least
 SHARE = 0.3  # of the time that frames may take from an image that renders
+SMALLEST = (560, 360)  # room for the panels, in pixels
 AFTERGLOW = 3  # frames drawn after the last event: imgui needs one or two to settle
 
 
@@ -116,7 +117,9 @@ class App:
         reset = menu.draw(session)
         room = imgui.get_main_viewport()
         left, top = room.work_pos
-        width, height = room.work_size.x, room.work_size.y - bar.height()
+        # In a window that is too small the panels are cut off, not squeezed: else they would stay squeezed for good.
+        width = max(room.work_size.x, SMALLEST[0])
+        height = max(room.work_size.y, SMALLEST[1]) - bar.height()
         self._dock(left, top, width, height, reset)
         for panel in PANELS:
             self._panel(panel.title, lambda panel=panel: panel.draw(session, self.canvas))
@@ -136,7 +139,7 @@ class App:
     def _dock(self, left: float, top: float, width: float, height: float, reset: bool) -> None:
         """The room for the panels, and at first which stands where: the eye's way from the image to the numbers."""
         imgui.set_next_window_pos((left, top))
-        imgui.set_next_window_size((max(width, 1), max(height, 1)))
+        imgui.set_next_window_size((width, height))
         flags = imgui.WindowFlags_
         imgui.push_style_var(imgui.StyleVar_.window_padding, (0, 0))
         imgui.begin(
@@ -146,14 +149,14 @@ class App:
         imgui.pop_style_var()
         dock = imgui.get_id(DOCK)
         if reset or (not self.has_layout and internal.dock_builder_get_node(dock) is None):
-            self._lay_out(dock, max(width, 1), max(height, 1))
+            self._lay_out(dock, width, height)
         self.has_layout = True
         imgui.dock_space(dock)
         imgui.end()
 
     def _lay_out(self, dock: int, width: float, height: float) -> None:
         internal.dock_builder_remove_node(dock)
-        internal.dock_builder_add_node(dock, internal.DockNodeFlagsPrivate_.dock_space)
+        internal.dock_builder_add_node(dock)  # with no central node: then all panels share what a larger window brings
         internal.dock_builder_set_node_size(dock, (width, height))
         _, below, above = internal.dock_builder_split_node_py(dock, imgui.Dir.down, 0.42)
         _, above_right, above_left = internal.dock_builder_split_node_py(above, imgui.Dir.right, 0.44)

@@ -20,7 +20,11 @@ class Canvas:
         self.session = session
         self.stage = Stage(ctx)
         self.image: moderngl.Texture | None = None
-        self.lines: list[RayLine] = []  # as drawn last: what a click in the 3D view may hit
+        # As drawn last, for a click to hit: rays in the 3D view; the image's left, top and size of a pixel; tree nodes.
+        self.lines: list[RayLine] = []
+        self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)
+        self.nodes: dict[int, tuple[float, float]] = {}
+        self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
         self._image_key: object = None
         self._world: object = None
         self._drawn_key: object = None

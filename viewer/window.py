@@ -49,6 +49,7 @@ class Surface:
         data = imgui.get_draw_data()
         width = max(1, int(data.display_size.x * data.framebuffer_scale.x))
         height = max(1, int(data.display_size.y * data.framebuffer_scale.y))
+        before = self.ctx.fbo
         buffer = self.ctx.simple_framebuffer((width, height), components=4)
         try:
             buffer.use()
@@ -56,7 +57,7 @@ class Surface:
             backends.opengl3_render_draw_data(data)
             content = buffer.read(components=3, alignment=1)
         finally:
-            self.ctx.screen.use() if self.ctx.screen else None
+            before.use()  # first: GL objects to losing the buffer that is in use
             buffer.release()
         return np.frombuffer(content, np.uint8).reshape(height, width, 3)[::-1]
 

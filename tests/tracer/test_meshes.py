@@ -114,7 +114,8 @@ def test_obj_materials(tmp_path: Path) -> None:
 def test_material_of_the_scene_file_comes_before_that_of_the_mesh(tmp_path: Path) -> None:
     write(tmp_path / "two.mtl", "newmtl red\nKd 1 0 0\n")
     write(tmp_path / "two.obj", obj("mtllib two.mtl\nusemtl red"))
-    text = 'format = 1\n[[material]]\nname = "blue"\ncolor = [0, 0, 1]\n[[object]]\nname = "cube"\nshape = "mesh"\nfile = "two.obj"\n'
+    text = 'format = 1\n[[material]]\nname = "blue"\ncolor = [0, 0, 1]\n'
+    text += '[[object]]\nname = "cube"\nshape = "mesh"\nfile = "two.obj"\n'
     own = tracer.load(write(tmp_path / "own.toml", text))
     given = tracer.load(write(tmp_path / "given.toml", text + 'material = "blue"\n'))
     assert own.objects[0].material.color == (1.0, 0.0, 0.0)

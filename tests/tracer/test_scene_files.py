@@ -91,7 +91,7 @@ def faults_of(path: Path) -> list[str]:
     return [fault[len(str(path)) + 2 :] for fault in caught.value.faults]
 
 
-def test_every_key_is_read(scene_file) -> None:  # noqa: ANN001
+def test_every_key_is_read(scene_file) -> None:
     scene = tracer.load(scene_file(FULL))
     assert scene.title == "All of it"
     assert scene.camera == Camera((0.0, 1.0, 6.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), 40.0, 0.0, 6.0)
@@ -110,7 +110,7 @@ def test_every_key_is_read(scene_file) -> None:  # noqa: ANN001
     tracer.trace(tracer.prepare(scene), (30, 20))
 
 
-def test_format_and_one_object_are_enough(scene_file) -> None:  # noqa: ANN001
+def test_format_and_one_object_are_enough(scene_file) -> None:
     """The camera then frames the scene: the ball is seen whole, and fills a good part of the image."""
     world = tracer.prepare(tracer.load(scene_file(f"format = 1\n{BALL}")))
     assert world.scene.objects[0].material == Material()
@@ -209,12 +209,12 @@ def test_format_and_one_object_are_enough(scene_file) -> None:  # noqa: ANN001
         ('format = 1\n[[object]]\nshape = "mesh"\nfile = "scene.toml"', "object[0]: a mesh must be one of .obj, .ply, .stl, .glb"),
     ],
 )  # fmt: skip
-def test_fault(scene_file, text: str, fault: str) -> None:  # noqa: ANN001
+def test_fault(scene_file, text: str, fault: str) -> None:
     found = faults_of(scene_file(text))
     assert any(line.startswith(fault) for line in found), found
 
 
-def test_faults_come_all_at_once(scene_file) -> None:  # noqa: ANN001
+def test_faults_come_all_at_once(scene_file) -> None:
     text = FULL.replace("radius = 0.5", "radius = -1").replace("fov = 40", "fov = 400").replace('"key"', "3")
     found = faults_of(scene_file(text.replace("diffuse = 0.1", 'difuse = "x"')))
     places = [line.split(":")[0] for line in found]

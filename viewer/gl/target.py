@@ -19,12 +19,14 @@ class Target:
         size = (max(1, size[0]), max(1, size[1]))
         if size == self.size:
             return False
-        self.release()
         ctx = self.ctx
         samples = min(SAMPLES, ctx.max_samples)
         color = ctx.renderbuffer(size, 4, samples=samples)
         depth = ctx.depth_renderbuffer(size, samples=samples)
-        self.drawn = ctx.framebuffer([color], depth)
+        drawn = ctx.framebuffer([color], depth)
+        drawn.use()  # before the old one goes: GL objects to losing the buffer that is in use
+        self.release()
+        self.drawn = drawn
         self.texture = ctx.texture(size, 4)
         self.merged = ctx.framebuffer([self.texture])
         self.owned = [color, depth, self.drawn, self.texture, self.merged]

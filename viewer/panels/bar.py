@@ -12,7 +12,7 @@ NAME = "##bar"
 
 
 def height() -> float:
-    return 2.15 * imgui.get_font_size()
+    return round(2.15 * imgui.get_font_size())
 
 
 def draw(session: Session, left: float, top: float, width: float) -> None:

@@ -24,6 +24,7 @@ def draw(session: Session, canvas: Canvas) -> None:
         _waiting(session, canvas_draw, corner, room)
         return
     place = _place(session, corner, room)
+    canvas.image_place = place
     _handle_mouse(session, place)
     canvas_draw.push_clip_rect(corner, (corner.x + room.x, corner.y + room.y), True)
     texture = canvas.picture()

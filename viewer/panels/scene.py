@@ -31,6 +31,7 @@ def draw(session: Session, canvas: Canvas) -> None:
     if not session.world:
         return
     _handle_mouse(session, canvas, corner, room)
+    canvas.stage_place = (corner.x, corner.y, room.x, room.y)
     pixels = imgui.get_io().display_framebuffer_scale
     size = (int(room.x * pixels.x), int(room.y * pixels.y))
     texture = canvas.view3d(size, d.unit() * pixels.x)

@@ -36,7 +36,9 @@ def draw(session: Session, canvas: Canvas) -> None:
         _hint(session, pad, corner, room)
         return
     pad.push_clip_rect(corner, (corner.x + room.x, corner.y + room.y), True)
-    _Diagram(session, pad, corner, room).draw()
+    diagram = _Diagram(session, pad, corner, room)
+    diagram.draw()
+    canvas.nodes = {i: diagram.at[i] for i in diagram.rows}
     pad.pop_clip_rect()
 
 

@@ -1,0 +1,133 @@
+"""Drives the viewer as a hand does, without a screen: real GL, real panels, events put into imgui's own queue."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+from imgui_bundle import imgui
+
+from viewer import lesson
+from viewer.app import App
+from viewer.orbit import project
+from viewer.session import Session
+from viewer.window import Offscreen
+
+
+class Driver:
+    """One viewer. Every act ends with enough frames for it to have taken effect."""
+
+    def __init__(self, size: tuple[int, int] = (1280, 720)) -> None:
+        self.app = App(Offscreen(size), Session())
+        self.session = self.app.session
+        self.canvas = self.app.canvas
+
+    def open(self, name: str) -> None:
+        found = lesson.read(name)
+        self.session.open(found.scene, found)
+        self.app.settle()
+
+    def open_file(self, path: Path) -> None:
+        self.session.open(path)
+        self.app.settle()
+
+    def frames(self, count: int = 2) -> None:
+        for _ in range(count):
+            self.session.update()
+            self.app.frame()
+            assert self.app.surface.ctx.error == "GL_NO_ERROR"
+
+    def move(self, x: float, y: float) -> None:
+        imgui.get_io().add_mouse_pos_event(x, y)
+        self.frames(1)
+
+    def button(self, down: bool, which: int = 0) -> None:
+        imgui.get_io().add_mouse_button_event(which, down)
+        self.frames(1)
+
+    def click(self, x: float, y: float) -> None:
+        self.move(x, y)
+        self.button(True)
+        self.button(False)
+        self.frames()
+
+    def drag(self, places: list[tuple[float, float]], which: int = 0) -> None:
+        self.move(*places[0])
+        self.button(True, which)
+        for place in places[1:]:
+            self.move(*place)
+        self.button(False, which)
+        self.frames()
+
+    def wheel(self, x: float, y: float, steps: float) -> None:
+        self.move(x, y)
+        imgui.get_io().add_mouse_wheel_event(0.0, steps)
+        self.frames(3)
+
+    def type(self, text: str) -> None:
+        for character in text:
+            imgui.get_io().add_input_character(ord(character))
+            self.frames()
+
+    def press(self, *keys: imgui.Key) -> None:
+        """Keys together, the last one pressed and released."""
+        io = imgui.get_io()
+        for key in keys:
+            io.add_key_event(key, True)
+        self.frames(2)
+        for key in reversed(keys):
+            io.add_key_event(key, False)
+        self.frames(2)
+
+    def aims_at(self, x: int, y: int) -> bool:
+        """Whether the picked pixel is this one, as nearly as a mouse in whole steps can aim at it."""
+        picked = self.session.pixel
+        step = max(0.5, 0.5 / self.canvas.image_place[2]) + 0.5
+        return picked is not None and max(abs(picked[0] - x), abs(picked[1] - y)) <= 2 * step - 0.5
+
+    def pixel_at(self, x: int, y: int) -> tuple[float, float]:
+        """Where the middle of an image's pixel is on the screen."""
+        left, top, scale = self.canvas.image_place
+        return left + (x + 0.5) * scale, top + (y + 0.5) * scale
+
+    def ray_at(self, row: int, share: float = 0.5) -> tuple[float, float]:
+        """Where a place of a ray is on the screen in the 3D view."""
+        line = next(line for line in self.canvas.lines if line.row == row)
+        left, top, width, height = self.canvas.stage_place
+        matrix = self.session.orbit.matrix(width / height)
+        point = line.start + share * (line.end - line.start)
+        places, _ = project(point[None], matrix, (width, height))
+        return left + places[0, 0], top + places[0, 1]
+
+    def lone_place(self, row: int) -> tuple[float, float] | None:
+        """A place on a ray in the 3D view where no other ray is near, if it has one."""
+        left, top, width, height = self.canvas.stage_place
+        shares = np.linspace(0.0, 1.0, 200)
+        matrix = self.session.orbit.matrix(width / height)
+        crowd, own = [], np.zeros((0, 2))
+        for line in self.canvas.lines:
+            points = line.start + shares[:, None] * (line.end - line.start)
+            places, depths = project(points, matrix, (width, height))
+            if line.row == row:
+                own = places[depths > 0]
+            else:
+                crowd.append(places[depths > 0])
+        others = np.concatenate(crowd)
+        for x, y in own:
+            alone = np.hypot(*(others - (x, y)).T).min() > 14
+            if alone and 9 < x < width - 9 and 9 < y < height - 9:
+                return left + float(x), top + float(y)
+        return None
+
+    def picture(self) -> np.ndarray:
+        return self.app.surface.grab()
+
+
+@contextmanager
+def viewer(size: tuple[int, int] = (1280, 720)) -> Iterator[Driver]:
+    driver = Driver(size)
+    try:
+        yield driver
+    finally:
+        assert driver.app.surface.ctx.error == "GL_NO_ERROR"
+        driver.app.close()

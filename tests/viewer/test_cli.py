@@ -1,0 +1,185 @@
+"""The commands as a user types them: what they print, what they write, and with which status they leave."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import tracer
+from tests.conftest import LESSONS
+from viewer import lesson
+from viewer.cli import main
+from viewer.picture import srgb
+
+
+def raytree(*arguments: str, cwd: Path | None = None, **environment: str) -> subprocess.CompletedProcess:
+    """The installed command itself, in a process of its own."""
+    command = [str(Path(sys.executable).parent / "raytree"), *arguments]
+    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, env={**os.environ, **environment}, check=False)
+
+
+def test_version_and_help() -> None:
+    run = raytree("--version")
+    assert run.returncode == 0
+    assert run.stdout.startswith("raytree ")
+    for command in ((), ("view",), ("trace",), ("render",), ("plan",), ("lessons",)):
+        run = raytree(*command, "--help")
+        assert run.returncode == 0
+        assert run.stdout.startswith("usage: raytree")
+
+
+def test_lessons_are_listed_a_line_each(capsys: pytest.CaptureFixture) -> None:
+    assert main(["lessons"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == LESSONS
+    assert all(len(line.split()) > 2 for line in lines)
+
+
+@pytest.mark.parametrize("name", LESSONS)
+def test_trace_in_every_format(name: str, capsysbinary: pytest.CaptureFixture, worlds: dict[str, tracer.World]) -> None:
+    tree = tracer.trace(worlds[name], (320, 240), depth=2)
+    said = {}
+    for form in ("text", "json", "csv", "dot"):
+        assert main(["trace", name, "--pixel", "320,240", "--depth", "2", "--format", form]) == 0
+        said[form] = capsysbinary.readouterr().out.decode()
+    document = json.loads(said["json"])
+    assert document["radiance"] == tree.radiance.tolist()
+    assert document["scene"].endswith("scene.toml")
+    assert "pixel 320,240 of 800x600, depth 2" in said["text"]
+    assert len(said["csv"].splitlines()) == len(tree) + 1
+    assert said["dot"].startswith("digraph")
+
+
+def test_trace_a_ray_with_minus_signs(capsysbinary: pytest.CaptureFixture) -> None:
+    assert main(["trace", "mirror-balls", "--ray", "-1,2,5,-0.1,-0.5,-1", "--format", "json"]) == 0
+    document = json.loads(capsysbinary.readouterr().out)
+    assert document["pixel"] is None
+    assert document["nodes"][0]["origin"] == [-1.0, 2.0, 5.0]
+
+
+def test_trace_into_a_file(tmp_path: Path) -> None:
+    target = tmp_path / "tree.json"
+    assert main(["trace", "two-lights", "--pixel", "1,2", "--size", "30x20", "--format", "json", "-o", str(target)]) == 0
+    assert json.loads(target.read_text())["size"] == [30, 20]
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_render_in_every_format(tmp_path: Path, worlds: dict[str, tracer.World]) -> None:
+    expected = tracer.render(worlds["glass-ball"], (80, 60), depth=2).pixels
+    for suffix in ("png", "npy", "exr"):
+        path = tmp_path / f"image.{suffix}"
+        stats = tmp_path / "stats.json"
+        arguments = ["render", "glass-ball", "-o", str(path), "--size", "80x60", "--depth", "2", "--stats", str(stats)]
+        assert main(arguments) == 0
+    assert (np.load(tmp_path / "image.npy") == expected).all()
+    assert (np.array(Image.open(tmp_path / "image.png")) == srgb(expected)).all()
+    import OpenEXR
+
+    linear = OpenEXR.File(str(tmp_path / "image.exr")).channels()["RGB"].pixels
+    assert (linear == expected.astype(np.float32)).all()
+    found = json.loads((tmp_path / "stats.json").read_text())
+    assert list(found["seconds"]) == ["load", "prepare", "compile", "trace"]
+    assert list(found["rays"]) == ["camera", "reflection", "refraction", "tir", "shadow"]
+    assert found["rays"]["camera"] == 80 * 60
+    assert (found["size"], found["samples"], found["depth"]) == ([80, 60], 1, 2)
+    assert set(found["residual"]) == {"max", "mean"}
+    assert "vertex normals" in found["left_out"]
+
+
+def test_plan_says_what_is_left_out_and_why(capsysbinary: pytest.CaptureFixture) -> None:
+    assert main(["plan", "mirror-balls"]) == 0
+    lines = capsysbinary.readouterr().out.decode().splitlines()
+    table = {line[:20].strip(): line[20:] for line in lines}
+    assert any(key.startswith("refraction") and "left out" in key + row for key, row in table.items())
+    assert main(["plan", "glass-ball"]) == 0
+    assert "mesh library" in capsysbinary.readouterr().out.decode()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["trace", "no-such-lesson", "--pixel", "1,1"], 'no lesson "no-such-lesson"'),
+        (["trace", "miror-balls", "--pixel", "1,1"], 'did you mean "mirror-balls"?'),
+        (["trace", "nothing.toml", "--pixel", "1,1"], "nothing.toml: file not found"),
+        (["trace", "scene.xyz", "--pixel", "1,1"], "scene.xyz: a scene must be one of .toml"),
+        (["trace", "mirror-balls", "--pixel", "800,0"], "pixel must be within 0,0 .. 799,599, got 800,0"),
+        (["trace", "mirror-balls", "--pixel", "-1,0"], "pixel must be within 0,0 .. 799,599, got -1,0"),
+        (["trace", "mirror-balls", "--pixel", "12"], "two whole numbers like 320,240"),
+        (["trace", "mirror-balls", "--ray", "0,0,0,0,0,0"], "direction must not be 0,0,0"),
+        (["trace", "mirror-balls", "--ray", "0,0,nan,0,0,1"], "six finite numbers"),
+        (["trace", "mirror-balls", "--ray", "0,0,0"], "six numbers"),
+        (["trace", "mirror-balls"], "one of the arguments --pixel --ray is required"),
+        (["trace", "mirror-balls", "--pixel", "1,1", "--depth", "-1"], "a whole number >= 0"),
+        (["trace", "mirror-balls", "--pixel", "1,1", "--format", "xml"], "invalid choice"),
+        (["render", "mirror-balls"], "the following arguments are required: -o"),
+        (["render", "mirror-balls", "-o", "image.bmp"], "an image must be one of .png, .npy, .exr"),
+        (["render", "mirror-balls", "-o", "no/such/folder/image.png"], "folder not found"),
+        (["render", "mirror-balls", "-o", "image.png", "--samples", "0"], "a whole number >= 1"),
+        (["render", "mirror-balls", "-o", "image.png", "--size", "0x4"], "a size from 1x1"),
+        (["view", "mirror-balls", "--screenshot", "shot.jpg"], "a screenshot must be a .png file"),
+        (["dance"], "invalid choice"),
+    ],
+)
+def test_unusable_arguments_are_one_line_and_status_2(arguments: list[str], said: str, tmp_path: Path) -> None:
+    run = raytree(*arguments, cwd=tmp_path)
+    assert run.returncode == 2
+    assert said in run.stderr
+    assert len(run.stderr.splitlines()) == 1
+    assert run.stdout == ""
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_every_fault_of_a_scene_is_a_line(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text('format = 1\n[camera]\nfov = 0\n[[object]]\nname = "ball"\nshape = "sphere"\ncenter = [0, 0]\nradius = -1\n')
+    for command in (["trace", "--pixel", "0,0"], ["render", "-o", "x.png"], ["plan"], ["view", "--screenshot", "x.png"]):
+        run = raytree(command[0], "scene.toml", *command[1:], cwd=tmp_path)
+        assert run.returncode == 2
+        assert run.stderr.splitlines() == [
+            "scene.toml: camera: fov must be > 0 and < 180, got 0",
+            'scene.toml: object[0] "ball": center must be three numbers [x, y, z], got [0, 0]',
+            'scene.toml: object[0] "ball": radius must be > 0, got -1',
+        ]
+
+
+def test_interrupted_rendering_leaves_the_old_file(tmp_path: Path) -> None:
+    """Stopped in the middle of an image that would take minutes: the file from before is untouched, nothing is beside it."""
+    target = tmp_path / "image.png"
+    target.write_bytes(b"old")
+    command = [sys.executable, "-c", INTERRUPTED]
+    arguments = ["render", "glass-ball", "-o", str(target), "--size", "4000x3000", "--samples", "64"]
+    process = subprocess.Popen([*command, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    assert process.stdout
+    assert process.stdout.readline() == b"rendering\n"
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert target.read_bytes() == b"old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+# Says when the first tiles are done, so that nothing has to be waited for by the clock.
+INTERRUPTED = """
+import sys
+from viewer import commands
+from viewer.cli import main
+inner = commands.Progress.__call__
+def told(self, share):
+    print("rendering", flush=True)
+    inner(self, share)
+commands.Progress.__call__ = told
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def test_a_name_on_the_command_line_is_the_lesson_of_that_name() -> None:
+    for name in LESSONS:
+        found = lesson.read(name)
+        assert found.scene.is_file()
+        assert found.pixel is not None
