@@ -33,7 +33,7 @@ def handle(session: Session) -> None:
     if io.want_text_input or imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
         return
     key = imgui.Key
-    if io.key_ctrl or io.key_super:
+    if io.key_ctrl or io.key_super or _just_let_go(key.left_ctrl, key.right_ctrl, key.left_super, key.right_super):
         if imgui.is_key_pressed(key.q, False):
             session.wants_quit = True
         if imgui.is_key_pressed(key.o, False):
@@ -64,6 +64,11 @@ def handle(session: Session) -> None:
             session.clear()
     if imgui.is_key_pressed(key.f5, False):
         session.reload()
+
+
+def _just_let_go(*keys: imgui.Key) -> bool:
+    """Of a chord typed fast the modifier may come up in the very frame in which the letter goes down."""
+    return any(imgui.is_key_released(key) for key in keys)
 
 
 def _typed(session: Session) -> None:
