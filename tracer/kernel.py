@@ -6,47 +6,21 @@ The sums then run back up. An image keeps the first row's radiance of every tabl
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
+from tracer.branch import spawn
 from tracer.interface import meet_interface
 from tracer.jit import compiled, routine
+from tracer.limits import Limits
 from tracer.media import index_of, medium
-from tracer.nodes import (
-    BACKGROUND,
-    BLOCKED,
-    DEPTH,
-    FILTERED,
-    INVALID,
-    LIT,
-    NODES,
-    NONE,
-    REFLECTION,
-    REFRACTION,
-    SHADOW,
-    SURFACE,
-    TIR,
-    WEIGHT,
-)
-from tracer.optics import cosine, fresnel_shares, radicand, reflect, sine, transmission
-from tracer.rays import Ray, make_ray
+from tracer.nodes import BACKGROUND, SHADOW
+from tracer.optics import cosine, radicand, reflect, sine, transmission
+from tracer.rays import make_ray
+from tracer.rows import record_shadow, way_length
 from tracer.shading import ambient, phong, surface_color
-from tracer.shadows import light_through, occluder, towards_light
+from tracer.shadows import light_through, towards_light
 from tracer.shapes import locate
-from tracer.vector import Vector, add, dot, largest, multiply, scale, store, vector
-
-WHITTED, FRESNEL = range(2)
-MODELS = ("whitted", "fresnel")
-
-
-class Limits(NamedTuple):
-    """How far a tree goes, and what its edges weigh."""
-
-    depth: int
-    min_weight: float  # a ray whose largest weight is below is cut
-    max_nodes: int  # rows a tree may have
-    model: int
-    glass_blocks: bool  # shadow rays: glass casts a full shadow instead of filtering the light
-    records: bool  # the table will be read (a click): fill in what an image has no use for
+from tracer.vector import Vector, add, dot, multiply, scale, store, vector
 
 
 @compiled
@@ -57,7 +31,7 @@ def trace_tree(world: Any, limits: Limits, space: Any) -> tuple[int, float]:
     """
     table = space.table
     lights = len(world.lights)
-    first, end, depth = 0, 1, 0
+    first, end = 0, 1
     residual = 0.0
     planned = 1 + lights  # rows spoken for: a ray comes with room for its shadow rays
     while first < end:
@@ -72,40 +46,9 @@ def trace_tree(world: Any, limits: Limits, space: Any) -> tuple[int, float]:
         for i in range(first, end):
             count, planned, cut = spawn(world, limits, space, i, count, planned)
             residual += cut
-        first, end, depth = next_first, count, depth + 1
+        first, end = next_first, count
     sum_up(space, end)
     return (end, residual)
-
-
-@compiled
-def start_row(
-    limits: Limits, table: Any, i: int, parent: int, kind: int, depth: int, factor: Vector, weight: Vector
-) -> Any:
-    """Row i as it is before anything is known of the ray but where it comes from."""
-    row = table[i]
-    row.kind = kind
-    row.depth = depth
-    store(row.factor, factor)
-    store(row.weight, weight)
-    row.surface = NONE
-    row.children = 0
-    row.first_child = NONE
-    row.end = NONE
-    if limits.records:
-        nowhere = (math.nan, math.nan, math.nan)
-        row.id = i
-        row.parent = parent
-        row.t = math.nan
-        store(row.point, nowhere)
-        store(row.normal, nowhere)
-        row.object = NONE
-        row.light = NONE
-        row.n1 = math.nan
-        row.n2 = math.nan
-        row.theta1 = math.nan
-        row.theta2 = math.nan
-        row.radicand = math.nan
-    return row
 
 
 @compiled
@@ -188,152 +131,6 @@ def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> 
                 count += 1
     store(row.local, local)
     return count
-
-
-@routine
-def record_shadow(
-    world: Any,
-    limits: Limits,
-    space: Any,
-    i: int,
-    parent: int,
-    light: int,
-    ray: Ray,
-    far: float,
-    visible: float,
-    glass: int,
-    share: Vector,
-) -> None:
-    """Row i: a shadow ray to a light at distance `far`, with what stands in its way by name."""
-    table = space.table
-    attenuation = (visible, visible, visible)
-    weight = multiply(vector(table[parent].weight), attenuation)
-    row = start_row(limits, table, i, parent, SHADOW, table[parent].depth, attenuation, weight)
-    row.light = light
-    store(row.origin, ray.origin)
-    store(row.direction, ray.direction)
-    store(row.local, share)
-    store(row.radiance, share)
-    t, met = far, glass
-    row.end = FILTERED if glass >= 0 else LIT
-    if visible == 0.0:
-        row.end = BLOCKED
-        t, met = occluder(world, ray, far, limits.glass_blocks, space.stack)
-    if met >= 0:
-        row.object = world.surfaces[met].object
-    if t < math.inf:
-        row.t = t
-        store(row.point, add(ray.origin, scale(t, ray.direction)))
-
-
-@compiled
-def spawn(world: Any, limits: Limits, space: Any, i: int, count: int, planned: int) -> tuple[int, int, float]:
-    """(rows, rows planned, weight cut) after the reflected and the refracted ray of row i, where it sends them."""
-    row = space.table[i]
-    if row.surface < 0:
-        return (count, planned, 0.0)
-    material = world.materials[world.objects[row.object].material]
-    kr, kt = material.reflect, material.transmit
-    d, n = vector(row.direction), vector(row.normal)
-    reflected, refracted, kind = kr, 0.0, REFLECTION
-    through = d
-    if kt > 0.0:
-        thin = world.objects[row.object].solid < 0
-        if row.n1 == row.n2 and not thin:
-            reflected, refracted = 0.0, kt
-        elif row.radicand <= 0.0 and not thin:
-            reflected, kind = kr + kt, TIR
-        else:
-            reflected, refracted, through = bend(limits, row, material, thin)
-    if reflected == 0.0 and refracted == 0.0:
-        row.end = SURFACE
-        return (count, planned, 0.0)
-    row.first_child = count
-    cut = 0.0
-    if reflected > 0.0:
-        count, planned, lost = send(
-            world, limits, space, i, count, planned, kind, reflect(d, n), reflected, row.hit_side
-        )
-        cut += lost
-    if refracted > 0.0:
-        count, planned, lost = send(
-            world, limits, space, i, count, planned, REFRACTION, through, refracted, -row.hit_side
-        )
-        cut += lost
-    row.children = count - row.first_child
-    return (count, planned, cut)
-
-
-@compiled
-def bend(limits: Limits, row: Any, material: Any, thin: bool) -> tuple[float, float, Vector]:
-    """(weight of the reflected ray, of the refracted ray, its direction) where a transparent surface splits the ray.
-
-    A thin sheet sends it straight on, and reflects as a single surface of its material does.
-    """
-    d, n = vector(row.direction), vector(row.normal)
-    kr, kt, n2 = material.reflect, material.transmit, material.ior if thin else row.n2
-    c1, s1 = cosine(d, n), sine(d, n)
-    root = radicand(s1, row.n1, n2)
-    c2 = math.sqrt(max(root, 0.0))
-    through = d if thin else transmission(d, n, row.n1, n2, c1, c2)
-    if limits.model == WHITTED:
-        return (kr, kt, through)
-    if root <= 0.0:
-        return (kr + kt, 0.0, through)
-    r, t = fresnel_shares(c1, s1, c2, row.n1, n2)
-    return (kr + kt * r, kt * t, through)
-
-
-@routine
-def send(
-    world: Any,
-    limits: Limits,
-    space: Any,
-    i: int,
-    count: int,
-    planned: int,
-    kind: int,
-    direction: Vector,
-    k: float,
-    side: float,
-) -> tuple[int, int, float]:
-    """(rows, rows planned, weight cut): one child of row i, or in its end the reason why that is not followed."""
-    table, solids = space.table, space.solids
-    parent = table[i]
-    factor = (k, k, k)
-    weight = multiply(vector(parent.weight), factor)
-    heaviest = largest(weight)
-    room = 1 + len(world.lights)
-    if not math.isfinite(direction[0] + direction[1] + direction[2]):
-        parent.end = INVALID
-    elif parent.depth >= limits.depth:
-        parent.end = DEPTH
-    elif heaviest < limits.min_weight:
-        parent.end = WEIGHT
-    elif planned + room > limits.max_nodes:
-        parent.end = NODES
-    else:
-        row = start_row(limits, table, count, i, kind, parent.depth + 1, factor, weight)
-        store(row.origin, vector(parent.point))
-        store(row.direction, direction)
-        row.start = parent.surface
-        row.side = side
-        row.reach = way_length(parent)
-        own = 1 if kind == REFRACTION else 0
-        for k_word in range(solids.shape[2]):
-            solids[count, 0, k_word] = solids[i, own, k_word]
-            solids[count, 1, k_word] = solids[i, own, k_word]
-        return (count + 1, planned + room, 0.0)
-    return (count, planned, heaviest)
-
-
-@compiled
-def way_length(row: Any) -> float:
-    """How large the numbers are that a hit was computed from: its rounding errors are small beside this.
-
-    What the ray's own start was computed from counts too: a ray in a corner meets the next wall where it starts.
-    """
-    return max(row.reach, abs(row.origin[0]) + abs(row.origin[1]) + abs(row.origin[2]) + row.t)
 
 
 @compiled

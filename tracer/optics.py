@@ -10,17 +10,16 @@ nearly match, 1 - R at grazing incidence. Each is written here as an equal produ
 """
 
 import math
-from collections.abc import Sequence
 
 from tracer.jit import compiled
-from tracer.vector import Vector, add, cross, dot, length, scale, subtract, unit, vector
+from tracer.vector import Vector, VectorLike, add, cross, dot, length, scale, subtract, unit, vector
 
 
 @compiled
-def reflect(v: Vector, n: Vector) -> Vector:
+def reflect(v: VectorLike, n: VectorLike) -> Vector:
     """r = v - 2 (n.v) n: the mirror direction, a unit vector for a v of any length > 0."""
-    d = unit(v)
-    return subtract(d, scale(2.0 * dot(n, d), n))
+    d, normal = unit(vector(v)), vector(n)
+    return subtract(d, scale(2.0 * dot(normal, d), normal))
 
 
 @compiled
@@ -77,7 +76,7 @@ def angle(a: Vector, b: Vector) -> float:
 # What follows is for people: any sequence of three numbers, any length of v, None where there is no answer.
 
 
-def refract(v: Sequence[float], n: Sequence[float], n1: float, n2: float) -> Vector | None:
+def refract(v: VectorLike, n: VectorLike, n1: float, n2: float) -> Vector | None:
     """The unit direction behind the surface, or None on total internal reflection."""
     d = unit(vector(v))
     s1 = sine(d, vector(n))

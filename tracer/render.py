@@ -17,7 +17,7 @@ import numpy as np
 from tracer.bvh import FLAT
 from tracer.camera import View
 from tracer.jit import is_compiled
-from tracer.kernel import Limits
+from tracer.limits import Limits
 from tracer.nodes import KINDS
 from tracer.scene import Material, Object, Scene
 from tracer.shapes.sphere import Sphere

@@ -12,8 +12,10 @@ from tracer.bundle import Bundle
 from tracer.bvh import DEEPEST, WAITING
 from tracer.camera import View, pixel_direction
 from tracer.jit import compiled, kernel
-from tracer.kernel import Limits, start_row, trace_tree
+from tracer.kernel import trace_tree
+from tracer.limits import Limits
 from tracer.nodes import CAMERA, KINDS, NODE
+from tracer.rows import start_row
 from tracer.sampler import sample_offset
 from tracer.shadows import CROSSING, MOST_CROSSINGS
 from tracer.vector import Vector, add, store, vector

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.lib.recfunctions import repack_fields
 
 from tracer.camera import View
-from tracer.kernel import MODELS, Limits
+from tracer.limits import MODELS, Limits
 from tracer.media import WORD
 from tracer.nodes import BLOCKED, ENDS, KINDS, PUBLIC, SHADOW, SURFACE
 from tracer.scene import Scene

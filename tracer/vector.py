@@ -6,11 +6,15 @@ a mirrored scene is traced into the mirrored tree, bit for bit.
 """
 
 import math
+from collections.abc import Sequence
 from typing import Any
+
+import numpy as np
 
 from tracer.jit import compiled
 
 Vector = tuple[float, float, float]
+VectorLike = Sequence[float] | np.ndarray  # three numbers, as a person may hand them over
 
 
 @compiled

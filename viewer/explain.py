@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tracer import optics
-from tracer.kernel import MODELS
+from tracer.limits import MODELS
 from tracer.nodes import SHADOW
 from tracer.outline import WHY
 from tracer.scene import Light, Material

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tracer.kernel import Limits
+from tracer.limits import Limits
 from tracer.render import COARSE_TO_FINE, Job, Stopped, processors, tiles, trace_tiles
 from tracer.tile import Area
 from tracer.world import World

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import tracer
-from tracer.kernel import MODELS
+from tracer.limits import MODELS
 from tracer.tree import RayTree, make_limits
 from tracer.world import World
 from viewer.lesson import Lesson, LessonView

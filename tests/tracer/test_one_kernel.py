@@ -12,7 +12,7 @@ import pytest
 
 import tracer
 from tests.scenes import box, world_of
-from tracer.kernel import MODELS
+from tracer.limits import MODELS
 from tracer.nodes import BACKGROUND, SHADOW
 from tracer.render import COARSE_TO_FINE, Job, tiles, trace_tiles
 from tracer.scene import Image, Material

@@ -1,4 +1,4 @@
-"""A screen of its own for tests: an X server without a monitor, a window manager, and a hand that really moves the mouse."""
+"""A screen for tests: an X server without a monitor, a window manager, and a hand that really moves the mouse."""
 
 import os
 import shutil

@@ -21,7 +21,9 @@ from viewer.picture import srgb
 def raytree(*arguments: str, cwd: Path | None = None, **environment: str) -> subprocess.CompletedProcess:
     """The installed command itself, in a process of its own."""
     command = [str(Path(sys.executable).parent / "raytree"), *arguments]
-    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, env={**os.environ, **environment}, check=False)
+    return subprocess.run(
+        command, capture_output=True, text=True, cwd=cwd, env={**os.environ, **environment}, check=False
+    )
 
 
 def test_version_and_help() -> None:
@@ -65,7 +67,9 @@ def test_trace_a_ray_with_minus_signs(capsysbinary: pytest.CaptureFixture) -> No
 
 def test_trace_into_a_file(tmp_path: Path) -> None:
     target = tmp_path / "tree.json"
-    assert main(["trace", "two-lights", "--pixel", "1,2", "--size", "30x20", "--format", "json", "-o", str(target)]) == 0
+    assert (
+        main(["trace", "two-lights", "--pixel", "1,2", "--size", "30x20", "--format", "json", "-o", str(target)]) == 0
+    )
     assert json.loads(target.read_text())["size"] == [30, 20]
     assert list(tmp_path.iterdir()) == [target]
 
@@ -137,8 +141,15 @@ def test_unusable_arguments_are_one_line_and_status_2(arguments: list[str], said
 
 def test_every_fault_of_a_scene_is_a_line(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
-    path.write_text('format = 1\n[camera]\nfov = 0\n[[object]]\nname = "ball"\nshape = "sphere"\ncenter = [0, 0]\nradius = -1\n')
-    for command in (["trace", "--pixel", "0,0"], ["render", "-o", "x.png"], ["plan"], ["view", "--screenshot", "x.png"]):
+    path.write_text(
+        'format = 1\n[camera]\nfov = 0\n[[object]]\nname = "ball"\nshape = "sphere"\ncenter = [0, 0]\nradius = -1\n'
+    )
+    for command in (
+        ["trace", "--pixel", "0,0"],
+        ["render", "-o", "x.png"],
+        ["plan"],
+        ["view", "--screenshot", "x.png"],
+    ):
         run = raytree(command[0], "scene.toml", *command[1:], cwd=tmp_path)
         assert run.returncode == 2
         assert run.stderr.splitlines() == [
@@ -149,7 +160,7 @@ def test_every_fault_of_a_scene_is_a_line(tmp_path: Path) -> None:
 
 
 def test_interrupted_rendering_leaves_the_old_file(tmp_path: Path) -> None:
-    """Stopped in the middle of an image that would take minutes: the file from before is untouched, nothing is beside it."""
+    """Stopped in the middle of an image that would take minutes: the old file is untouched, nothing is beside it."""
     target = tmp_path / "image.png"
     target.write_bytes(b"old")
     command = [sys.executable, "-c", INTERRUPTED]

@@ -16,7 +16,7 @@ Key = imgui.Key
 
 
 @pytest.fixture
-def glass():  # noqa: ANN201
+def glass():
     with viewer() as driver:
         driver.open("glass-ball")
         yield driver
@@ -343,10 +343,11 @@ def test_scene_of_any_size_is_drawn(tmp_path: Path) -> None:
     for scale in (1.0, 1e60, 1e-60):
         path = tmp_path / f"scene{scale}.toml"
         path.write_text(
-            f'format = 1\n[[material]]\nname = "m"\nambient = 0.5\ndiffuse = 0.5\n[[light]]\nposition = [{5 * scale}, {5 * scale}, 0]\n'
+            'format = 1\n[[material]]\nname = "m"\nambient = 0.5\ndiffuse = 0.5\n'
+            f"[[light]]\nposition = [{5 * scale}, {5 * scale}, 0]\n"
             f'[[object]]\nshape = "sphere"\ncenter = [0, {scale}, 0]\nradius = {scale}\nmaterial = "m"\n'
-            f'[[object]]\nshape = "box"\nmin = [{-2 * scale}, {-0.1 * scale}, {-2 * scale}]\nmax = [{2 * scale}, 0, {2 * scale}]\n'
-            'material = "m"\n'
+            f'[[object]]\nshape = "box"\nmin = [{-2 * scale}, {-0.1 * scale}, {-2 * scale}]\n'
+            f'max = [{2 * scale}, 0, {2 * scale}]\nmaterial = "m"\n'
         )
         with viewer((640, 480)) as driver:
             driver.open_file(path)

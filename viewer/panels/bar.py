@@ -2,7 +2,7 @@
 
 from imgui_bundle import imgui
 
-from tracer.kernel import MODELS
+from tracer.limits import MODELS
 from viewer.panels import draw as d
 from viewer.panels.image import waiting_lines
 from viewer.session import Session
