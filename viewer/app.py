@@ -16,7 +16,8 @@ from viewer.window import Offscreen, Window
 DOCK = "dock"
 
 IDLE = 0.3  # seconds of sleep between looks at the scene's file
-BUSY = 1 / 30  # between frames while an image renders, at least
+FASTEST = 1 / 60  # seconds between frames, at least: what comes faster is seen by nobody
+BUSY = 1 / 30  # the same while an image renders and nothing else happens
 SHARE = 0.3  # of the time that frames may take from an image that renders
 SMALLEST = (560, 360)  # room for the panels, in pixels
 AFTERGLOW = 3  # frames drawn after the last event: imgui needs one or two to settle
@@ -42,16 +43,20 @@ class App:
         drawn = took = 0.0
         while not self.surface.closing and not self.session.wants_quit:
             busy = self._is_busy()
-            self.surface.wait(BUSY if busy else 0.0 if glow > 0 else IDLE)
+            since = time.perf_counter() - drawn
+            rest = FASTEST if glow > 0 else max(BUSY, took / SHARE) if busy else IDLE
+            self.surface.wait(max(0.0, rest - since) if glow > 0 or busy else IDLE)
             news = self.session.update()
-            had_events = self._has_events()
-            glow = AFTERGLOW if news or had_events else glow - 1
+            if news or self._has_events():
+                glow = AFTERGLOW
+                rest = FASTEST
             now = time.perf_counter()
-            due = glow > 0 or (busy and now - drawn > max(BUSY, took / SHARE))
-            if due and not self.surface.minimised:
-                self.frame()
-                drawn = time.perf_counter()
-                took = drawn - now
+            if now - drawn < rest or not (glow > 0 or busy) or self.surface.minimised:
+                continue
+            glow -= 1
+            self.frame()
+            drawn = time.perf_counter()
+            took = drawn - now
 
     def settle(self, frames: int = 3) -> None:
         """Draw until everything is there: the scene, the first full image, the tree."""

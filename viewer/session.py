@@ -15,7 +15,7 @@ from tracer.tree import RayTree, make_limits
 from tracer.world import World
 from viewer.lesson import Lesson, LessonView
 from viewer.orbit import Frame, Orbit
-from viewer.progressive import Progressive
+from viewer.progressive import Picture, Progressive
 from viewer.theme import DARK, LECTURE_ZOOM, LIGHT, STYLES, Theme
 from viewer.warmup import Warmup
 from viewer.watch import Watch
@@ -86,6 +86,7 @@ class Session:
         self.tree: RayTree | None = None  # of the picked pixel at the depth on show
         self.full_tree: RayTree | None = None  # the same pixel, at least STEP_DEPTH deep: its first rows are `tree`'s
         self.selected: int | None = None
+        self.seen_finished: Picture | None = None  # the finished image that the last update knew of
         self.notice = ""  # what was last done, where nothing else shows it
         self.shows_help = False
         self.wants_open = False  # the dialog that opens a scene
@@ -144,6 +145,11 @@ class Session:
             news = True
         if self.world and self.warmup.ready and not self.image.picture:
             self._render()
+            news = True
+        picture = self.image.picture
+        finished = picture if picture and picture.finished else None
+        if finished is not self.seen_finished:
+            self.seen_finished = finished
             news = True
         return news
 

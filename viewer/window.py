@@ -198,6 +198,8 @@ class Offscreen(Surface):
     def close(self) -> None:
         backends.opengl3_shutdown()
         imgui.destroy_context()
+        with self.ctx:  # leaving it unbinds it from this thread, where a window may want to be next
+            pass
         self.ctx.release()
 
 

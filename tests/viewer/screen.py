@@ -3,8 +3,7 @@
 import os
 import shutil
 import subprocess
-from collections.abc import Iterator
-from contextlib import contextmanager
+from functools import cache
 
 PROGRAMS = {"Xvfb": "xvfb", "xdotool": "xdotool", "openbox": "openbox"}  # and the Debian packages they are in
 
@@ -13,33 +12,24 @@ def missing() -> list[str]:
     return [package for program, package in PROGRAMS.items() if shutil.which(program) is None]
 
 
-@contextmanager
-def screen(width: int = 1600, height: int = 1000) -> Iterator[str]:
-    """A display's name, set as DISPLAY meanwhile."""
+@cache
+def screen(width: int = 1600, height: int = 1000) -> str:
+    """A display of our own, made the default one; its name. It lives as long as this process.
+
+    Not a moment shorter: the GL library keeps a connection to it that cannot be closed, and Xlib ends a process whose
+    server has gone.
+    """
+    with_us = ["setpriv", "--pdeathsig", "TERM"]
     read_end, write_end = os.pipe()
     # Without -noreset the server starts afresh when its last window closes, and the next one may not find it.
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write_end), "-screen", "0", f"{width}x{height}x24", "-noreset", "-nolisten", "tcp"],
-        pass_fds=[write_end],
-        stderr=subprocess.DEVNULL,
-    )
+    options = ["-displayfd", str(write_end), "-screen", "0", f"{width}x{height}x24", "-noreset", "-nolisten", "tcp"]
+    subprocess.Popen([*with_us, "Xvfb", *options], pass_fds=[write_end], stderr=subprocess.DEVNULL)
     os.close(write_end)
     with os.fdopen(read_end) as told:
-        number = told.readline().strip()
-    display, before = f":{number}", os.environ.get("DISPLAY")
+        display = f":{told.readline().strip()}"
     os.environ["DISPLAY"] = display
-    manager = subprocess.Popen(["openbox"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        yield display
-    finally:
-        manager.terminate()
-        manager.wait()
-        server.terminate()
-        server.wait()
-        if before is None:
-            del os.environ["DISPLAY"]
-        else:
-            os.environ["DISPLAY"] = before
+    subprocess.Popen([*with_us, "openbox"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return display
 
 
 def hand(*arguments: object) -> str:

@@ -20,10 +20,9 @@ pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="X 
 
 
 @pytest.fixture(scope="module", autouse=True)
-def display() -> Iterator[str]:
+def display() -> str:
     assert not missing(), f"these tests need the Debian packages {', '.join(missing())}"
-    with screen() as name:
-        yield name
+    return screen()
 
 
 class Desk:
