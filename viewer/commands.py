@@ -10,6 +10,8 @@ from pathlib import Path
 
 import tracer
 from tracer.formats import READERS
+from tracer.jit import is_cached
+from tracer.tile import trace_area
 from viewer import lesson
 from viewer.files import Unusable, check_writable, write_atomically
 from viewer.lesson import Lesson
@@ -25,6 +27,7 @@ def trace(options: Namespace) -> int:
     if options.output:
         check_writable(options.output)
     path, _ = find(options.scene)
+    announce_compiling()
     with faults():
         world = tracer.prepare(tracer.load(path))
         ray = (options.ray[:3], options.ray[3:]) if options.ray else None
@@ -46,6 +49,7 @@ def render(options: Namespace) -> int:
     for path in filter(None, (options.output, options.stats)):
         check_writable(path)
     path, _ = find(options.scene)
+    announce_compiling()
     with faults():
         began = time.perf_counter()
         scene = tracer.load(path)
@@ -115,6 +119,12 @@ def faults() -> Iterator[None]:
         raise Unusable(*error.faults) from None
     except ValueError as error:
         raise Unusable(f"raytree: {error}") from None
+
+
+def announce_compiling() -> None:
+    """On the very first start on a machine: why nothing is to be seen for a while."""
+    if not is_cached(trace_area):
+        print("preparing the tracer: its formulas are compiled, only this once", file=sys.stderr, flush=True)
 
 
 def as_text(tree: tracer.RayTree, name: str) -> str:

@@ -8,12 +8,12 @@ import platformdirs
 import tracer
 from tracer.outline import outline
 from viewer.app import App
-from viewer.commands import faults, put
+from viewer.commands import announce_compiling, faults, put
 from viewer.files import Unusable, check_writable
 from viewer.lesson import Lesson
 from viewer.picture import write_picture
 from viewer.session import Session
-from viewer.window import NoDisplay, Offscreen, Window
+from viewer.window import NoWindow, Offscreen, Window
 
 SIZE = (1280, 720)
 
@@ -28,8 +28,8 @@ def show(path: Path, lesson: Lesson | None, options: Namespace) -> int:
         return 0
     try:
         window = Window("raytree", options.size or SIZE, _settings())
-    except NoDisplay:
-        return without_display(path, lesson, options)
+    except NoWindow as reason:
+        return without_display(path, lesson, options, str(reason))
     app = App(window, Session())
     try:
         app.session.open(path, lesson, options.depth, options.pixel)
@@ -39,9 +39,12 @@ def show(path: Path, lesson: Lesson | None, options: Namespace) -> int:
     return 0
 
 
-def take_screenshot(path: Path, lesson: Lesson | None, options: Namespace, target: Path) -> App:
+def take_screenshot(path: Path, lesson: Lesson | None, options: Namespace, target: Path) -> None:
     """Draw the viewer until the first full image and the tree are there, write it, leave."""
-    app = App(Offscreen(options.size or SIZE), Session())
+    try:
+        app = App(Offscreen(options.size or SIZE), Session())
+    except NoWindow as reason:
+        raise Unusable(str(reason)) from None
     try:
         app.session.open(path, lesson, options.depth, options.pixel)
         app.settle()
@@ -50,22 +53,24 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: Namespace, targe
         write_picture(target, app.surface.grab())
     finally:
         app.close()
-    return app
 
 
-def without_display(path: Path, lesson: Lesson | None, options: Namespace) -> int:
-    """The same job where no window can be opened: a screenshot, and the picked pixel's tree in the terminal."""
+def without_display(path: Path, lesson: Lesson | None, options: Namespace, reason: str) -> int:
+    """The same job where no window can be opened: the picked pixel's tree in the terminal, and a screenshot."""
+    put(f"{reason}.\n")
+    announce_compiling()
+    with faults():
+        world = tracer.prepare(tracer.load(path))
+        image = world.scene.image
+        pixel = options.pixel or (lesson and lesson.pixel) or (image.width // 2, image.height // 2)
+        depth = options.depth if options.depth is not None else lesson and lesson.depth
+        tree = tracer.trace(world, pixel, depth=depth)
     target = Path("out") / f"{lesson.name if lesson else path.stem}.png"
-    put(f"There is no display to open a window on: drawing the viewer into {target} instead.\n")
+    put(f"Drawing the viewer into {target} instead; this is the ray tree it shows:\n\n{outline(tree)}")
     target.parent.mkdir(exist_ok=True)
-    session = take_screenshot(path, lesson, options, target).session
-    if session.pixel is None:
-        with faults():
-            world = tracer.prepare(tracer.load(path))
-            size = world.scene.image
-            session.tree = tracer.trace(world, (size.width // 2, size.height // 2), depth=options.depth)
-    assert session.tree
-    put(f"\n{outline(session.tree)}")
+    check_writable(target)
+    options.pixel = pixel
+    take_screenshot(path, lesson, options, target)
     return 0
 
 

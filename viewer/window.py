@@ -26,8 +26,11 @@ GLSL = "#version 330"
 SMALLEST = (480, 320)  # of a window, in its own units
 
 
-class NoDisplay(Exception):
-    """There is no screen to open a window on."""
+class NoWindow(Exception):
+    """No window can be opened, or not even a picture be drawn without one; the text says why."""
+
+
+NO_GRAPHICS = "OpenGL 3.3 is not to be had (on Debian: the packages libegl1, libgl1 and libgl1-mesa-dri)"
 
 
 class Surface:
@@ -63,14 +66,14 @@ class Surface:
 
 
 class Window(Surface):
-    """A window on the screen. NoDisplay where there is none."""
+    """A window on the screen. NoWindow where there is none."""
 
     def __init__(self, title: str, size: tuple[int, int], ini: Path | None = None, visible: bool = True) -> None:
         self.dropped: list[Path] = []
         self.on_refresh: Callable[[], None] = lambda: None
         glfw.set_error_callback(lambda code, text: None)  # what fails says so by its result
         if not glfw.init():
-            raise NoDisplay
+            raise NoWindow("There is no display to open a window on")
         for hint, value in (
             (glfw.CONTEXT_VERSION_MAJOR, 3),
             (glfw.CONTEXT_VERSION_MINOR, 3),
@@ -83,7 +86,7 @@ class Window(Surface):
         self.window = glfw.create_window(*size, title, None, None)
         if not self.window:
             glfw.terminate()
-            raise NoDisplay
+            raise NoWindow(f"No window can be opened: {NO_GRAPHICS}")
         glfw.set_window_size_limits(self.window, *SMALLEST, glfw.DONT_CARE, glfw.DONT_CARE)
         glfw.make_context_current(self.window)
         glfw.swap_interval(1)
@@ -164,7 +167,10 @@ class Offscreen(Surface):
     def __init__(self, size: tuple[int, int]) -> None:
         self.dropped: list[Path] = []
         options: dict[str, Any] = {"backend": "egl"} if sys.platform.startswith("linux") else {}
-        self.ctx = moderngl.create_context(standalone=True, require=330, **options)
+        try:
+            self.ctx = moderngl.create_context(standalone=True, require=330, **options)
+        except Exception as error:  # each platform's own kind
+            raise NoWindow(f"Nothing can be drawn: {NO_GRAPHICS}; {error}") from None
         self._start_imgui(None)
         backends.opengl3_init(GLSL)
         self.resize(size)

@@ -1,0 +1,44 @@
+# The README's two commands are `make run` and `make test`. Everything is kept in .venv; nothing is installed elsewhere,
+# but for the system packages that tests need, and those only as root or with sudo.
+
+PYTHON ?= $(firstword $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
+	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p; done))
+BIN := .venv/bin
+
+# What tests use besides Python: a screen without a monitor, a hand for its mouse, a window manager, OpenGL in software,
+# and POV-Ray as the independent program that images are held against. PROGRAM:PACKAGE, and libraries.
+PROGRAMS := Xvfb:xvfb xdotool:xdotool openbox:openbox povray:povray setpriv:util-linux
+LIBRARIES := libEGL.so.1:libegl1 libGL.so.1:libgl1 swrast_dri.so:libgl1-mesa-dri
+
+.PHONY: run test check bench clean
+
+run: .venv/installed
+	@$(BIN)/raytree
+
+test: .venv/installed-dev
+	@sh .ci/system-packages '$(PROGRAMS)' '$(LIBRARIES)'
+	$(BIN)/python -m pytest -q
+
+check: .venv/installed-dev
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/pyright --pythonpath $(BIN)/python
+
+# Against POV-Ray, side by side; its figures go to out/bench.json.
+bench: .venv/installed-dev
+	@sh .ci/system-packages 'povray:povray' ''
+	@mkdir -p out
+	$(BIN)/python -m benchmarks.against_povray out/bench.json
+
+.venv/installed: pyproject.toml
+	@test -n "$(PYTHON)" || { echo "raytree needs Python 3.11 or later: no python3 of that version was found"; exit 1; }
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e .
+	@touch $@
+
+.venv/installed-dev: .venv/installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev]'
+	@touch $@
+
+clean:
+	rm -rf .venv out .pytest_cache .ruff_cache .hypothesis
