@@ -9,7 +9,7 @@ from imgui_bundle import imgui
 from viewer.gl.stage import ImagePlane, Stage
 from viewer.raylines import RayLine, ray_lines
 from viewer.session import Session
-from viewer.stagelines import StageLines, frustum_lines, image_plane, normal_lines, style_rays
+from viewer.stagelines import StageLines, frustum_lines, glass_edges, image_plane, normal_lines, style_rays
 
 REFRESH = 0.4  # seconds between the states of an unfinished image that the 3D view shows
 
@@ -27,6 +27,7 @@ class Canvas:
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
         self._image_key: object = None
         self._world: object = None
+        self._theme: object = None
         self._drawn_key: object = None
         self._image_in_view: object = None
         self._refreshed = 0.0
@@ -87,9 +88,13 @@ class Canvas:
 
     def _set_world(self) -> None:
         session = self.session
-        if session.world and session.world is not self._world:
+        if not session.world:
+            return
+        if session.world is not self._world:
             self.stage.set_world(session.world, session.frame)
-            self._world = session.world
+        if (session.world, session.theme) != (self._world, self._theme):
+            self.stage.set_edges(glass_edges(session.world, session.frame, session.theme))
+        self._world, self._theme = session.world, session.theme
 
     def _set_lines(self) -> None:
         session = self.session

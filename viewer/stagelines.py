@@ -6,11 +6,26 @@ import numpy as np
 
 from tracer.camera import View
 from tracer.nodes import SHADOW
+from tracer.shapes.plane import Plane
+from tracer.shapes.sphere import Sphere
 from tracer.tree import RayTree
+from tracer.world import World
+from viewer.gl.geometry import creases, triangles
 from viewer.gl.lines import Line
 from viewer.orbit import Frame
 from viewer.raylines import RayLine, family
-from viewer.theme import DIMMED, FRAME_WIDTH, NORMAL, NORMAL_WIDTH, STYLES, Arrow, Theme, faded
+from viewer.theme import (
+    DIMMED,
+    EDGE_OPACITY,
+    EDGE_WIDTH,
+    FRAME_WIDTH,
+    NORMAL,
+    NORMAL_WIDTH,
+    STYLES,
+    Arrow,
+    Theme,
+    faded,
+)
 
 PLANE_SHARE = 0.30  # of the way from the camera to what it looks at: where its image plane is drawn
 
@@ -68,3 +83,13 @@ def frustum_lines(view: View, frame: Frame, corners: np.ndarray, theme: Theme) -
     edges = [(eye, corner) for corner in corners]
     edges += [(corners[a], corners[b]) for a, b in ((0, 1), (1, 3), (3, 2), (2, 0))]
     return [Line(start, end, color, FRAME_WIDTH) for start, end in edges]
+
+
+def glass_edges(world: World, frame: Frame, theme: Theme) -> list[Line]:
+    """Where the faces of cut glass meet: clear faces alone hardly show."""
+    lines = []
+    for item in world.scene.objects:
+        if item.material.transmit > 0.0 and not isinstance(item.shape, Plane | Sphere):
+            for start, end in frame.inside(creases(triangles(item.shape, frame)[0])):
+                lines.append(Line(start, end, faded(theme.text, EDGE_OPACITY), EDGE_WIDTH))
+    return lines

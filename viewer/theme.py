@@ -64,6 +64,8 @@ ESCAPE = 0.9  # of the scene's radius: how far a ray that leaves the scene is dr
 NORMAL = 0.16  # of the scene's radius: length of a normal
 NORMAL_WIDTH = 1.5
 FRAME_WIDTH = 1.2  # the camera's frustum
+EDGE_WIDTH = 1.0  # edges of cut glass: less than any ray
+EDGE_OPACITY = 0.5
 
 FONT_SIZE = 16.0  # pixels at 1280x720; 18 is what a back row reads, 16 what four panels leave room for
 SMALL = 0.9  # of the font's size, for labels in figures

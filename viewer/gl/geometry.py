@@ -18,6 +18,8 @@ from tracer.vector import unit
 from viewer.orbit import Frame
 
 PLANE_REACH = 12.0  # radii of the scene
+CREASE = math.cos(math.radians(15.0))  # faces that meet at less than this angle are meant to be one
+MOST_CREASES = 4000  # a shape with more is shown by its shading
 
 
 def ball(segments: int) -> tuple[np.ndarray, np.ndarray]:
@@ -56,6 +58,24 @@ def triangles(shape: object, frame: Frame) -> tuple[np.ndarray, np.ndarray]:
         case _:
             raise TypeError(f"no triangles for {type(shape).__name__}")
     return corners, _flat_normals(corners)
+
+
+def creases(corners: np.ndarray) -> np.ndarray:
+    """Edges (m, 2, 3) of triangles (n, 3, 3) where the surface turns or ends; none where there would be too many."""
+    nothing = np.zeros((0, 2, 3))
+    if len(corners) > 10 * MOST_CREASES:
+        return nothing
+    places, names = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+    faces = names.reshape(-1, 3)
+    edges = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    n = np.repeat(_flat_normals(corners)[:, 0], 3, axis=0)
+    known, which, count = np.unique(edges, axis=0, return_inverse=True, return_counts=True)
+    # Of two unit normals the sum is as long as twice the cosine of half the angle between them.
+    total = np.zeros((len(known), 3))
+    np.add.at(total, which.ravel(), n)
+    flat = (count == 2) & ((total * total).sum(axis=1) > 2.0 + 2.0 * CREASE)
+    kept = places[known[~flat & (known[:, 0] != known[:, 1])]]
+    return kept if len(kept) <= MOST_CREASES else nothing
 
 
 def _flat_normals(corners: np.ndarray) -> np.ndarray:

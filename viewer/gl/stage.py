@@ -10,7 +10,7 @@ import moderngl
 import numpy as np
 
 from tracer.world import World
-from viewer.gl.lines import Lines
+from viewer.gl.lines import Line, Lines
 from viewer.gl.program import make_program, put
 from viewer.gl.surfaces import Surfaces, make_surface_program
 from viewer.gl.target import Target
@@ -42,12 +42,16 @@ class Stage:
         self.picture_array = ctx.vertex_array(self.picture, [])
         self.marks = Lines(ctx)  # frustum, normals
         self.rays = Lines(ctx)
+        self.edges = Lines(ctx)  # of cut glass
         self.surfaces: Surfaces | None = None
 
     def set_world(self, world: World, frame: Frame) -> None:
         if self.surfaces:
             self.surfaces.release()
         self.surfaces = Surfaces(self.ctx, self.surface_program, world, frame)
+
+    def set_edges(self, lines: list[Line]) -> None:
+        self.edges.set(lines)
 
     def set_lines(self, lines: StageLines) -> None:
         self.marks.set(lines.marks)
@@ -80,6 +84,7 @@ class Stage:
             self.surfaces.draw(orbit, matrix, glass=False)
             ctx.polygon_offset = 0.0, 0.0
         self.target.drawn.depth_mask = False
+        self.edges.draw(matrix, size, scale)
         self._draw_lines(matrix, theme, size, scale, 1.0)
         if plane:
             self._draw_picture(matrix, plane)
@@ -108,7 +113,7 @@ class Stage:
     def release(self) -> None:
         if self.surfaces:
             self.surfaces.release()
-        for thing in (self.marks, self.rays, self.empty, self.picture_array, self.target):
+        for thing in (self.marks, self.rays, self.edges, self.empty, self.picture_array, self.target):
             thing.release()
         for program in (self.surface_program, self.ground, self.picture):
             program.release()

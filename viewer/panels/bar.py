@@ -9,6 +9,8 @@ from viewer.session import Session
 from viewer.theme import STYLES, faded
 
 NAME = "##bar"
+SAMPLE = 44  # logical pixels that a legend's line takes beside its name
+GAP = 6  # between two entries
 
 
 def height() -> float:
@@ -27,12 +29,14 @@ def draw(session: Session, left: float, top: float, width: float) -> None:
     imgui.pop_style_color()
     imgui.pop_style_var()
     _depth(session)
-    if session.world and any(item.material.transmit > 0.0 for item in session.world.scene.objects):
+    if _has_glass(session):
         _gap()
         _model(session)
+    content = _status_text(session)
+    status_at = width - d.text_size(content, imgui.get_font_size())[0] - 12 * d.unit()
     _gap()
-    _legend(session)
-    _status(session, width)
+    _legend(session, status_at)
+    _status(session, content, status_at)
     imgui.end()
 
 
@@ -74,20 +78,19 @@ def _model(session: Session) -> None:
         _hint(hint)
 
 
-def _legend(session: Session) -> None:
-    """Each kind of ray as it is drawn, with its name; a click shows or hides it."""
+def _legend(session: Session, right: float) -> None:
+    """Each kind of ray as it is drawn, with its name; a click shows or hides it. It ends left of `right`."""
     unit = d.unit()
     theme = session.theme
+    labels = _labels(session, right - imgui.get_cursor_pos_x())
     for k, (kind, style) in enumerate(STYLES.items()):
         if k:
-            imgui.same_line(0.0, 6 * unit)
+            imgui.same_line(0.0, GAP * unit)
         on = kind in session.shown.kinds
-        label = style.label
-        if kind == "tir":
-            label = "total internal" if imgui.get_io().display_size.x < 1500 * unit else label
+        label = labels[kind]
         width, _ = d.text_size(label, imgui.get_font_size())
         at = imgui.get_cursor_screen_pos()
-        size = (width + 44 * unit, imgui.get_frame_height())
+        size = (width + SAMPLE * unit, imgui.get_frame_height())
         if imgui.invisible_button(f"legend {kind}", size):
             session.toggle_kind(kind)
         hovered = imgui.is_item_hovered()
@@ -104,9 +107,34 @@ def _legend(session: Session) -> None:
             pad.add_line((at.x + 37 * unit, middle), (at.x + 39 * unit + width, middle), d.u32(theme.muted), 1.2 * unit)
 
 
+def _labels(session: Session, room: float) -> dict[str, str]:
+    """What the legend calls each kind: the longest names that fit into `room`, at last the lecture's letters."""
+    full = {kind: style.label for kind, style in STYLES.items()}
+    short = full | {"tir": "total internal"}
+    if _has_glass(session):
+        # What lecturers are asked for first: why the shadow of a glass ball has no bright spot.
+        through = "stopped by glass" if _glass_blocks(session) else "unbent in glass"
+        full["shadow"] += f", {through}"
+        short["shadow"] += f", {through}"
+    letters = {kind: style.letter for kind, style in STYLES.items()}
+    for labels in (full, short):
+        widths = [d.text_size(label, imgui.get_font_size())[0] for label in labels.values()]
+        if sum(widths) + len(widths) * (SAMPLE + GAP) * d.unit() <= room:
+            return labels
+    return letters
+
+
+def _has_glass(session: Session) -> bool:
+    return bool(session.world) and any(item.material.transmit > 0.0 for item in session.world.scene.objects)
+
+
+def _glass_blocks(session: Session) -> bool:
+    return bool(session.world) and session.world.scene.tracing.shadows == "block"
+
+
 def _meaning(session: Session, kind: str) -> str:
     if kind == "shadow":
-        glass = "blocks it" if session.world and session.world.scene.tracing.shadows == "block" else "dims it"
+        glass = "blocks it" if _glass_blocks(session) else "dims it"
         return f"does the light get there? Glass {glass}, straight through and unbent: a simplification"
     return {
         "camera": "from the eye through the pixel",
@@ -116,12 +144,9 @@ def _meaning(session: Session, kind: str) -> str:
     }[kind]
 
 
-def _status(session: Session, width: float) -> None:
+def _status(session: Session, content: str, place: float) -> None:
     """At the right end: what is going on, or how large the tree is."""
-    content = _status_text(session)
-    size, _ = d.text_size(content, imgui.get_font_size())
     imgui.same_line()
-    place = width - size - 12 * d.unit()
     if imgui.get_cursor_pos_x() < place:
         imgui.set_cursor_pos_x(place)
         imgui.align_text_to_frame_padding()

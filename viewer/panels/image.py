@@ -103,10 +103,14 @@ def _head(session: Session) -> None:
         rgb = session.tree.radiance
         imgui.same_line()
         imgui.color_button("##color", d.swatch(rgb), imgui.ColorEditFlags_.no_tooltip, (22 * unit, 22 * unit))
-        imgui.same_line()
-        imgui.text("  ".join(f"{value:.4f}" for value in rgb))
+        content = "  ".join(f"{value:.4f}" for value in rgb)
+        room = imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x - imgui.get_item_rect_max().x
+        if room >= d.text_size(content, imgui.get_font_size())[0] + 8 * unit:
+            imgui.same_line()
+            imgui.text(content)
         if imgui.is_item_hovered():
-            imgui.set_tooltip("red, green, blue: linear light, before it is made into sRGB for the screen")
+            meaning = "red, green, blue: linear light, before it is made into sRGB for the screen"
+            imgui.set_tooltip(f"{content}\n{meaning}")
     else:
         imgui.same_line()
         imgui.text_colored(session.theme.muted, "click the image")

@@ -12,14 +12,14 @@ from viewer.figures.layout import Place, heaviest_rows, layout
 from viewer.panels import draw as d
 from viewer.raylines import family
 from viewer.session import Session
-from viewer.theme import DIMMED, SMALL, STYLES, faded
+from viewer.theme import BLOCKED_DASH, DIMMED, SMALL, STYLES, faded
 
 TITLE = "Ray tree"
 
 MOST_ROWS = 160  # drawn; of larger trees the heaviest rays
 # Logical pixels: between neighbours and between levels, at most and at least; smaller and the tree has to be moved.
 WIDEST, NARROWEST = 170.0, 34.0
-TALLEST, LOWEST = 104.0, 40.0
+TALLEST, LOWEST = 104.0, 29.0
 EYE_ROOM = 50.0  # above the first hit
 RADIUS = 11.0
 
@@ -141,7 +141,7 @@ class _Diagram:
         width = style.width * unit * (1.7 if i == self.session.selected else 1.0)
         dash = style.dash
         if tree.end(i) == "blocked":
-            dash = (4.0, 4.0)
+            dash = BLOCKED_DASH
         d.line(self.pad, a, b, color, width, (dash[0] * unit * 0.8, dash[1] * unit * 0.8))
         d.arrow(self.pad, a, b, 0.55, color, 9.0 * unit, style.arrow)
 
@@ -182,14 +182,26 @@ class _Diagram:
         note = {"depth": "cut: depth", "weight": "cut: weight", "nodes": "cut: limit"}.get(end or "", "")
         size = self.text_size
         color = faded(self.theme.text, opacity)
-        # To the right of the node there is room up to the next column, less where stubs hang below.
-        content = _shortened(f"{i}  {name}", size, 1.15 * self.step_x - 2.0 * self.radius)
         # Level with the node: there the edges from above and to below have parted.
         at = x + self.radius + 7.0 * d.unit()
+        room = self._room_beside(i) - 7.0 * d.unit()
+        gap = 6.0 * d.unit()
+        if note and room < d.text_size(f"{i}  {name}", size)[0] + gap + d.text_size(note, size)[0]:
+            note = "cut"
+        taken = gap + d.text_size(note, size)[0] if note else 0.0
+        content = _shortened(f"{i}  {name}", size, room - taken)
         d.text(self.pad, (at, y - 0.5 * size), color, content, size, self.theme.panel)
         if note:
-            at += d.text_size(content, size)[0] + 6.0 * d.unit()
+            at += d.text_size(content, size)[0] + gap
             d.text(self.pad, (at, y - 0.5 * size), faded(self.theme.muted, opacity), note, size, self.theme.panel)
+
+    def _room_beside(self, i: int) -> float:
+        """Pixels between a node's rim and what stands next on its level, at most what a long name needs."""
+        x, y = self.at[i]
+        kinds = self.tree.nodes["kind"]
+        beside = [at for j, at in self.at.items() if j < len(kinds) and kinds[j] != SHADOW and at[1] == y and at[0] > x]
+        right = min((other - self.radius for other, _ in beside), default=math.inf)
+        return min(right, x + 3.0 * self.step_x) - x - self.radius - 6.0 * d.unit()
 
     def _light_end(self, i: int) -> None:
         """A small sun where the light is reached, a cross where it is not."""
@@ -210,19 +222,29 @@ class _Diagram:
             self.pad.add_circle((x, y), 1.5 * r, d.u32(self.theme.accent), 0, 2.5 * d.unit())
 
     def _note(self) -> None:
-        """In the corner: what is not to be seen of this tree."""
-        parts = []
-        if self.folded > 0:
-            parts.append(f"{len(self.rows)} of {len(self.tree)} rays drawn")
+        """In a corner beside the eye: what is not to be seen of this tree; in fewer words where there is less room."""
+        drawn, total, weight = len(self.rows), len(self.tree), shown(self.tree.residual, 3)
+        fewer = f"{drawn} of {total} rays drawn" if self.folded > 0 else ""
         if self.tree.residual > 0.0:
-            parts.append(f"rays that were cut carry {shown(self.tree.residual, 3)} of the weight")
-        if not parts:
-            return
-        content = "; ".join(parts)
-        size = self.text_size
-        width, _ = d.text_size(content, size)
-        at = (self.corner.x + self.room.x - width - 8 * d.unit(), self.corner.y + 4 * d.unit())
-        d.text(self.pad, at, self.theme.muted, content, size, self.theme.panel)
+            cuts = [
+                f"rays that were cut carry {weight} of the weight",
+                f"cut rays: {weight} of the weight",
+                f"cut: {weight}",
+            ]
+        else:
+            cuts = [""]
+        margin = 8 * d.unit()
+        x, _ = self._top(0)
+        left, right = self.corner.x + margin, self.corner.x + self.room.x - margin
+        ends = (x - 3 * self.radius, x + 6 * self.radius)  # of the eye with its name
+        for cut in cuts:
+            content = "; ".join(part for part in (fewer, cut) if part)
+            width, _ = d.text_size(content, self.text_size)
+            for at in (right - width, left):
+                if at >= ends[1] or at + width <= ends[0]:
+                    place = (at, self.corner.y + 4 * d.unit())
+                    d.text(self.pad, place, self.theme.muted, content, self.text_size, self.theme.panel)
+                    return
 
     def _handle_mouse(self) -> None:
         io = imgui.get_io()
