@@ -16,7 +16,7 @@ from tracer.media import index_of, medium
 from tracer.nodes import BACKGROUND, SHADOW
 from tracer.optics import cosine, radicand, reflect, sine, transmission
 from tracer.rays import make_ray
-from tracer.rows import record_shadow, way_length
+from tracer.rows import record_shadow, record_unlit, way_length
 from tracer.shading import ambient, phong, surface_color
 from tracer.shadows import light_through, towards_light
 from tracer.shapes import locate
@@ -102,7 +102,7 @@ def is_usable(d: Vector, n: Vector, shading_n: Vector, n1: float, n2: float) -> 
 
 @compiled
 def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> int:
-    """Row i's local term, light by light, with one shadow row for each light in front of its surface."""
+    """Row i's local term, light by light. What cannot add to it is followed only where every light gets its row."""
     table = space.table
     row = table[i]
     if row.surface < 0:
@@ -113,12 +113,13 @@ def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> 
     point, n, d = vector(row.point), vector(row.normal), vector(row.direction)
     color = surface_color(material, this, point)
     local = ambient(material, color, vector(world.ambient))
-    if material.diffuse > 0.0 or material.specular > 0.0:
+    shines = material.diffuse > 0.0 or material.specular > 0.0
+    if shines or limits.records:
         face_n = vector(row.face)
         for j in range(len(world.lights)):
             light = world.lights[j]
             to_light, far = towards_light(light, point)
-            if dot(n, to_light) > 0.0 and dot(face_n, to_light) > 0.0:
+            if shines and dot(n, to_light) > 0.0 and dot(face_n, to_light) > 0.0:
                 ray = make_ray(point, to_light, s, row.hit_side, way_length(row))
                 visible, glass = light_through(world, ray, far, limits.glass_blocks, space)
                 share = (0.0, 0.0, 0.0)
@@ -128,6 +129,9 @@ def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> 
                 table[count].kind = SHADOW
                 if limits.records:
                     record_shadow(world, limits, space, count, i, j, ray, far, visible, glass, share)
+                count += 1
+            elif limits.records:
+                record_unlit(world, limits, space, count, i, j, to_light, far)
                 count += 1
     store(row.local, local)
     return count

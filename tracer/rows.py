@@ -3,12 +3,13 @@
 import math
 from typing import Any
 
+from tracer.hits import transmit
 from tracer.jit import compiled, routine
 from tracer.limits import Limits
 from tracer.nodes import BLOCKED, FILTERED, LIT, NONE, SHADOW
-from tracer.rays import Ray
-from tracer.shadows import occluder
-from tracer.vector import Vector, add, multiply, scale, store, vector
+from tracer.rays import Ray, make_ray
+from tracer.shadows import light_through, occluder
+from tracer.vector import Vector, add, dot, multiply, scale, store, vector
 
 
 @compiled
@@ -57,7 +58,51 @@ def record_shadow(
     share: Vector,
 ) -> None:
     """Row i: a shadow ray to a light at distance `far`, with what stands in its way by name."""
-    table = space.table
+    t, met, end = far, glass, FILTERED if glass >= 0 else LIT
+    if visible == 0.0:
+        nearest, s = occluder(world, ray, far, limits.glass_blocks, space.stack)
+        if nearest < far:  # else it was so much glass that nothing is left
+            t, met, end = nearest, s, BLOCKED
+    write_shadow(world, limits, space.table, i, parent, light, ray, t, met, end, visible, share)
+
+
+@routine
+def record_unlit(
+    world: Any, limits: Limits, space: Any, i: int, parent: int, light: int, to_light: Vector, far: float
+) -> None:
+    """Row i: a shadow ray to a light that adds nothing at its parent's hit, wherever it gets to.
+
+    Where the surface faces away from the light, it is itself the first that stands in the way: at no distance.
+    """
+    row = space.table[parent]
+    s, nothing = row.surface, (0.0, 0.0, 0.0)
+    faces_it = dot(vector(row.face), to_light) > 0.0
+    own = 1.0 if faces_it else transmit(world, s)
+    ray = make_ray(vector(row.point), to_light, s, row.hit_side if faces_it else -row.hit_side, way_length(row))
+    if own == 0.0 or (limits.glass_blocks and not faces_it):
+        write_shadow(world, limits, space.table, i, parent, light, ray, 0.0, s, BLOCKED, 0.0, nothing)
+        return
+    visible, glass = light_through(world, ray, far, limits.glass_blocks, space)
+    first = glass if faces_it else s
+    record_shadow(world, limits, space, i, parent, light, ray, far, own * visible, first, nothing)
+
+
+@compiled
+def write_shadow(
+    world: Any,
+    limits: Limits,
+    table: Any,
+    i: int,
+    parent: int,
+    light: int,
+    ray: Ray,
+    t: float,
+    met: int,
+    end: int,
+    visible: float,
+    share: Vector,
+) -> None:
+    """Row i, when all is known of the shadow ray: it ends at t, and met is a surface or -1."""
     attenuation = (visible, visible, visible)
     weight = multiply(vector(table[parent].weight), attenuation)
     row = start_row(limits, table, i, parent, SHADOW, table[parent].depth, attenuation, weight)
@@ -66,11 +111,7 @@ def record_shadow(
     store(row.direction, ray.direction)
     store(row.local, share)
     store(row.radiance, share)
-    t, met = far, glass
-    row.end = FILTERED if glass >= 0 else LIT
-    if visible == 0.0:
-        row.end = BLOCKED
-        t, met = occluder(world, ray, far, limits.glass_blocks, space.stack)
+    row.end = end
     if met >= 0:
         row.object = world.surfaces[met].object
     if t < math.inf:

@@ -68,6 +68,13 @@ class RayTree:
         k = self.nodes["object"][i]
         return name_of(self.scene, k) if k >= 0 else None
 
+    def faces_away(self, i: int) -> bool:
+        """Whether i is a shadow ray to a light behind the surface it starts on: that adds nothing, whatever is met."""
+        row = self.nodes[i]
+        if row["kind"] != SHADOW:
+            return False
+        return bool(row["t"] == 0.0 or self.nodes["normal"][row["parent"]] @ row["direction"] <= 0.0)
+
     def light_name(self, i: int) -> str | None:
         j = self.nodes["light"][i]
         return (self.scene.lights[j].name or f"light {j}") if j >= 0 else None

@@ -19,6 +19,7 @@ from tracer.shading import surface_color
 from tracer.tree import RayTree
 from tracer.vector import unit, vector
 from tracer.world import World
+from viewer.theme import STYLES
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,8 @@ def headline(tree: RayTree, i: int) -> tuple[str, str]:
 
 def _shadow_fate(tree: RayTree, i: int) -> str:
     met = tree.object_name(i)
+    if tree.faces_away(i):
+        return "adds nothing, the surface faces away from the light"
     return {"blocked": f"blocked by {met}", "filtered": f"dimmed by {met}, straight through"}.get(
         tree.end(i) or "", "nothing in its way"
     )
@@ -127,7 +130,7 @@ def _sum(tree: RayTree, i: int) -> Section:
         below = tree.nodes[child]
         if below["kind"] != SHADOW:
             section.add(
-                f"+ {same(below['factor'])} × ray {child} ({tree.kind(child)})",
+                f"+ {same(below['factor'])} × ray {child} ({STYLES[tree.kind(child)].letter})",
                 triple(below["factor"] * below["radiance"], 4),
             )
     section.add("=", triple(row["radiance"], 4))
@@ -208,7 +211,7 @@ def _reflection(tree: RayTree, i: int) -> Section:
 
 
 def _local(tree: RayTree, world: World, i: int) -> Section:
-    """The local term, light by light, those behind the surface too."""
+    """The local term, light by light."""
     row = tree.nodes[i]
     material = world.scene.objects[row["object"]].material
     section = Section("Local light", "I = A ka C + Σ L (kd C (N·L) + ks (R·V)ᵖ)")
@@ -219,17 +222,16 @@ def _local(tree: RayTree, world: World, i: int) -> Section:
     rows = {int(tree.nodes["light"][child]): child for child in tree.children[i]}
     for j, light in enumerate(world.scene.lights):
         name = light.name or f"light {j}"
-        child = rows.get(j)
-        if child is None:
-            # Without diffuse and specular no shadow ray is worth its while.
-            dark = material.diffuse == 0.0 and material.specular == 0.0
-            section.add(f"{name}", "kd = ks = 0: no ray" if dark else "behind the surface: no ray")
-            continue
-        fate = {"blocked": f"blocked by {tree.object_name(child)}"}.get(tree.end(child) or "")
+        child = rows[j]
         n_l, r_v = _cosines(row, light)
-        detail = fate or f"N·L {shown(n_l, 3)}, R·V {shown(max(r_v, 0.0), 3)}"
-        if tree.end(child) == "filtered":
-            detail += f", × {shown(tree.nodes['factor'][child][0], 3)} through glass"
+        if n_l <= 0.0:
+            detail = f"N·L {shown(n_l, 3)}: faces away from it"
+        elif tree.end(child) == "blocked":
+            detail = f"blocked by {tree.object_name(child)}"
+        else:
+            detail = f"N·L {shown(n_l, 3)}, R·V {shown(max(r_v, 0.0), 3)}"
+            if tree.end(child) == "filtered":
+                detail += f", × {shown(tree.nodes['factor'][child][0], 3)} through glass"
         section.add(f"{name}: {detail}", triple(tree.nodes["radiance"][child], 4))
     section.add("local", triple(row["local"], 4))
     return section
@@ -246,8 +248,11 @@ def _light(tree: RayTree, world: World, i: int, j: int) -> Section:
     section = Section(f"Light from {light.name or f'light {j}'}", "L (kd C (N·L) + ks (R·V)ᵖ)")
     section.add("light L", triple(light.color, 3))
     section.add("N·L", shown(n_l))
+    if n_l <= 0.0:
+        section.add("N·L ≤ 0", "the surface faces away from it: no light")
+        return section
     section.add("kd C (N·L)", triple(material.diffuse * n_l * color, 4))
-    highlight = material.specular * max(r_v, 0.0) ** material.shininess if r_v > 0.0 else 0.0
+    highlight = material.specular * r_v**material.shininess if r_v > 0.0 else 0.0
     section.add("R·V", shown(r_v))
     section.add(f"ks (R·V)ᵖ, p = {shown(material.shininess)}", shown(highlight))
     section.add("gets through", same(tree.nodes["factor"][child]))

@@ -26,7 +26,7 @@ class RayLine:
 
 
 def ray_lines(tree: RayTree, rows: int, frame: Frame, kinds: Set[str]) -> list[RayLine]:
-    """Lines of the first `rows` rows, of those kinds only."""
+    """Lines of the first `rows` rows, of those kinds only; a shadow ray that its own surface blocks has no length."""
     nodes = tree.nodes[:rows]
     starts = frame.inside(nodes["origin"])
     points = frame.inside(nodes["point"])
@@ -34,7 +34,7 @@ def ray_lines(tree: RayTree, rows: int, frame: Frame, kinds: Set[str]) -> list[R
     for i in range(len(nodes)):
         code = nodes["kind"][i]
         kind = KINDS[code]
-        if kind not in kinds:
+        if kind not in kinds or (code == SHADOW and nodes["t"][i] == 0.0):
             continue
         start, end = starts[i], points[i]
         escapes = bool(np.isnan(end).any())

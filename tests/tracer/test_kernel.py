@@ -59,18 +59,43 @@ def test_what_is_missing_is_within_the_residual(limits: dict) -> None:
     assert leaves + cut.residual == pytest.approx(1.0, abs=len(cut) * 2.0**-50)
 
 
-def test_matte_scene_traces_one_shadow_ray_a_lit_hit() -> None:
-    """Nothing needless: no ray to a light behind the surface, none for a surface that light does not change."""
-    floor = plane((0, 0, 0), (0, 1, 0))
-    ray = ((0, 1, 0), (0.1, -1, 0))
-    assert kinds(tracer.trace(world_of(floor, lights=[SUN]), ray=ray)) == ["camera", "shadow"]
+def test_image_traces_one_shadow_ray_a_lit_hit() -> None:
+    """Nothing needless: none to a light behind the surface, none for a surface that light does not change."""
+    lamps = [Light("eye", position=(0.0, 0.0, 100.0)), Light("behind", position=(0.0, 0.0, -100.0))]
+    for lights in (lamps[:1], lamps):
+        image = tracer.render(world_of(ball(), lights=lights))
+        hits = int((image.pixels.sum(axis=2) > 0.0).sum())
+        assert image.rays == {"camera": 64 * 48, "reflection": 0, "refraction": 0, "tir": 0, "shadow": hits}
+    image = tracer.render(world_of(ball(material=Material("dull", ambient=1.0)), lights=lamps))
+    assert image.rays["shadow"] == 0
+
+
+def test_tree_has_a_shadow_ray_to_every_light() -> None:
+    """Also to those that add nothing: behind the surface, or where the material takes no light."""
     below = Light("below", position=(0.0, -3.0, 0.0))
-    assert kinds(tracer.trace(world_of(floor, lights=[SUN, below]), ray=ray)) == ["camera", "shadow"]
-    dull = plane((0, 0, 0), (0, 1, 0), Material("dull", ambient=1.0))
-    assert kinds(tracer.trace(world_of(dull, lights=[SUN]), ray=ray)) == ["camera"]
-    image = tracer.render(world_of(ball(), lights=[Light("eye", position=(0.0, 0.0, 100.0))]))
-    hits = int((image.pixels.sum(axis=2) > 0.0).sum())
-    assert image.rays == {"camera": 64 * 48, "reflection": 0, "refraction": 0, "tir": 0, "shadow": hits}
+    ray = ((0, 1, 0), (0.1, -1, 0))
+    for material in (Material("matte", diffuse=1.0), Material("dull", ambient=1.0)):
+        floor = plane((0, 0, 0), (0, 1, 0), material)
+        tree = tracer.trace(world_of(floor, lights=[SUN, below]), ray=ray)
+        assert ends(tree) == ["surface", "lit", "blocked"]
+        assert tree.object_name(2) == "plane"
+        assert tree.faces_away(2)
+        assert tree.nodes["t"][2] == 0.0
+        assert tree.nodes["point"][2].tolist() == tree.nodes["point"][0].tolist()
+        assert not tree.nodes["radiance"][2].any()
+        assert tree.nodes["local"][0][0] == material.diffuse + material.ambient
+
+
+@pytest.mark.parametrize(("shadows", "share"), [("filter", 0.9), ("block", 0.0)])
+def test_glass_that_faces_away_is_in_its_own_way(shadows: str, share: float) -> None:
+    """A sheet seen from above, lit from below: its light comes through it, and adds nothing on this side."""
+    below = Light("below", position=(0.0, -3.0, 0.0))
+    pane = tracer_sheet(0.0, Material("sheet", transmit=0.9, diffuse=1.0))
+    tree = tracer.trace(world_of(pane, lights=[below], shadows=shadows), ray=((0, 1, 0), (0, -1, 0)), depth=0)
+    assert tree.end(1) == ("filtered" if share else "blocked")
+    assert tree.object_name(1) == tree.object_name(0)
+    assert tree.nodes["factor"][1].tolist() == [share] * 3
+    assert not tree.nodes["local"][0].any()
 
 
 def test_shadow_rows_carry_their_lights_share() -> None:

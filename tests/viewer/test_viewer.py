@@ -92,13 +92,17 @@ def test_selecting_a_node_selects_its_ray_and_the_other_way_round(glass: Driver)
         glass.click(*glass.canvas.nodes[row])
         assert glass.session.selected == row
     kinds = set()
-    for row in range(len(glass.session.tree)):
-        place = glass.lone_place(row)
-        if place:
-            glass.session.selected = None
-            glass.click(*place)
-            assert glass.session.selected == row
-            kinds.add(glass.session.tree.kind(row))
+    for shadows in (True, False):
+        if not shadows:
+            glass.session.toggle_kind("shadow")
+            glass.frames()
+        for row in [line.row for line in glass.canvas.lines]:
+            place = glass.lone_place(row)
+            if place:
+                glass.session.selected = None
+                glass.click(*place)
+                assert glass.session.selected == row
+                kinds.add(glass.session.tree.kind(row))
     assert kinds >= {"camera", "reflection", "refraction", "shadow"}
     left, top, *_ = glass.canvas.stage_place
     glass.click(left + 5, top + 5)

@@ -176,7 +176,9 @@ def _open_dialog(session: Session) -> None:
     """Folders and scenes to choose from, or a path to be typed."""
     unit = d.unit()
     imgui.set_next_window_size((620 * unit, 460 * unit), imgui.Cond_.appearing)
+    imgui.push_style_color(imgui.Col_.popup_bg, session.theme.panel)  # its fields and buttons stand out from it
     opened, _ = imgui.begin_popup_modal(OPEN, True, imgui.WindowFlags_.no_saved_settings)
+    imgui.pop_style_color()
     if not opened:
         return
     if session.folder is None:

@@ -156,7 +156,7 @@ class _Overlay:
         assert session.tree
         color = session.theme.ray("shadow")
         for i in range(len(session.tree)):
-            if session.tree.end(i) != "blocked":
+            if session.tree.end(i) != "blocked" or session.tree.nodes["t"][i] == 0.0:
                 continue
             at = self.at(session.frame.inside(session.tree.nodes["point"][i]))
             if at:

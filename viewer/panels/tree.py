@@ -204,9 +204,9 @@ class _Diagram:
         return min(right, x + 3.0 * self.step_x) - x - self.radius - 6.0 * d.unit()
 
     def _light_end(self, i: int) -> None:
-        """A small sun where the light is reached, a cross where it is not."""
+        """A small sun where the light is reached, a cross where it is not; faint where the surface faces away."""
         x, y = self.at[i]
-        opacity = self.opacity(i)
+        opacity = self.opacity(i) * (DIMMED if self.tree.faces_away(i) else 1.0)
         r = 0.62 * self.radius
         selected = i == self.session.selected
         if self.tree.end(i) == "blocked":
