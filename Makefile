@@ -10,7 +10,7 @@ BIN := .venv/bin
 PROGRAMS := Xvfb:xvfb xdotool:xdotool openbox:openbox povray:povray setpriv:util-linux
 LIBRARIES := libEGL.so.1:libegl1 libGL.so.1:libgl1 swrast_dri.so:libgl1-mesa-dri
 
-.PHONY: run test check bench clean
+.PHONY: run test check bench picture clean
 
 run: .venv/installed
 	@$(BIN)/raytree
@@ -29,6 +29,10 @@ bench: .venv/installed-dev
 	@sh .ci/system-packages 'povray:povray' ''
 	@mkdir -p out
 	$(BIN)/python -m benchmarks.against_povray out/bench.json
+
+# The README's picture of the viewer, by the viewer.
+picture: .venv/installed
+	$(BIN)/raytree view glass-ball --screenshot docs/viewer.png
 
 .venv/installed: pyproject.toml
 	@test -n "$(PYTHON)" || { echo "raytree needs Python 3.11 or later: no python3 of that version was found"; exit 1; }

@@ -72,7 +72,7 @@ def _row(tree: RayTree, i: int, stem: str) -> tuple[str, ...]:
         "" if shadow else _pair(degrees(row["theta1"]), degrees(row["theta2"])),
         triple(row["weight"], same=True),
         triple(row["radiance"]),
-        "nothing: it faces away from the light" if tree.faces_away(i) else WHY[tree.end(i)],
+        "adds nothing: the surface faces away" if tree.faces_away(i) else WHY[tree.end(i)],
     )
 
 

@@ -7,10 +7,11 @@ and any order of tiles. Passes from coarse to fine trace no pixel twice.
 import math
 import os
 import time
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, ThreadPoolExecutor, wait
+from collections import deque
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import dataclass, field
-from queue import SimpleQueue
+from queue import Empty, SimpleQueue
 
 import numpy as np
 
@@ -64,7 +65,7 @@ class Job:
     rays: np.ndarray = field(init=False)
     residuals: dict[Area, np.ndarray] = field(init=False)
     eye_solids: np.ndarray = field(init=False)
-    spaces: SimpleQueue = field(init=False)
+    spaces: SimpleQueue[Workspace] = field(init=False)
 
     def __post_init__(self) -> None:
         self.pixels = np.zeros((self.view.height, self.view.width, 3))
@@ -73,63 +74,81 @@ class Job:
         self.eye_solids = solids_at(self.world, self.view.eye)
         self.spaces = SimpleQueue()
 
-    def trace(self, area: Area, cancelled: Cancelled) -> tuple[Area, Workspace] | None:
-        """Trace one tile, on whatever thread; None where the job has been cancelled before it began."""
-        if cancelled():
-            return None
-        space = Workspace(words(self.world)) if self.spaces.empty() else self.spaces.get()
-        run(self.world.arrays, self.view, self.limits, self.samples, area, self.eye_solids, self.pixels, space)
-        return area, space
+    def work(self, waiting: deque[Area], finished: SimpleQueue[Area | None], cancelled: Cancelled) -> Workspace:
+        """Trace one waiting tile after another, on whatever thread; None is the last that `finished` is told."""
+        try:
+            space = self.spaces.get_nowait()
+        except Empty:
+            space = Workspace(words(self.world))
+        try:
+            while waiting and not cancelled():
+                try:
+                    area = waiting.popleft()
+                except IndexError:  # another thread was faster
+                    break
+                residuals = space.arrays.residuals
+                residuals[:] = 0.0
+                run(self.world.arrays, self.view, self.limits, self.samples, area, self.eye_solids, self.pixels, space)
+                self.residuals[area] = residuals.copy()
+                finished.put(area)
+        finally:
+            finished.put(None)
+        return space
 
-    def keep(self, area: Area, space: Workspace) -> None:
-        """Add a finished tile's figures; its workspace is free for the next."""
-        counted = space.arrays
-        self.rays += counted.rays
-        self.residuals[area] = counted.residuals.copy()
-        counted.rays[:] = 0
-        counted.residuals[:] = 0.0
+    def keep(self, space: Workspace) -> None:
+        """Add what a thread has counted; its workspace is free for the next."""
+        self.rays += space.arrays.rays
+        space.arrays.rays[:] = 0
         self.spaces.put(space)
 
 
-def tiles(width: int, height: int, steps: Sequence[int] = (1,)) -> Iterator[Area]:
-    """The areas of an image, pass by pass; `steps` halve from one to the next, down to 1."""
-    traced = 0
-    for step in steps:
-        for top in range(0, height, TILE):
-            for left in range(0, width, TILE):
-                yield Area(left, top, min(left + TILE, width), min(top + TILE, height), step, traced)
-        traced = step
+def passes(width: int, height: int, steps: Sequence[int] = (1,)) -> list[list[Area]]:
+    """The tiles of an image, pass by pass; `steps` halve from one to the next, down to 1."""
+    before = (0, *steps)
+    return [
+        [
+            Area(left, top, min(left + TILE, width), min(top + TILE, height), step, traced)
+            for top in range(0, height, TILE)
+            for left in range(0, width, TILE)
+        ]
+        for step, traced in zip(steps, before, strict=False)
+    ]
 
 
-def trace_tiles(
+def trace_passes(
     job: Job,
-    areas: Sequence[Area],
+    all_passes: Sequence[Sequence[Area]],
     executor: Executor,
-    ahead: int,
+    threads: int,
     finished: Finished = lambda area, share: None,
     cancelled: Cancelled = lambda: False,
 ) -> None:
-    """Trace areas in their order, at most `ahead` waiting at a time; Stopped where `cancelled` turns true.
+    """Trace the tiles of each pass in their order; Stopped where `cancelled` turns true.
 
-    `finished` is told of each area and of the share done; it is called on this thread.
+    A pass begins when the one before has ended: a coarse square must not fall onto a finer one. `finished` is told of
+    each tile and of the share done, on this thread.
     """
-    waiting = iter(areas)
-    running = set()
-    done_count = 0
-    while True:
-        while len(running) < ahead and (area := next(waiting, None)) is not None:
-            running.add(executor.submit(job.trace, area, cancelled))
-        if not running:
-            return
-        done, running = wait(running, return_when=FIRST_COMPLETED)
-        for future in done:
-            result = future.result()
-            if result is None:
-                wait(running)
-                raise Stopped
-            job.keep(*result)
-            done_count += 1
-            finished(result[0], done_count / len(areas))
+    total = sum(len(areas) for areas in all_passes)
+    done = 0
+    for areas in all_passes:
+        waiting = deque(areas)
+        news: SimpleQueue[Area | None] = SimpleQueue()
+        workers = [executor.submit(job.work, waiting, news, cancelled) for _ in range(min(threads, len(areas)))]
+        running = len(workers)
+        try:
+            while running:
+                area = news.get()
+                if area is None:
+                    running -= 1
+                else:
+                    done += 1
+                    finished(area, done / total)
+        finally:
+            waiting.clear()  # where this thread is interrupted the others are to end, too
+        for worker in workers:
+            job.keep(worker.result())
+        if done < total and cancelled():
+            raise Stopped
 
 
 def render(
@@ -159,8 +178,9 @@ def render(
     job = Job(world, view, limits, CENTER if samples == 1 else Samples(0, samples))
     began = time.perf_counter()
     with ThreadPoolExecutor(threads) as executor:
-        areas = list(tiles(view.width, view.height))
-        trace_tiles(job, areas, executor, 2 * threads, lambda area, share: progress(share), cancelled)
+        trace_passes(
+            job, passes(view.width, view.height), executor, threads, lambda area, share: progress(share), cancelled
+        )
     tracing = time.perf_counter() - began
     figures = list(job.residuals.values())
     return Image(

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tracer.limits import Limits
-from tracer.render import COARSE_TO_FINE, Job, Stopped, processors, tiles, trace_tiles
+from tracer.render import COARSE_TO_FINE, Job, Stopped, passes, processors, trace_passes
 from tracer.tile import Area
 from tracer.world import World
 from viewer.picture import srgb
@@ -92,9 +92,15 @@ class Progressive:
             picture.version += 1
             self.changed()
 
-        areas = list(tiles(width, height, COARSE_TO_FINE))
         try:
-            trace_tiles(picture.job, areas, self.pool, 2 * self.threads, finished, picture.cancelled.is_set)
+            trace_passes(
+                picture.job,
+                passes(width, height, COARSE_TO_FINE),
+                self.pool,
+                self.threads,
+                finished,
+                picture.cancelled.is_set,
+            )
         except Stopped:
             return
         if not picture.cancelled.is_set():

@@ -55,7 +55,7 @@ def test_slab_shifts_a_ray_and_keeps_its_direction(degrees: float) -> None:
     assert abs(shift - expected) <= 16 * U * (1.0 + math.tan(a))
 
 
-@pytest.mark.parametrize("aside", [1e-9, 1e-7, 1e-3])
+@pytest.mark.parametrize("aside", [1e-14, 1e-12, 1e-9, 1e-3])
 @pytest.mark.parametrize("model", ["whitted", "fresnel"])
 def test_critical_angle_of_water_is_decided_on_the_right_side(aside: float, model: str) -> None:
     """asin(1 / 1.33), the lecture's 48.75 degrees: below it two rays leave, beyond it one, with all the weight."""

@@ -171,6 +171,20 @@ def test_thin_sheet_transmits_unbent(model: str) -> None:
         assert tree.nodes["factor"][1:, 0] == pytest.approx([0.1 + 0.9 * r, 0.9 * t], rel=1e-14)
 
 
+def test_grazing_ray_lets_through_what_the_formula_says() -> None:
+    """At c1 = 2^-40 on n = 3/2 next to nothing is transmitted; as 1 - R it would keep 4 digits.
+
+    T = 2 c1 n c2 (1 / (c1 + n c2)^2 + 1 / (n c1 + c2)^2), with n c2 = sqrt(n^2 - 1 + c1^2).
+    """
+    c1, n = 2.0**-40, 1.5
+    glass = plane((0, 0, 0), (0, 1, 0), Material("glass", transmit=1.0, ior=n), "glass")
+    tree = tracer.trace(world_of(glass, model="fresnel"), ray=((-1, c1, 0), (1, -c1, 0)), depth=1)
+    assert kinds(tree) == ["camera", "reflection", "refraction"]
+    n_c2 = math.sqrt(n * n - 1 + c1 * c1)
+    expected = 2 * c1 * n_c2 * (1 / (c1 + n_c2) ** 2 + 1 / (n * c1 + n_c2 / n) ** 2)
+    assert tree.nodes["factor"][2][0] == pytest.approx(expected, rel=16 * 2.0**-53)
+
+
 def test_fresnel_weights_are_those_of_the_formula() -> None:
     glass = ball(material=Material("glass", reflect=0.05, transmit=0.9, ior=1.5))
     tree = tracer.trace(world_of(glass, model="fresnel"), ray=((0.5, 0.1, 5), (0, 0, -1)), depth=1)

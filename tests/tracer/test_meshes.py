@@ -10,7 +10,7 @@ import pytest
 
 import tracer
 from tests.scenes import world_of
-from tracer.scene import Material, Object
+from tracer.scene import Light, Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
 
 CUBE_V = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
@@ -155,6 +155,20 @@ def test_vertex_normals_are_kept(tmp_path: Path) -> None:
     found = smooth.smooth()
     assert found is not None
     assert found[0] == pytest.approx(np.array([[0, 0, 1], [0.6, 0, 0.8], [0, 0.6, 0.8]]))
+
+
+def test_no_light_comes_through_a_face_that_its_vertex_normals_turn_towards_it() -> None:
+    """Normal (0.8, 0.6, 0) on a level face: a light far right and low is before the normal, behind the face."""
+    tilted = np.tile([0.8, 0.6, 0.0], (3, 1))
+    corners = np.array([[-3.0, 0, 3], [3, 0, 3], [0, 0, -3]])
+    mesh = Mesh(Geometry(corners, np.array([[0, 1, 2]]), tilted), "leaf")
+    low = Light("low", position=(10.0, -1.0, 0.0))
+    world = world_of(Object(mesh, Material("m", diffuse=1.0), "leaf"), lights=[low])
+    tree = tracer.trace(world, ray=((0.8, 0.6, 0), (-0.8, -0.6, 0)), depth=0)
+    assert tree.nodes["normal"][0] == pytest.approx([0.8, 0.6, 0.0])
+    assert tree.nodes["normal"][0] @ tree.nodes["direction"][1] > 0.5
+    assert (tree.end(1), tree.nodes["t"][1], tree.object_name(1)) == ("blocked", 0.0, "leaf")
+    assert not tree.radiance.any()
 
 
 def test_a_hundred_thousand_triangles_are_no_trouble() -> None:

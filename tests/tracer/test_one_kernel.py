@@ -14,7 +14,7 @@ import tracer
 from tests.scenes import box, world_of
 from tracer.limits import MODELS
 from tracer.nodes import BACKGROUND, SHADOW
-from tracer.render import COARSE_TO_FINE, Job, tiles, trace_tiles
+from tracer.render import COARSE_TO_FINE, Job, passes, trace_passes
 from tracer.scene import Image, Material
 from tracer.tree import RayTree, make_limits
 from tracer.vector import dot, vector
@@ -78,19 +78,17 @@ def test_threads_change_no_bit(world: tracer.World, threads: int) -> None:
     assert image.residual == reference.residual
 
 
+@pytest.mark.parametrize("size", [(333, 207), (61, 45)])  # no multiple of a tile's side, and less than one tile
 @pytest.mark.parametrize("steps", [(1,), COARSE_TO_FINE])
-def test_order_of_tiles_changes_no_bit(world: tracer.World, steps: tuple[int, ...]) -> None:
-    size = (333, 207)  # no multiple of a tile's side
+def test_order_of_tiles_changes_no_bit(world: tracer.World, steps: tuple[int, ...], size: tuple[int, int]) -> None:
     reference = tracer.render(world, size, threads=1).pixels
     job = Job(world, world.view(size), make_limits(world, None, 0.0, 10**6, None, records=False))
     order = random.Random(7)
+    in_any_order = passes(*size, steps)
+    for areas in in_any_order:
+        order.shuffle(areas)
     with ThreadPoolExecutor(3) as executor:
-        for step in range(len(steps)):
-            # Passes keep their order, the tiles of each pass come in any.
-            traced = steps[step - 1] if step else 0
-            areas = [area._replace(step=steps[step], traced=traced) for area in tiles(*size)]
-            order.shuffle(areas)
-            trace_tiles(job, areas, executor, 5)
+        trace_passes(job, in_any_order, executor, 3)
     assert same_bits(job.pixels, reference)
 
 

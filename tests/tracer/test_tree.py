@@ -113,7 +113,7 @@ def test_text_draws_a_line_a_ray_below_its_parent(tree: tracer.RayTree) -> None:
     assert sorted(order) == list(range(len(tree)))
     for i, line in zip(order, lines, strict=True):
         assert f"{i} {'shadow to' if tree.kind(i) == 'shadow' else tree.kind(i)}" in line
-        assert ("it faces away from the light" if tree.faces_away(i) else WHY[tree.end(i)]) in line
+        assert ("the surface faces away" if tree.faces_away(i) else WHY[tree.end(i)]) in line
         assert (tree.object_name(i) or "") in line
     assert all(len(line) <= 160 for line in lines)
     for place, i in enumerate(order[1:], start=1):

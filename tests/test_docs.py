@@ -1,0 +1,91 @@
+"""What the README and docs/ show is what the program does."""
+
+import re
+import shlex
+import textwrap
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import tracer
+from tracer.media import INDICES
+from tracer.outline import outline
+from tracer.scene import Camera, Image, Light, Material, Object, Tracing
+from viewer import lesson
+from viewer.cli import make_parser
+
+ROOT = Path(__file__).parent.parent
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+FORMAT = (ROOT / "docs" / "scene-format.md").read_text(encoding="utf-8")
+
+
+def blocks(start: str) -> list[str]:
+    """The README's indented blocks that begin so."""
+    found = re.findall(r"(?:^    .*\n|^\n(?=    ))+", README, re.MULTILINE)
+    dedented = [textwrap.dedent(block).strip("\n") for block in found]
+    return [block for block in dedented if block.startswith(start)]
+
+
+def test_traced_tree() -> None:
+    (example,) = blocks("$ raytree trace")
+    command, said = example.split("\n", 1)
+    options = make_parser().parse_args(shlex.split(command)[2:])
+    tree = tracer.trace(tracer.prepare(tracer.load(lesson.read(options.scene).scene)), options.pixel)
+    assert said == outline(tree).rstrip("\n")
+
+
+def test_every_command_is_understood() -> None:
+    lines = blocks("raytree  ")[0].splitlines()
+    assert len(lines) > 5
+    for line in lines:
+        command = re.split(r"\s{2,}", line)[0]
+        options = make_parser().parse_args(shlex.split(command)[1:])
+        assert options.command is None or options.command in command
+
+
+def test_python_example(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (example,) = blocks("import tracer")
+    (tmp_path / "scene.toml").write_text(blocks("format = 1")[0])
+    monkeypatch.chdir(tmp_path)
+    space: dict = {}
+    exec(example, space)  # it is the README's own
+    assert space["image"].pixels.shape == (480, 640, 3)
+    assert not np.any(space["image"].pixels)  # the README calls it a black ball before a black background
+    assert len(space["tree"]) == 1
+
+
+def test_scene_format_is_read_and_its_defaults_are_those(tmp_path: Path) -> None:
+    """The example loads; what it marks as a default is one."""
+    example = FORMAT.split("```toml\n")[1].split("```")[0]
+    (tmp_path / "scene.toml").write_text(example)
+    scene = tracer.load(tmp_path / "scene.toml")
+    (item,), (light,) = scene.objects, scene.lights
+    marked = re.findall(r"^(\w+) = [^#\n]*# default", example, re.MULTILINE)
+    assert set(marked) == {
+        "up",
+        "fov",
+        "width",
+        "height",
+        "depth",
+        "shadows",
+        "model",
+        "ambient",
+        "color",
+        "priority",
+        "thin",
+    }
+    assert (scene.camera.up, scene.camera.fov) == (Camera().up, Camera().fov)
+    assert scene.image == Image()
+    assert scene.tracing == Tracing()
+    assert item.material.color == Material().color == Light().color
+    assert (item.priority, item.thin) == (Object.__dataclass_fields__["priority"].default, False)
+    assert light.color == (0.7, 0.7, 0.7)
+    assert item.material.checker is not None
+
+
+def test_every_named_index_is_listed() -> None:
+    listed = re.search(r"Names for `ior`: (.*?)\.\n\n", FORMAT, re.DOTALL)
+    assert listed
+    pairs = (part.rsplit(" ", 1) for part in listed[1].replace("\n", " ").split(", "))
+    assert {name: float(n) for name, n in pairs} == INDICES
