@@ -5,7 +5,6 @@ table or worked out again from it by the formulas of `tracer.optics`.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,12 +13,13 @@ from tracer import optics
 from tracer.limits import MODELS
 from tracer.nodes import SHADOW
 from tracer.outline import WHY
-from tracer.scene import Light, Material
+from tracer.scene import Material
 from tracer.shading import surface_color
 from tracer.tree import RayTree
-from tracer.vector import unit, vector
+from tracer.vector import vector
 from tracer.world import World
 from viewer.theme import STYLES
+from viewer.wording import angle, pair, same, shown, triple
 
 
 @dataclass(frozen=True)
@@ -84,8 +84,8 @@ def numbers(tree: RayTree, i: int) -> Section:
     section.add("point", triple(row["point"]))
     if not shadow:
         section.add("normal n", triple(row["normal"]))
-        section.add("n₁ → n₂", _pair(shown(row["n1"]), shown(row["n2"])))
-        section.add("θ₁ → θ₂", _pair(angle(row["theta1"]), angle(row["theta2"])))
+        section.add("n₁ → n₂", pair(shown(row["n1"]), shown(row["n2"])))
+        section.add("θ₁ → θ₂", pair(angle(row["theta1"]), angle(row["theta2"])))
         section.add("1 − n²(1 − c₁²)", shown(row["radicand"]))
     section.add("factor", same(row["factor"]))
     section.add("weight", same(row["weight"]))
@@ -223,7 +223,7 @@ def _local(tree: RayTree, world: World, i: int) -> Section:
     for j, light in enumerate(world.scene.lights):
         name = light.name or f"light {j}"
         child = rows[j]
-        n_l, r_v = _cosines(row, light)
+        n_l, r_v = _cosines(tree, i, child)
         if n_l <= 0.0:
             detail = f"N·L {shown(n_l, 3)}: faces away from it"
         elif tree.end(child) == "blocked":
@@ -243,7 +243,7 @@ def _light(tree: RayTree, world: World, i: int, j: int) -> Section:
     light = world.scene.lights[j]
     child = next(c for c in tree.children[i] if tree.nodes["light"][c] == j)
     material = world.scene.objects[row["object"]].material
-    n_l, r_v = _cosines(row, light)
+    n_l, r_v = _cosines(tree, i, child)
     color = _color(world, tree, i)
     section = Section(f"Light from {light.name or f'light {j}'}", "L (kd C (N·L) + ks (R·V)ᵖ)")
     section.add("light L", triple(light.color, 3))
@@ -260,14 +260,10 @@ def _light(tree: RayTree, world: World, i: int, j: int) -> Section:
     return section
 
 
-def _cosines(row: np.void, light: Light) -> tuple[float, float]:
-    """N·L and R·V at a hit."""
-    if light.position is not None:
-        to_light = unit(vector(np.subtract(light.position, row["point"])))
-    else:
-        assert light.direction is not None
-        to_light = unit(vector(np.negative(light.direction)))
-    n = np.array(row["normal"])
+def _cosines(tree: RayTree, i: int, child: int) -> tuple[float, float]:
+    """N·L and R·V at hit i, for the light that its shadow ray goes to."""
+    row = tree.nodes[i]
+    n, to_light = np.array(row["normal"]), tree.nodes["direction"][child]
     n_l = float(n @ to_light)
     r = 2.0 * n_l * n - to_light
     return n_l, float(r @ -row["direction"])
@@ -278,29 +274,3 @@ def _color(world: World, tree: RayTree, i: int) -> np.ndarray:
     this = world.arrays.objects[row["object"]]
     material = world.arrays.materials[this["material"]]
     return np.array(surface_color(material, this, vector(row["point"])))
-
-
-def shown(x: float, digits: int = 5) -> str:
-    """A number for people; a dash for what is absent."""
-    if math.isnan(x):
-        return "–"
-    return f"{x:.{digits}g}".replace("-", "−")
-
-
-def angle(radians: float) -> str:
-    return "–" if math.isnan(radians) else f"{math.degrees(radians):.2f}°"
-
-
-def triple(xyz: Sequence[float] | np.ndarray, decimals: int = 4) -> str:
-    if math.isnan(xyz[0]):
-        return "–"
-    return "  ".join(f"{x:.{decimals}f}".replace("-", "−") for x in xyz)
-
-
-def same(rgb: np.ndarray) -> str:
-    """One number where the three are equal."""
-    return shown(float(rgb[0])) if rgb[0] == rgb[1] == rgb[2] else triple(rgb, 4)
-
-
-def _pair(first: str, second: str) -> str:
-    return f"{first} → {second}" if second != "–" else first

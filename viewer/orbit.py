@@ -62,6 +62,16 @@ class Orbit:
         north /= np.linalg.norm(north)
         return Orbit(math.radians(azimuth), math.radians(elevation), distance, np.zeros(3), north, axis)
 
+    @staticmethod
+    def of_camera(view: View, up: tuple, eye: np.ndarray) -> "Orbit":
+        """The scene's own camera, its eye in the frame."""
+        orbit = Orbit.beside(view, up, 0.0, 0.0, 1.0)
+        forward = np.array(view.forward)
+        orbit.elevation = math.asin(float(np.clip(-forward @ orbit.up, -1.0, 1.0)))
+        orbit.distance = max(0.5, float(-eye @ forward))
+        orbit.target = eye + orbit.distance * forward
+        return orbit
+
     @property
     def outward(self) -> np.ndarray:
         """Unit vector from the target to the eye."""

@@ -1,7 +1,5 @@
 """What is on show: the only state that changes. Panels read it and call its methods; it knows no panel and no GPU."""
 
-import dataclasses
-import math
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -14,48 +12,15 @@ from tracer.limits import MODELS
 from tracer.tree import RayTree, make_limits
 from tracer.world import World
 from viewer.lesson import Lesson, LessonView
+from viewer.looks import Look, Shown
 from viewer.orbit import Frame, Orbit
 from viewer.progressive import Picture, Progressive
-from viewer.theme import DARK, LECTURE_ZOOM, LIGHT, STYLES, Theme
+from viewer.theme import DARK, LECTURE_ZOOM, LIGHT, Theme
 from viewer.warmup import Warmup
 from viewer.watch import Watch
 
 STEP_DEPTH = 3  # trees are laid out for at least this depth, so that stepping 0..3 moves nothing
 MOST_ROWS = 20_000  # of a tree in the window; the command line has no such limit
-
-
-@dataclasses.dataclass
-class Shown:
-    """What of the 3D view and the panels is switched on."""
-
-    kinds: set[str] = dataclasses.field(default_factory=lambda: set(STYLES))
-    camera: bool = True  # with its frustum and the image on the image plane
-    lights: bool = True
-    normals: bool = True
-    labels: bool = True
-
-
-@dataclasses.dataclass
-class Look:
-    """How a flat picture is moved and enlarged in its panel."""
-
-    zoom: float = 1.0
-    center: tuple[float, float] = (0.5, 0.5)
-
-    def move(self, dx: float, dy: float) -> None:
-        self.center = (self.center[0] + dx, self.center[1] + dy)
-
-    def zoom_about(self, at: tuple[float, float], steps: float) -> None:
-        """Enlarge so that the place `at` (in shares of the picture) stays where it is; never smaller than the panel."""
-        zoom = min(200.0, max(1.0, self.zoom * 1.2**steps))
-        share = 1.0 - self.zoom / zoom
-        self.center = (
-            self.center[0] + share * (at[0] - self.center[0]),
-            self.center[1] + share * (at[1] - self.center[1]),
-        )
-        self.zoom = zoom
-        if zoom == 1.0:
-            self.center = (0.5, 0.5)
 
 
 class Session:
@@ -278,15 +243,9 @@ class Session:
 
     def through_camera(self) -> None:
         """Look at the scene from where its own camera stands."""
-        if not self.world:
-            return
-        view = self.world.view()
-        eye = self.frame.inside(view.eye)
-        self.orbit = Orbit.beside(view, self.world.scene.camera.up, 0.0, 0.0, 1.0)
-        forward = np.array(view.forward)
-        self.orbit.elevation = math.asin(float(np.clip(-forward @ self.orbit.up, -1.0, 1.0)))
-        self.orbit.distance = max(0.5, float(-eye @ forward))
-        self.orbit.target = eye + self.orbit.distance * forward
+        if self.world:
+            view = self.world.view()
+            self.orbit = Orbit.of_camera(view, self.world.scene.camera.up, self.frame.inside(view.eye))
 
     def toggle_kind(self, kind: str) -> None:
         self.shown.kinds ^= {kind}

@@ -9,7 +9,8 @@ import pytest
 import tracer
 from tests.scenes import ball, plane, world_of
 from tracer.scene import Light, Material
-from viewer.explain import Section, explain, headline, shown
+from viewer.explain import Section, explain, headline
+from viewer.wording import shown
 
 LAMPS = [
     Light("lamp", position=(0.0, 5.0, 2.0), color=(0.5, 0.25, 1.0)),

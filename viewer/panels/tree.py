@@ -7,12 +7,13 @@ from imgui_bundle import imgui
 
 from tracer.nodes import SHADOW
 from viewer.canvas import Canvas
-from viewer.explain import headline, shown
+from viewer.explain import headline
 from viewer.figures.layout import Place, heaviest_rows, layout
 from viewer.panels import draw as d
 from viewer.raylines import family
 from viewer.session import Session
 from viewer.theme import BLOCKED_DASH, DIMMED, SMALL, STYLES, faded
+from viewer.wording import shown
 
 TITLE = "Ray tree"
 
