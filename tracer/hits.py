@@ -46,10 +46,7 @@ def closest_within(
     for k in range(len(world.unbounded)):
         s = world.unbounded[k]
         t = distance(world, s, ray, floor, floor_id, above, best)
-        if t < best or (t == best and found < 0 and t < math.inf):
-            best, found, tied = t, s, False
-        elif t == best and t < math.inf:
-            found, tied = min(found, s), True
+        best, found, tied = nearer(t, s, best, found, tied)
     depth = 0
     node = 0 if len(world.hierarchy) > 0 and entry(world.hierarchy[0], ray, best) < math.inf else -1
     while node >= 0:
@@ -58,10 +55,7 @@ def closest_within(
             for k in range(box.second, box.second + box.count):
                 s = world.order[k]
                 t = distance(world, s, ray, floor, floor_id, above, best)
-                if t < best or (t == best and found < 0 and t < math.inf):
-                    best, found, tied = t, s, False
-                elif t == best and t < math.inf:
-                    found, tied = min(found, s), True
+                best, found, tied = nearer(t, s, best, found, tied)
             node = -1
         else:
             # Both halves at once: the nearer first, the other only while it may hold something nearer than is known.
@@ -79,6 +73,16 @@ def closest_within(
             depth -= 1
             if stack[depth].near <= best:
                 node = stack[depth].node
+    return (best, found, tied)
+
+
+@compiled
+def nearer(t: float, s: int, best: float, found: int, tied: bool) -> tuple[float, int, bool]:
+    """What is known after surface s was found at t (infinite: not): of several at one distance, the first surface."""
+    if t < best or (t == best and found < 0 and t < math.inf):
+        return (t, s, False)
+    if t == best and t < math.inf:
+        return (best, min(found, s), True)
     return (best, found, tied)
 
 

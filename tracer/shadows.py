@@ -124,12 +124,10 @@ def filter_at_once(world: Any, crossed: Any, count: int) -> tuple[float, int]:
                 k = j
         t, s = crossed[k].t, crossed[k].surface
         crossed[k].t, crossed[k].surface = crossed[done].t, crossed[done].surface
-        this = world.surfaces[s].object
-        if t != last_t or this != last_object:
+        if t != last_t or world.surfaces[s].object != last_object:
             share *= transmit(world, s)
-        if first < 0:
-            first = s
-        last_t, last_object = t, this
+        first = s if first < 0 else first
+        last_t, last_object = t, world.surfaces[s].object
     return (share, first)
 
 

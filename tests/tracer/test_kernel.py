@@ -133,7 +133,7 @@ def test_phong_highlight() -> None:
     tree = tracer.trace(
         world_of(plane((0, 0, 0), (0, 1, 0), shiny), lights=[lamp]), ray=((0, 2, 0), (0, -1, 0)), depth=0
     )
-    assert tree.radiance == pytest.approx([0.25] * 3, rel=1e-14)
+    assert tree.radiance == pytest.approx([0.25] * 3, rel=1e-14, abs=0.0)
 
 
 @pytest.mark.parametrize(("shadows", "share", "end"), [("filter", 0.81 * 0.5, "filtered"), ("block", 0.0, "blocked")])
@@ -144,9 +144,9 @@ def test_glass_filters_or_blocks_shadow_rays(shadows: str, share: float, end: st
     world = world_of(plane((0, 0, 0), (0, 1, 0)), glass, sheet, lights=[SUN], shadows=shadows)
     tree = tracer.trace(world, ray=((0, 0.5, 0), (0, -1, 0)), depth=0)
     assert ends(tree) == ["surface", end]
-    assert tree.nodes["factor"][1][0] == pytest.approx(share, rel=4e-16)
+    assert tree.nodes["factor"][1][0] == pytest.approx(share, rel=4e-16, abs=0.0)
     assert tree.object_name(1) == "glass"
-    assert tree.radiance[0] == pytest.approx(share, rel=4e-16)
+    assert tree.radiance[0] == pytest.approx(share, rel=4e-16, abs=0.0)
 
 
 def tracer_sheet(height: float, material: Material):
@@ -168,7 +168,7 @@ def test_thin_sheet_transmits_unbent(model: str) -> None:
     else:
         cos1 = -float(tree.nodes["direction"][0] @ tree.nodes["normal"][0])
         r, t = tracer.optics.fresnel(cos1, 1.0, 1.5)
-        assert tree.nodes["factor"][1:, 0] == pytest.approx([0.1 + 0.9 * r, 0.9 * t], rel=1e-14)
+        assert tree.nodes["factor"][1:, 0] == pytest.approx([0.1 + 0.9 * r, 0.9 * t], rel=1e-14, abs=0.0)
 
 
 def test_grazing_ray_lets_through_what_the_formula_says() -> None:
@@ -182,7 +182,7 @@ def test_grazing_ray_lets_through_what_the_formula_says() -> None:
     assert kinds(tree) == ["camera", "reflection", "refraction"]
     n_c2 = math.sqrt(n * n - 1 + c1 * c1)
     expected = 2 * c1 * n_c2 * (1 / (c1 + n_c2) ** 2 + 1 / (n * c1 + n_c2 / n) ** 2)
-    assert tree.nodes["factor"][2][0] == pytest.approx(expected, rel=16 * 2.0**-53)
+    assert tree.nodes["factor"][2][0] == pytest.approx(expected, rel=16 * 2.0**-53, abs=0.0)
 
 
 def test_fresnel_weights_are_those_of_the_formula() -> None:
@@ -191,9 +191,11 @@ def test_fresnel_weights_are_those_of_the_formula() -> None:
     cos1 = math.cos(tree.nodes["theta1"][0])
     r, t = tracer.optics.fresnel(cos1, 1.0, 1.5)
     assert r + t == pytest.approx(1.0, abs=4e-16)
-    assert tree.nodes["factor"][1:, 0] == pytest.approx([0.05 + 0.9 * r, 0.9 * t], rel=1e-14)
+    assert tree.nodes["factor"][1:, 0] == pytest.approx([0.05 + 0.9 * r, 0.9 * t], rel=1e-14, abs=0.0)
     n1, n2 = tree.nodes["n1"][0], tree.nodes["n2"][0]
-    assert n1 * math.sin(tree.nodes["theta1"][0]) == pytest.approx(n2 * math.sin(tree.nodes["theta2"][0]), rel=1e-15)
+    assert n1 * math.sin(tree.nodes["theta1"][0]) == pytest.approx(
+        n2 * math.sin(tree.nodes["theta2"][0]), rel=1e-15, abs=0.0
+    )
 
 
 def test_eye_in_the_glass_starts_with_its_index() -> None:

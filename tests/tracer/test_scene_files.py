@@ -254,4 +254,4 @@ def test_extreme_but_allowed_numbers_stay_numbers() -> None:
     for scale in (1e-140, 1e-30, 1e30, 1e70):
         world = world_of(ball((0, 0, 0), scale))
         tree = tracer.trace(world, ray=((0, 0, 5 * scale), (0, 0, -1)), depth=1)
-        assert tree.nodes["t"][0] == pytest.approx(4 * scale, rel=1e-15)
+        assert tree.nodes["t"][0] == pytest.approx(4 * scale, rel=1e-15, abs=0.0)

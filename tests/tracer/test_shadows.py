@@ -1,13 +1,17 @@
 """Shadow rays through much glass: gathered in one pass or crossing by crossing, the same product."""
 
+import math
 import random
 
+import numpy as np
 import pytest
 
 import tracer
 from tests.scenes import ball, ends, plane, world_of
-from tracer.scene import Light, Material
+from tracer.scene import Light, Material, Object
 from tracer.shadows import MOST_CROSSINGS
+from tracer.shapes.mesh import Geometry, Mesh
+from tracer.shapes.polygon import Polygon
 
 
 @pytest.mark.parametrize("balls", [1, 5, MOST_CROSSINGS // 2, MOST_CROSSINGS // 2 + 1, 40])
@@ -41,6 +45,72 @@ def test_occluder_is_the_nearest_opaque_one_behind_any_glass() -> None:
     assert (ends(tree)[1], tree.object_name(1), tree.nodes["t"][1]) == ("blocked", "near", 5.0)
     blocking = tracer.trace(world_of(*objects, lights=[sun], shadows="block"), ray=((0, 0.5, 0), (0, -1, 0)), depth=0)
     assert (ends(blocking)[1], blocking.object_name(1), blocking.nodes["t"][1]) == ("blocked", "glass", 2.0)
+
+
+@pytest.mark.parametrize("panes", [0, MOST_CROSSINGS])
+def test_edge_between_two_faces_is_crossed_once(panes: int) -> None:
+    """Through the diagonals of a cube's top and bottom, gathered at once and crossing by crossing: two crossings."""
+    cube = glass_cube(0.5)
+    above = [
+        Object(Polygon(square(3.0 + k)), Material("pane", transmit=1.0), f"pane {k}", thin=True) for k in range(panes)
+    ]
+    sun = Light("sun", direction=(0.0, -1.0, 0.0))
+    world = world_of(plane((0, -2, 0), (0, 1, 0)), cube, *above, lights=[sun])
+    tree = tracer.trace(world, ray=((0.25, -1.5, 0.25), (0, -1, 0)), depth=0)
+    assert (tree.end(1), tree.object_name(1)) == ("filtered", "cube")
+    assert tree.nodes["factor"][1].tolist() == [0.25] * 3
+
+
+@pytest.mark.parametrize("panes", [12, MOST_CROSSINGS + 1])
+def test_of_panes_at_one_height_the_files_first_comes_first(panes: int) -> None:
+    """Each on its own side of the ray, so that the hierarchy parts them; all at the same t."""
+    turn = np.linspace(0.0, 6.0, panes)
+    shifted = [[(x + math.cos(a), y, z + math.sin(a)) for x, y, z in square(3.0)] for a in turn]
+    kt = [0.9 + 0.1 / (k + 2) for k in range(panes)]
+    order = random.Random(3).sample(range(panes), panes)
+    sheets = [
+        Object(Polygon(tuple(shifted[k])), Material("pane", transmit=kt[k]), f"pane {k}", thin=True) for k in order
+    ]
+    sun = Light("sun", direction=(0.0, -1.0, 0.0))
+    world = world_of(*sheets, plane((0, 0, 0), (0, 1, 0)), lights=[sun])
+    tree = tracer.trace(world, ray=((0.05, 0.5, 0.02), (0, -1, 0)), depth=0)
+    share = 1.0
+    for k in order:
+        share = share * kt[k]
+    assert tree.object_name(1) == f"pane {order[0]}"
+    assert tree.nodes["factor"][1][0] == share
+
+
+def test_light_from_behind_a_ball_comes_through_it() -> None:
+    """The eye sees the near side, the light is beyond the far side: in the tree its ray crosses both."""
+    glass = ball((0, 0, 0), 1, Material("glass", transmit=0.5, diffuse=1.0, ior=1.5), "glass")
+    lamp = Light("lamp", position=(0.0, 0.0, -9.0))
+    tree = tracer.trace(world_of(glass, lights=[lamp]), ray=((0.25, 0, 5), (0, 0, -1)), depth=0)
+    assert (tree.end(1), tree.object_name(1)) == ("filtered", "glass")
+    assert tree.nodes["factor"][1].tolist() == [0.25] * 3
+    assert not tree.nodes["local"][0].any()
+
+
+def test_glass_that_swallows_the_last_bit_of_light_is_no_occluder() -> None:
+    dark = Material("dark", transmit=1e-170, ior=1.5)
+    lamp = Light("lamp", position=(0.0, 9.0, 0.0))
+    beyond = ball((0, 12, 0), 1, name="beyond the light")
+    world = world_of(plane((0, 0, 0), (0, 1, 0)), ball((0, 3, 0), 1, dark, "dark ball"), beyond, lights=[lamp])
+    tree = tracer.trace(world, ray=((0, 0.5, 0), (0, -1, 0)), depth=0)
+    assert (tree.end(1), tree.object_name(1), tree.nodes["t"][1]) == ("filtered", "dark ball", 9.0)
+    assert not tree.nodes["factor"][1].any()
+
+
+def glass_cube(transmit: float) -> Object:
+    """From -1 to 1, each face two triangles."""
+    corners = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    faces = np.array([face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))])
+    return Object(Mesh(Geometry(corners, faces), "cube"), Material("glass", transmit=transmit, ior=1.5), "cube")
+
+
+def square(height: float) -> tuple:
+    return ((-2.0, height, -2.0), (-2.0, height, 2.0), (2.0, height, 2.0), (2.0, height, -2.0))
 
 
 def test_nothing_behind_the_light_shades() -> None:
