@@ -11,8 +11,11 @@ import tracer
 from tests.scenes import MATTE, ball, box, kinds, polygon, world_of
 from tracer.bvh import FLAT, build
 from tracer.nodes import BACKGROUND
+from tracer.rays import make_ray
 from tracer.scene import Material, Object
+from tracer.shapes import sphere
 from tracer.shapes.mesh import Geometry, Mesh
+from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.triangle import Triangle
 
@@ -281,3 +284,43 @@ def test_hierarchy_holds_every_surface_once_inside_its_boxes() -> None:
                 waiting.append((child, depth + 1))
     assert sorted(seen) == list(range(3000))
     assert deepest < 64
+
+
+def test_of_surfaces_at_one_distance_the_files_first_is_met() -> None:
+    """Twelve sheets in one plane, each on its own side of the ray, so that the hierarchy parts them."""
+    turn = np.linspace(0.0, 6.0, 12)
+    square = [(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)]
+    sheets = [
+        Object(Polygon(tuple((x + math.cos(a), y + math.sin(a), 0.0) for x, y in square)), MATTE, f"sheet {k}")
+        for k, a in enumerate(turn)
+    ]
+    for order in ([*range(12)], [*range(12)][::-1], [5, 9, 0, 11, 3, 7, 1, 10, 2, 8, 4, 6]):
+        world = world_of(*(sheets[k] for k in order))
+        assert len(world.arrays.hierarchy) > 0
+        tree = tracer.trace(world, ray=((0.05, 0.02, 3), (0, 0, -1)), depth=0)
+        assert tree.object_name(0) == f"sheet {order[0]}"
+
+
+def test_hit_lies_in_the_plane_however_far_the_ray_has_come() -> None:
+    """The rounding of t, here of 2^40, moves a hit along the ray; across the plane only what its own size rounds."""
+    n = np.array([2.0, 3.0, 6.0]) / 7.0
+    slope = Object(Plane((0.25, 0.5, 1.0), (2.0, 3.0, 6.0)), MATTE, "slope")
+    for k in range(20):
+        towards = np.array([0.3 + 0.01 * k, 0.2, 1.0])
+        towards /= np.linalg.norm(towards)
+        start = 2.0**40 * towards + (0.1, 0.2, 0.3)
+        tree = tracer.trace(world_of(slope), ray=(tuple(start), tuple(-towards)), depth=0)
+        p = tree.nodes["point"][0]
+        # Three products, their sums, and the rounding of the normal and of the point itself.
+        assert abs(n @ (p - (0.25, 0.5, 1.0))) <= 12 * 2.0**-53 * (np.abs(p).sum() + 1.75)
+
+
+@pytest.mark.parametrize("inward", [1e-17, 2.0**-53, 1e-14])
+def test_ray_that_leaves_a_ball_outwards_does_not_meet_it_again(inward: float) -> None:
+    """Where it only just grazes, rounding may turn its direction inward: the side it leaves to is known."""
+    world = world_of(ball()).arrays
+    surface = world.surfaces[0]
+    out = make_ray((1.0, 0.0, 0.0), (-inward, 1.0, -0.5 * inward), 0, 1.0, 1.0)
+    assert sphere.again(world, surface, out) == math.inf
+    within = make_ray((1.0, 0.0, 0.0), (-inward, 1.0, -0.5 * inward), 0, -1.0, 1.0)
+    assert sphere.again(world, surface, within) == 2.0 * inward
