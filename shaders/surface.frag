@@ -21,6 +21,7 @@ uniform float fade_from;  // distance from `fade_center` at which an endless pla
 uniform float fade_to;
 uniform vec3 fade_center;
 uniform vec3 origin;      // what is added to a place to count the checker's squares from the world's origin
+uniform vec4 edge;        // of the outline of glass
 uniform float ghost;      // > 0: the far side of a wall, only so opaque that one knows it is there
 
 in vec3 place;
@@ -84,10 +85,15 @@ void main() {
     if (transmits) {
         float r0 = pow((glass.y - 1.0) / (glass.y + 1.0), 2.0);
         float fresnel = r0 + (1.0 - r0) * pow(1.0 - c1, 5.0);
-        float rim = clamp(terms.w + 0.85 * fresnel + 0.16 * pow(1.0 - c1, 2.0), 0.0, 1.0);
+        float rim = clamp(terms.w + 0.85 * fresnel + 0.30 * pow(1.0 - c1, 3.0), 0.0, 1.0);
         light = light + mix(0.55 * mix(sky(v), base, 0.5), mirrored, rim);
-        alpha = clamp(0.07 + 0.6 * (1.0 - glass.x) + rim, 0.0, fade_from > 0.0 ? 0.2 : 0.85);
+        alpha = clamp(0.10 + 0.6 * (1.0 - glass.x) + rim, 0.0, fade_from > 0.0 ? 0.26 : 0.85);
         alpha = clamp(alpha + dot(shine, vec3(0.33)), 0.0, 0.92);
+        // The outline of what is round: where it turns away from the eye within a pixel.
+        float turns = fwidth(c1);
+        float rim_line = turns > 0.02 ? edge.a * (1.0 - smoothstep(0.4, 1.4, c1 / turns)) : 0.0;
+        light = mix(light, pow(edge.rgb, vec3(2.2)), rim_line);
+        alpha = max(alpha, rim_line);
     } else {
         light += terms.w * mirrored;
     }

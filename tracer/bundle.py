@@ -2,7 +2,10 @@
 
 Numba hands a tuple of arrays from function to function as seven words an array, which costs more than a ray: a kernel
 calling its parts with the whole world ran four times slower. A Bundle is one address, of a table with each array's
-address and length. Kernels read `world.surfaces[k]` as ever; they can write to it only where it is made `writable`.
+address and shape. Kernels read `world.surfaces[k]` as ever; they can write to it only where it is made `writable`.
+
+Kernels are compiled for the shapes of rows (three coordinates), so that strides are constants; where they differ from
+scene to scene the field is named in `ragged`, for no scene is to be waited for.
 """
 
 from typing import Any, NamedTuple
@@ -21,19 +24,24 @@ from numba.np.numpy_support import from_dtype
 class Bundle:
     """The arrays of a NamedTuple (C-contiguous) and its numbers (whole, or true and false), for Python as they were."""
 
-    def __init__(self, fields: NamedTuple, writable: bool = False) -> None:
+    def __init__(self, fields: NamedTuple, writable: bool = False, ragged: tuple[str, ...] = ()) -> None:
         self._fields = fields
-        entries = []
+        table: list[int] = []
+        entries: list[Entry] = []
         for name, value in fields._asdict().items():
             if isinstance(value, np.ndarray):
                 if not value.flags.c_contiguous:
                     raise TypeError(f"{name} must be C-contiguous")
-                entries.append((value.ctypes.data, len(value)))
+                kind = types.Array(from_dtype(value.dtype), value.ndim, "C", readonly=not writable)
+                tail = (None,) * (value.ndim - 1) if name in ragged else value.shape[1:]
+                entries.append(Entry(name, kind, len(table), tail))
+                table += [value.ctypes.data, *value.shape]
             else:
-                entries.append((int(value), 0))
-        self._table = np.array(entries, np.int64)
+                entries.append(Entry(name, types.boolean if isinstance(value, bool) else types.int64, len(table), ()))
+                table.append(int(value))
+        self._table = np.array(table, np.int64)
         self.address = self._table.ctypes.data
-        self.numba_type = BundleType(tuple(_layout(name, value, writable) for name, value in fields._asdict().items()))
+        self.numba_type = BundleType(tuple(entries))
 
     def __getattr__(self, name: str) -> Any:
         value = getattr(self._fields, name)
@@ -46,14 +54,8 @@ class Entry(NamedTuple):
 
     name: str
     type: types.Type
-    tail: tuple[int, ...]  # the shape but for its first number
-
-
-def _layout(name: str, value: Any, writable: bool) -> Entry:
-    if isinstance(value, np.ndarray):
-        kind = types.Array(from_dtype(value.dtype), value.ndim, "C", readonly=not writable)
-        return Entry(name, kind, value.shape[1:])
-    return Entry(name, types.boolean if isinstance(value, bool) else types.int64, ())
+    at: int  # its first word in the table: a number, or an array's address and shape
+    tail: tuple[int | None, ...]  # the shape but for its first number; None: to be read from the table
 
 
 class BundleType(types.Type):
@@ -93,8 +95,7 @@ class _BundleAttributes(AttributeTemplate):
 
 @lower_getattr_generic(BundleType)
 def _read(context: Any, builder: Any, kind: BundleType, address: Any, attribute: str) -> Any:
-    k = next(k for k, entry in enumerate(kind.entries) if entry.name == attribute)
-    entry = kind.entries[k]
+    entry = next(entry for entry in kind.entries if entry.name == attribute)
     word = ir.IntType(64)
     table = builder.inttoptr(address, word.as_pointer())
 
@@ -103,15 +104,16 @@ def _read(context: Any, builder: Any, kind: BundleType, address: Any, attribute:
         value.set_metadata("invariant.load", builder.module.add_metadata([]))  # so that loops load it once
         return value
 
-    first = load(2 * k)
+    first = load(entry.at)
     if not isinstance(entry.type, types.Array):
         return context.cast(builder, first, types.int64, entry.type)
     array = make_array(entry.type)(context, builder)
     size = context.get_abi_sizeof(context.get_data_type(entry.type.dtype))
-    shape = [load(2 * k + 1), *(word(n) for n in entry.tail)]
+    shape = [load(entry.at + 1)]
+    shape += [load(entry.at + 2 + k) if n is None else word(n) for k, n in enumerate(entry.tail)]
     strides = [word(size)]
-    for n in reversed(entry.tail):
-        strides.insert(0, word(strides[0].constant * n))
+    for n in reversed(shape[1:]):
+        strides.insert(0, builder.mul(strides[0], n))  # of constants the compiler makes a constant
     populate_array(
         array,
         data=builder.inttoptr(first, array.data.type),

@@ -1,12 +1,17 @@
 """The tree of rays as text: a line a ray, so that it can be read in a terminal and compared line by line."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tracer.nodes import SHADOW
-from tracer.tree import RayTree
+
+if TYPE_CHECKING:
+    from tracer.tree import RayTree
 
 HEADINGS = ("ray", "meets", "distance", "index", "angle", "weight", "sends up (r g b)", "why it ends")
 
@@ -39,7 +44,8 @@ def outline(tree: RayTree) -> str:
 def _head(tree: RayTree) -> list[str]:
     where = f"pixel {tree.pixel[0]},{tree.pixel[1]} of {tree.size[0]}x{tree.size[1]}" if tree.pixel else "a ray"
     title = tree.scene.title or (tree.scene.path.name if tree.scene.path else "scene")
-    head = [f"{title}: {where}, depth {tree.depth}, {tree.model}, {len(tree)} rays"]
+    rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
+    head = [f"{title}: {where}, depth {tree.depth}, {tree.model}, {rays}"]
     cut = f"; rays that were cut carry {number(tree.residual)} of the weight" if tree.residual else "; no ray was cut"
     return [*head, f"colour {triple(tree.radiance)} (linear r g b){cut}"]
 
@@ -72,8 +78,13 @@ def _row(tree: RayTree, i: int, stem: str) -> tuple[str, ...]:
         "" if shadow else _pair(degrees(row["theta1"]), degrees(row["theta2"])),
         triple(row["weight"], same=True),
         triple(row["radiance"]),
-        "adds nothing: the surface faces away" if tree.faces_away(i) else WHY[tree.end(i)],
+        why(tree, i),
     )
+
+
+def why(tree: RayTree, i: int) -> str:
+    """Why nothing follows ray i, or what becomes of a shadow ray."""
+    return "adds nothing: the surface faces away" if tree.faces_away(i) else WHY[tree.end(i)]
 
 
 def _pair(first: str, second: str) -> str:

@@ -23,7 +23,7 @@ from tracer.nodes import KINDS
 from tracer.scene import Material, Object, Scene
 from tracer.shapes.sphere import Sphere
 from tracer.tile import CENTER, Area, Samples, Workspace, run, trace_area
-from tracer.tree import MAX_NODES, make_limits, solids_at, trace, words
+from tracer.tree import MAX_NODES, checked_size, make_limits, solids_at, trace, words
 from tracer.world import World, prepare
 
 TILE = 64  # pixels a side: some milliseconds of work, so that cancelling is quick and threads end together
@@ -38,7 +38,7 @@ class Stopped(Exception):
     """The rendering was cancelled; its image is incomplete."""
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class Image:
     """A finished image and what it took."""
 
@@ -51,6 +51,10 @@ class Image:
     samples: int
     depth: int
     left_out: list[str]
+
+    def __repr__(self) -> str:
+        width, height = self.size
+        return f"<Image {width}x{height}: {sum(self.rays.values())} rays in {self.seconds['trace']:.3f} s>"
 
 
 @dataclass(eq=False)
@@ -173,7 +177,7 @@ def render(
         raise ValueError(f"samples must be >= 1, got {samples}")
     threads = threads or processors()
     compiling = warm()
-    view = world.view(size)
+    view = world.view(checked_size(size))
     limits = make_limits(world, depth, min_weight, max_nodes, model, records=False)
     job = Job(world, view, limits, CENTER if samples == 1 else Samples(0, samples))
     began = time.perf_counter()

@@ -71,12 +71,12 @@ class Workspace:
             np.zeros(2),
             np.zeros(2),
         )
-        self.bundle = Bundle(self.arrays, writable=True)
+        self.bundle = Bundle(self.arrays, writable=True, ragged=("solids",))
 
     def grow(self) -> None:
         rows, words = 4 * len(self.arrays.table), self.arrays.solids.shape[2]
         self.arrays = self.arrays._replace(table=np.zeros(rows, NODE), solids=np.zeros((rows, 2, words), np.int64))
-        self.bundle = Bundle(self.arrays, writable=True)
+        self.bundle = Bundle(self.arrays, writable=True, ragged=("solids",))
 
 
 @kernel

@@ -6,6 +6,7 @@ tree.radiance, tree.nodes["t"], tree.to_json()
 
 import json
 import math
+import operator
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,6 +19,7 @@ from tracer.camera import View
 from tracer.limits import MODELS, Limits
 from tracer.media import WORD
 from tracer.nodes import BLOCKED, ENDS, KINDS, PUBLIC, SHADOW, SURFACE
+from tracer.outline import outline
 from tracer.scene import Scene
 from tracer.tile import CENTER, Area, Samples, Workspace, eye_view, run
 from tracer.vector import Vector, unit
@@ -26,7 +28,7 @@ from tracer.world import World
 MAX_NODES = 10**6
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class RayTree:
     """One pixel's tree. `nodes`: a structured array, one row a ray, fields as in `tracer.nodes`; angles in radians."""
 
@@ -45,6 +47,11 @@ class RayTree:
 
     def __len__(self) -> int:
         return len(self.nodes)
+
+    def __repr__(self) -> str:
+        of = f"pixel {self.pixel[0]},{self.pixel[1]}" if self.pixel else "a ray"
+        color = " ".join(f"{x:.4f}" for x in self.radiance)
+        return f"<RayTree of {of}: depth {self.depth}, {len(self)} rows, radiance {color}>"
 
     @cached_property
     def children(self) -> list[list[int]]:
@@ -89,6 +96,10 @@ class RayTree:
         if row["kind"] == SHADOW:
             return letters + ("D" if row["end"] == BLOCKED else "DL")
         return letters + ("D" if row["end"] == SURFACE else "")
+
+    def to_text(self) -> str:
+        """The tree as it is drawn in a terminal."""
+        return outline(self)
 
     def to_dict(self) -> dict[str, Any]:
         """The tree as JSON has it: names for codes, None for absent, degrees for angles."""
@@ -179,10 +190,10 @@ def trace(
     if (pixel is None) == (ray is None):
         raise ValueError("either a pixel or a ray is traced: give one of them")
     scene = world.scene
-    size = size or (scene.image.width, scene.image.height)
+    size = checked_size(size) or (scene.image.width, scene.image.height)
     limits = make_limits(world, depth, min_weight, max_nodes, model, records=True)
     if pixel is not None:
-        x, y = pixel
+        x, y = (operator.index(value) for value in pixel)
         if not (0 <= x < size[0] and 0 <= y < size[1]):
             raise ValueError(f"pixel must be within 0,0 .. {size[0] - 1},{size[1] - 1}, got {x},{y}")
         view = world.view(size)
@@ -201,6 +212,16 @@ def trace(
     nodes.flags.writeable = False
     residual = float(space.tree[1])
     return RayTree(nodes, residual, scene, limits.depth, MODELS[limits.model], pixel and (x, y), size)
+
+
+def checked_size(size: tuple[int, int] | None) -> tuple[int, int] | None:
+    """Width and height of an image, each at least 1; ValueError for others."""
+    if size is None:
+        return None
+    width, height = (operator.index(value) for value in size)
+    if width < 1 or height < 1:
+        raise ValueError(f"size must be at least 1x1, got {width}x{height}")
+    return (width, height)
 
 
 def make_limits(

@@ -93,7 +93,7 @@ class Arrays(NamedTuple):
     order: np.ndarray  # the others as the boxes' leaves have them
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class World:
     scene: Scene
     arrays: Bundle  # of Arrays
@@ -105,6 +105,11 @@ class World:
     def left_out(self) -> list[str]:
         """What this scene does without."""
         return [need.name for need in self.needs if not need.needed]
+
+    def __repr__(self) -> str:
+        scene = self.scene
+        name = scene.title or scene.path or "a scene"
+        return f"<World of {name}: {len(scene.objects)} objects, {len(scene.lights)} lights>"
 
     def view(self, size: tuple[int, int] | None = None) -> View:
         """The scene's camera for an image of this size, the scene's own by default."""
@@ -118,6 +123,8 @@ class World:
 
 def prepare(scene: Scene) -> World:
     """Flatten a scene. SceneError for values that are not allowed, all of them at once."""
+    if not isinstance(scene, Scene):
+        raise TypeError(f"a Scene is prepared, as tracer.load gives it, got {type(scene).__name__}")
     faults = scene.faults()
     if faults:
         raise SceneError(faults)

@@ -126,15 +126,27 @@ class App:
         width = max(room.work_size.x, SMALLEST[0])
         height = max(room.work_size.y, SMALLEST[1]) - bar.height()
         self._dock(left, top, width, height, reset)
+        self._bring_forward()
         for panel in PANELS:
             self._panel(panel.title, lambda panel=panel: panel.draw(session, self.canvas))
         bar.draw(session, left, top + height, width)
+
+    def _bring_forward(self) -> None:
+        """Of panels that share a place, the one that has news."""
+        session = self.session
+        if session.wants_text:
+            imgui.set_window_focus(lesson.TITLE)
+        elif session.wants_numbers:
+            imgui.set_window_focus(ray.TITLE)
+        session.wants_text = session.wants_numbers = False
 
     def _panel(self, title: str, draw: Callable[[], None]) -> None:
         tight = title in (scene.TITLE, image.TITLE, tree.TITLE)
         if tight:
             imgui.push_style_var(imgui.StyleVar_.window_padding, (0, 0) if title == scene.TITLE else (6, 5))
-        opened, _ = imgui.begin(title)
+        flags = imgui.WindowFlags_
+        still = flags.no_scrollbar | flags.no_scroll_with_mouse if tight else flags.none
+        opened, _ = imgui.begin(title, None, still)
         if tight:
             imgui.pop_style_var()
         if opened:

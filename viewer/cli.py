@@ -1,6 +1,7 @@
 """The command line: what can be said, and nothing else. What is then done stands in `commands`, loaded when needed."""
 
 import argparse
+import difflib
 import re
 import sys
 from collections.abc import Sequence
@@ -8,6 +9,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import NoReturn
 
+COMMANDS = ("view", "trace", "render", "plan", "lessons")
 FORMATS = ("text", "json", "csv", "dot")
 
 # Options whose value may begin with a minus sign, which argparse would take for another option.
@@ -24,7 +26,11 @@ class Parser(argparse.ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; its exit status: 0 done, 1 a check fell short, 2 unusable input or arguments."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    options = make_parser().parse_args(_joined(given))
+    parser = make_parser()
+    if given and not given[0].startswith("-") and given[0] not in COMMANDS:
+        close = difflib.get_close_matches(given[0], COMMANDS, 1)
+        parser.error(f'no command "{given[0]}": did you mean "raytree {close[0] if close else f"view {given[0]}"}"?')
+    options = parser.parse_args(_joined(given))
     from viewer import commands
     from viewer.files import Unusable
 
@@ -46,12 +52,13 @@ def make_parser() -> Parser:
     parser = Parser(prog="raytree", description="Why is that pixel this colour? The tree of rays behind it.")
     parser.add_argument("--version", action="version", version=f"raytree {version('raytree')}")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=Parser)
-    parser.set_defaults(scene=None, pixel=None, depth=None, screenshot=None, size=None)
+    parser.set_defaults(scene=None, pixel=None, depth=None, model=None, screenshot=None, size=None)
 
     view = commands.add_parser("view", help="the viewer (the default), on the first lesson if no scene is given")
     view.add_argument("scene", nargs="?", metavar="SCENE", help=SCENE_HELP)
     view.add_argument("--pixel", type=pair(","), metavar="X,Y", help="pick this pixel, counted from the top left")
     _add_depth(view)
+    _add_model(view)
     view.add_argument("--screenshot", type=Path, metavar="FILE.png", help="draw the viewer into a file and leave")
     view.add_argument("--size", type=pair("x"), metavar="WxH", help="of the window or the screenshot")
 
@@ -88,8 +95,13 @@ def _add_depth(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--depth", type=at_least(0), metavar="D", help="recursion depth, the scene's own by default")
 
 
+def _add_model(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--model", choices=("whitted", "fresnel"), help="the scene's own by default")
+
+
 def _add_limits(parser: argparse.ArgumentParser) -> None:
     _add_depth(parser)
+    _add_model(parser)
     parser.add_argument(
         "--min-weight", type=weight, default=0.0, metavar="W", help="do not follow rays that weigh less"
     )

@@ -32,7 +32,13 @@ def trace(options: Namespace) -> int:
         world = tracer.prepare(tracer.load(path))
         ray = (options.ray[:3], options.ray[3:]) if options.ray else None
         tree = tracer.trace(
-            world, options.pixel, ray, depth=options.depth, size=options.size, min_weight=options.min_weight
+            world,
+            options.pixel,
+            ray,
+            depth=options.depth,
+            size=options.size,
+            min_weight=options.min_weight,
+            model=options.model,
         )
     text = as_text(tree, options.format)
     if options.output:
@@ -64,6 +70,7 @@ def render(options: Namespace) -> int:
                 options.depth,
                 options.threads,
                 min_weight=options.min_weight,
+                model=options.model,
                 progress=progress,
             )
     write_picture(options.output, image.pixels)
@@ -101,7 +108,10 @@ def view(options: Namespace) -> int:
 
 def find(name: str) -> tuple[Path, Lesson | None]:
     """The scene's file, and the lesson it belongs to if it was named."""
-    path = Path(name)
+    path = Path(name) if name else Path()
+    if (path / "lesson.md").is_file():
+        found = lesson.read_file(path / "lesson.md")
+        return found.scene, found
     if path.exists() or path.suffix.lower() in READERS:
         return path, None
     if name not in lesson.names() and (path.suffix or len(path.parts) > 1):
@@ -140,9 +150,7 @@ def as_text(tree: tracer.RayTree, name: str) -> str:
 
             return write_dot(tree)
         case _:
-            from tracer.outline import outline
-
-            return outline(tree)
+            return tree.to_text()
 
 
 def put(text: str) -> None:

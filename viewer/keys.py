@@ -1,6 +1,7 @@
 """Keys. Letters and digits go by the character they write, so that they are where they stand on any keyboard."""
 
 from imgui_bundle import imgui
+from imgui_bundle.imgui import internal
 
 from viewer.session import Session
 
@@ -8,7 +9,7 @@ HELP = (
     ("click, drag", "on the image: show the rays of a pixel"),
     ("arrow keys", "move the picked pixel (with Shift by 10)"),
     ("wheel, right-drag", "on the image: enlarge, move"),
-    ("0 1 2 3", "recursion depth"),
+    ("0 1 2 3 ... 9", "recursion depth"),
     ("+  -", "one deeper, one less"),
     ("click", "on a ray, in 3D or in the tree: select it"),
     ("Page Down, Page Up", "select the next ray, the one before"),
@@ -30,9 +31,13 @@ HELP = (
 def handle(session: Session) -> None:
     """Act on what was typed since the last frame, unless it goes into a text field."""
     io = imgui.get_io()
-    if io.want_text_input or imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
-        return
     key = imgui.Key
+    if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
+        if imgui.is_key_pressed(key.escape, False):
+            internal.close_popup_to_level(0, True)
+        return
+    if io.want_text_input:
+        return
     if io.key_ctrl or io.key_super or _just_let_go(key.left_ctrl, key.right_ctrl, key.left_super, key.right_super):
         if imgui.is_key_pressed(key.q, False):
             session.wants_quit = True
@@ -77,7 +82,7 @@ def _typed(session: Session) -> None:
     for k in range(characters.size()):
         typed = chr(characters[k]).lower()
         match typed:
-            case "0" | "1" | "2" | "3":
+            case _ if typed.isdecimal() and typed.isascii():
                 session.set_depth(int(typed))
             case "+" | "=":
                 session.set_depth(session.depth + 1)

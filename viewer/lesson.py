@@ -64,6 +64,11 @@ def read(name: str) -> Lesson:
     path = folder() / name / "lesson.md"
     if not path.is_file():
         raise Unusable(f'no lesson "{name}"{fields.nearest(name, names())} (known: {", ".join(names())})')
+    return read_file(path)
+
+
+def read_file(path: Path) -> Lesson:
+    """A lesson that need not be one of ours."""
     text = path.read_text("utf-8")
     if text.count(f"{MARK}\n") < 2 or not text.startswith(MARK):
         raise Unusable(f"{path}: a lesson begins with its data between two lines {MARK}")
@@ -79,7 +84,7 @@ def read(name: str) -> Lesson:
         raise Unusable(*(f"{path}: {fault}" for fault in faults))
     head_values = _Head(**values)
     return Lesson(
-        name=name,
+        name=path.absolute().parent.name,
         title=head_values.title,
         scene=path.parent / head_values.scene,
         text=body.strip(),

@@ -16,6 +16,7 @@ from tracer.world import World
 FOV = math.radians(35)
 CLOSEST, FARTHEST = 0.02, 60.0  # distance to the target
 STEEPEST = math.radians(89)
+MARGIN = 0.04  # of the picture, that stays free about what is taken in
 NEAR_SHARE = 1 / 400  # of the distance: the near plane
 
 
@@ -71,6 +72,14 @@ class Orbit:
         orbit.distance = max(0.5, float(-eye @ forward))
         orbit.target = eye + orbit.distance * forward
         return orbit
+
+    def take_in(self, points: np.ndarray) -> None:
+        """Step back until all these points of the frame (n, 3) are in a picture of 3:2."""
+        for _ in range(60):
+            places, depths = project(points, self.matrix(1.5), (1.0, 1.0))
+            if (depths > 0.0).all() and (np.abs(places - 0.5) <= 0.5 - MARGIN).all():
+                return
+            self.distance *= 1.05
 
     @property
     def outward(self) -> np.ndarray:

@@ -1,6 +1,7 @@
 """What is on show: the only state that changes. Panels read it and call its methods; it knows no panel and no GPU."""
 
 import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
@@ -20,6 +21,7 @@ from viewer.warmup import Warmup
 from viewer.watch import Watch
 
 STEP_DEPTH = 3  # trees are laid out for at least this depth, so that stepping 0..3 moves nothing
+NOTICE = 6.0  # seconds that a notice stays
 MOST_ROWS = 20_000  # of a tree in the window; the command line has no such limit
 
 
@@ -53,21 +55,32 @@ class Session:
         self.selected: int | None = None
         self.seen_finished: Picture | None = None  # the finished image that the last update knew of
         self.notice = ""  # what was last done, where nothing else shows it
+        self.notice_ends = 0.0  # of time.monotonic()
         self.shows_help = False
         self.wants_open = False  # the dialog that opens a scene
         self.wants_quit = False
+        self.wants_numbers = False  # the panel of the selected ray is to come to the front
+        self.wants_text = False  # the lesson's is
         self.folder: Path | None = None  # which that dialog shows
+        self.not_found = ""  # what was typed into it
         self.wanted_pixel: tuple[int, int] | None = None  # to be picked once the scene is there
         self.wanted_depth: int | None = None
+        self.wanted_model: str | None = None
 
     # --- opening scenes ---------------------------------------------------------------------------------------------
 
     def open(
-        self, path: Path, lesson: Lesson | None = None, depth: int | None = None, pixel: tuple | None = None
+        self,
+        path: Path,
+        lesson: Lesson | None = None,
+        depth: int | None = None,
+        pixel: tuple[int, int] | None = None,
+        model: str | None = None,
     ) -> None:
         """Load a scene in the background; until it is there, and if it has faults, what is on show stays."""
         self.wanted_depth = depth if depth is not None else lesson.depth if lesson else None
         self.wanted_pixel = pixel or (lesson.pixel if lesson else None)
+        self.wanted_model = model
         self._load(path, lesson)
 
     def reload(self) -> None:
@@ -99,6 +112,9 @@ class Session:
     def update(self) -> bool:
         """Take in what happened in the background since the last frame; whether there is anything new to see."""
         news = False
+        if self.notice and time.monotonic() > self.notice_ends:
+            self.notice = ""
+            news = True
         if self.watch.changed():
             self.reload()
         if self.loading and self.loading.done():
@@ -134,18 +150,26 @@ class Session:
         self.watch.follow_meshes(path, scene)
         self.frame = Frame.of(world)
         self.tree = self.full_tree = None
-        self.model = scene.tracing.model
+        self.model = self.wanted_model or scene.tracing.model
         if not again:
             self.depth = scene.tracing.depth if self.wanted_depth is None else self.wanted_depth
             self.pixel = self.wanted_pixel
             self.selected = None
             self.home()
-        self._keep_pixel_inside()
+        self._check_pixel(again)
 
-    def _keep_pixel_inside(self) -> None:
+    def _check_pixel(self, moves: bool) -> None:
+        """A pixel that is outside the image is a fault; but where the image has become smaller, it moves inside."""
+        if not self.pixel:
+            return
+        x, y = self.pixel
         width, height = self.size
-        if self.pixel:
-            self.pixel = (min(self.pixel[0], width - 1), min(self.pixel[1], height - 1))
+        inside = (min(max(x, 0), width - 1), min(max(y, 0), height - 1))
+        if inside != self.pixel and not moves:
+            self.faults = [f"pixel must be within 0,0 .. {width - 1},{height - 1}, got {x},{y}"]
+            self.pixel = None
+        else:
+            self.pixel = inside
 
     # --- the tree behind a pixel --------------------------------------------------------------------------------------
 
@@ -179,6 +203,7 @@ class Session:
         """Select one ray of the tree, or none."""
         if row is None or (self.tree and 0 <= row < len(self.tree)):
             self.selected = row
+            self.wants_numbers = row is not None
 
     def clear(self) -> None:
         """First nothing is selected, then nothing is picked."""
@@ -205,7 +230,7 @@ class Session:
         """Select the next ray in the order of the table, or the one before."""
         if self.tree:
             row = (-1 if by > 0 else len(self.tree)) if self.selected is None else self.selected
-            self.selected = min(max(row + by, 0), len(self.tree) - 1)
+            self.select(min(max(row + by, 0), len(self.tree) - 1))
 
     def _retrace(self) -> None:
         """The same pixel and image by other rules; the selected ray stays selected while it is there."""
@@ -229,6 +254,11 @@ class Session:
         limits = make_limits(self.world, self.depth, 0.0, 10**6, self.model, records=False)
         self.image.show(self.world, limits, self.size)
 
+    def say(self, notice: str) -> None:
+        """Show for a while what was done."""
+        self.notice = notice
+        self.notice_ends = time.monotonic() + NOTICE
+
     # --- how it is looked at ------------------------------------------------------------------------------------------
 
     def home(self) -> None:
@@ -237,9 +267,14 @@ class Session:
             return
         view = self.lesson.view if self.lesson else LessonView()
         up = self.world.scene.camera.up
-        self.orbit = Orbit.beside(self.world.view(), up, view.azimuth, view.elevation, view.distance)
+        camera = self.world.view()
+        self.orbit = Orbit.beside(camera, up, view.azimuth, view.elevation, view.distance)
         if view.target:
             self.orbit.target = self.frame.inside(view.target)
+        if not self.lesson:  # nobody has chosen a view: the scene's middle and its camera are to be seen
+            eye = self.frame.inside(camera.eye)
+            self.orbit.target = 0.35 * eye
+            self.orbit.take_in(np.stack([eye, np.zeros(3)]))
 
     def through_camera(self) -> None:
         """Look at the scene from where its own camera stands."""

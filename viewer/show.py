@@ -6,7 +6,6 @@ from pathlib import Path
 import platformdirs
 
 import tracer
-from tracer.outline import outline
 from viewer.app import App
 from viewer.commands import announce_compiling, faults, put
 from viewer.files import Unusable, check_writable
@@ -32,7 +31,7 @@ def show(path: Path, lesson: Lesson | None, options: Namespace) -> int:
         return without_display(path, lesson, options, str(reason))
     app = App(window, Session())
     try:
-        app.session.open(path, lesson, options.depth, options.pixel)
+        app.session.open(path, lesson, options.depth, options.pixel, options.model)
         app.run()
     finally:
         app.close()
@@ -46,7 +45,7 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: Namespace, targe
     except NoWindow as reason:
         raise Unusable(str(reason)) from None
     try:
-        app.session.open(path, lesson, options.depth, options.pixel)
+        app.session.open(path, lesson, options.depth, options.pixel, options.model)
         app.settle()
         if app.session.faults:
             raise Unusable(*app.session.faults)
@@ -64,9 +63,9 @@ def without_display(path: Path, lesson: Lesson | None, options: Namespace, reaso
         image = world.scene.image
         pixel = options.pixel or (lesson and lesson.pixel) or (image.width // 2, image.height // 2)
         depth = options.depth if options.depth is not None else lesson and lesson.depth
-        tree = tracer.trace(world, pixel, depth=depth)
+        tree = tracer.trace(world, pixel, depth=depth, model=options.model)
     target = Path("out") / f"{lesson.name if lesson else path.stem}.png"
-    put(f"Drawing the viewer into {target} instead; this is the ray tree it shows:\n\n{outline(tree)}")
+    put(f"Drawing the viewer into {target} instead; this is the ray tree it shows:\n\n{tree.to_text()}")
     target.parent.mkdir(exist_ok=True)
     check_writable(target)
     options.pixel = pixel

@@ -88,5 +88,5 @@ def _reset(style: imgui.Style) -> None:
     defaults = imgui.Style()
     for name in dir(defaults):
         value = getattr(defaults, name)
-        if not name.startswith("_") and not callable(value):
+        if (not name.startswith("_") or name == "_main_scale") and not callable(value):
             setattr(style, name, value)

@@ -199,7 +199,7 @@ BOMB = [
 @pytest.mark.parametrize(
     ("name", "content", "said"),
     [
-        ("empty.obj", "", "must have from 1 to"),
+        ("empty.obj", "", "must have triangles, got an empty file"),
         ("noise.obj", bytes(range(256)) * 4, "cannot be read as OBJ"),
         ("points.obj", "v 0 0 0\nv 1 0 0\n", "triangles"),
         ("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "vertex 0 must be three finite numbers"),

@@ -11,11 +11,13 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import box, world_of
+from tests.scenes import ball, box, world_of
+from tracer.bvh import split_all
 from tracer.limits import MODELS
 from tracer.nodes import BACKGROUND, SHADOW
 from tracer.render import COARSE_TO_FINE, Job, passes, trace_passes
 from tracer.scene import Image, Material
+from tracer.tile import trace_area
 from tracer.tree import RayTree, make_limits
 from tracer.vector import dot, vector
 
@@ -121,6 +123,17 @@ def may_add_light(tree: RayTree, i: int) -> bool:
     material = tree.scene.objects[at["object"]].material
     n_l = dot(vector(at["normal"]), vector(tree.nodes["direction"][i]))
     return n_l > 0.0 and (material.diffuse > 0.0 or material.specular > 0.0)
+
+
+def test_one_compiled_kernel_serves_every_scene(worlds: dict[str, tracer.World]) -> None:
+    """Nobody is to wait for a compiler when another scene is opened: with glass, without, with much of it."""
+    glass = Material("glass", transmit=1.0, ior=1.5)
+    many = world_of(*(ball((3.0 * k, 0, 0), 1, glass, f"ball {k}") for k in range(80)))
+    for world in (*worlds.values(), many, world_of(ball())):
+        tracer.trace(world, (3, 3))
+        tracer.render(world, (8, 6), samples=2)
+    assert len(trace_area.signatures) == 1
+    assert len(split_all.signatures) == 1
 
 
 def test_formulas_run_as_plain_python() -> None:

@@ -127,7 +127,10 @@ def test_plan_says_what_is_left_out_and_why(capsysbinary: pytest.CaptureFixture)
         (["render", "mirror-balls", "-o", "image.png", "--samples", "0"], "a whole number >= 1"),
         (["render", "mirror-balls", "-o", "image.png", "--size", "0x4"], "a size from 1x1"),
         (["view", "mirror-balls", "--screenshot", "shot.jpg"], "a screenshot must be a .png file"),
-        (["dance"], "invalid choice"),
+        (["view", "mirror-balls", "--screenshot", "shot.png", "--pixel", "-3,1"], "within 0,0 .. 799,599, got -3,1"),
+        (["view", "mirror-balls", "--screenshot", "shot.png", "--pixel", "9999,1"], "got 9999,1"),
+        (["glass-ball"], 'no command "glass-ball": did you mean "raytree view glass-ball"?'),
+        (["traec"], 'did you mean "raytree trace"?'),
     ],
 )
 def test_unusable_arguments_are_one_line_and_status_2(arguments: list[str], said: str, tmp_path: Path) -> None:

@@ -42,10 +42,12 @@ class Part:
 
 def read_mesh_scene(path: Path) -> Scene:
     """A scene of nothing but this mesh, in light from above the camera."""
+    if not path.exists():
+        raise FileNotFoundError(path)
     try:
         parts = load_parts(path)
     except MeshError as error:
-        raise SceneError([f"{path}: {error}"]) from None
+        raise SceneError([f"{path}: {str(error).removeprefix(f'mesh {path.name} ')}"]) from None
     objects = tuple(Object(Mesh(part.geometry, path.name), part.material, part.name) for part in parts)
     lights = default_lights(objects)
     return Scene(objects, lights, title=path.stem, path=path, **default_surroundings())
@@ -58,8 +60,10 @@ def load_parts(path: Path) -> list[Part]:
     if not path.is_file():
         raise MeshError(f"mesh file not found: {path}")
     size = path.stat().st_size
-    if not 0 < size <= LARGEST_FILE:
-        raise MeshError(f"mesh {path.name} must have from 1 to {LARGEST_FILE} bytes, got {size}")
+    if size == 0:
+        raise MeshError(f"mesh {path.name} must have triangles, got an empty file")
+    if size > LARGEST_FILE:
+        raise MeshError(f"mesh {path.name} must have at most {LARGEST_FILE} bytes, got {size}")
     document = _check_glb(path) if path.suffix.lower() == ".glb" else {}
     promised = _check_ply(path) if path.suffix.lower() == ".ply" else 0
     meshes = _load(path)
@@ -85,6 +89,8 @@ def _load(path: Path) -> list[tuple[str, Any, np.ndarray]]:
         found = [(str(name), scene.geometry[name], np.array(place, float)) for place, name in placed]
     except Exception as error:
         reason = " ".join(str(error).split()) or type(error).__name__
+        if isinstance(error, IndexError):
+            reason = "something in it refers to what is not there, as a face to a corner beyond the last"
         raise MeshError(f"mesh {path.name} cannot be read as {path.suffix[1:].upper()}: {reason[:120]}") from None
     return [item for item in found if isinstance(item[1], trimesh.Trimesh) and len(item[1].faces)]
 

@@ -1,7 +1,7 @@
 """The ray tree as a graph for Graphviz: hits are nodes, rays are edges, dashed where they run to a light."""
 
 from tracer.nodes import SHADOW
-from tracer.outline import WHY, number, triple
+from tracer.outline import number, triple, why
 from tracer.tree import RayTree
 
 
@@ -18,7 +18,9 @@ def write_dot(tree: RayTree) -> str:
         label = f"{met}\n{triple(row['radiance'])}"
         style = "dashed" if row["kind"] == SHADOW else "solid"
         if row["kind"] == SHADOW:
-            label = f"{tree.light_name(i)}\n{WHY[tree.end(i)]}" + (f" by {met}" if tree.end(i) == "blocked" else "")
+            label = f"{tree.light_name(i)}\n{why(tree, i)}" + (
+                f" by {met}" if tree.end(i) == "blocked" and not tree.faces_away(i) else ""
+            )
         parent = "eye" if row["parent"] < 0 else f"n{row['parent']}"
         factor = "" if row["parent"] < 0 or row["kind"] == SHADOW else f" × {number(row['factor'].max())}"
         lines.append(f"  n{i} [label={_quoted(label)}];")

@@ -16,7 +16,7 @@ from viewer.gl.surfaces import Surfaces, make_surface_program
 from viewer.gl.target import Target
 from viewer.orbit import Frame, Orbit
 from viewer.stagelines import StageLines
-from viewer.theme import HIDDEN, Theme
+from viewer.theme import EDGE_OPACITY, HIDDEN, Theme, faded
 
 IMAGE_OPACITY = 0.78  # of the image on the image plane: it shows, and what is behind it too
 
@@ -63,6 +63,7 @@ class Stage:
         self.target.resize(size)
         size = self.target.size
         matrix = orbit.matrix(size[0] / size[1])
+        edge = faded(theme.text, EDGE_OPACITY)
         self.target.use()
         ctx.enable_only(moderngl.BLEND)
         # The picture itself stays opaque, whatever is blended into it.
@@ -81,7 +82,7 @@ class Stage:
         if self.surfaces:
             # Pushed back a little, so that lines that end on a surface stand before it.
             ctx.polygon_offset = 1.0, 2.0
-            self.surfaces.draw(orbit, matrix, glass=False)
+            self.surfaces.draw(orbit, matrix, glass=False, edge=edge)
             ctx.polygon_offset = 0.0, 0.0
         self.target.drawn.depth_mask = False
         self.edges.draw(matrix, size, scale)
@@ -89,7 +90,7 @@ class Stage:
         if plane:
             self._draw_picture(matrix, plane)
         if self.surfaces:
-            self.surfaces.draw(orbit, matrix, glass=True)
+            self.surfaces.draw(orbit, matrix, glass=True, edge=edge)
         ctx.depth_func = ">"
         self._draw_lines(matrix, theme, size, scale, HIDDEN)
         ctx.depth_func = "<="

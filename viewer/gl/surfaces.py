@@ -19,6 +19,7 @@ from tracer.world import World
 from viewer.gl.geometry import ball, triangles
 from viewer.gl.program import make_program, put
 from viewer.orbit import Frame, Orbit
+from viewer.theme import Color
 
 MOST_LIGHTS = 8  # as in surface.frag
 ROUND = 64  # segments of a ball where few are drawn
@@ -61,9 +62,9 @@ class Surfaces:
             thing.release()
         self.owned.clear()
 
-    def draw(self, orbit: Orbit, matrix: np.ndarray, glass: bool) -> None:
+    def draw(self, orbit: Orbit, matrix: np.ndarray, glass: bool, edge: Color) -> None:
         """The opaque surfaces; or what one sees through: glass, farthest first, and walls from behind."""
-        self._set_uniforms(orbit, matrix)
+        self._set_uniforms(orbit, matrix, edge)
         ctx = self.ctx
         chosen = [group for group in self.groups if group.glass == glass]
         if not glass:
@@ -92,7 +93,7 @@ class Surfaces:
         if culled:
             self.ctx.disable(moderngl.CULL_FACE)
 
-    def _set_uniforms(self, orbit: Orbit, matrix: np.ndarray) -> None:
+    def _set_uniforms(self, orbit: Orbit, matrix: np.ndarray, edge: Color) -> None:
         lights = np.zeros((MOST_LIGHTS, 4), np.float32)
         colors = np.zeros((MOST_LIGHTS, 3), np.float32)
         rows = self.world.arrays.lights[:MOST_LIGHTS]
@@ -112,6 +113,7 @@ class Surfaces:
             sky_top=tuple(background * 0.9 + 0.12),
             sky_bottom=tuple(background * 0.25 + 0.05),
             fade_center=(0.0, 0.0, 0.0),
+            edge=edge,
             origin=tuple(self.frame.middle / self.frame.radius),
         )
         self.program["lights"].write(lights.tobytes())  # type: ignore[union-attr]

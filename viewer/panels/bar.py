@@ -157,7 +157,8 @@ def _status_text(session: Session) -> str:
     picture = session.image.picture
     if not session.world or not picture:
         return waiting_lines(session)[0]
-    rays = f"{len(session.tree)} rays" if session.tree else "no pixel picked"
+    count = len(session.tree) if session.tree else 0
+    rays = f"{count} ray{'s' if count > 1 else ''}" if count else "no pixel picked"
     if picture.finished:
         return f"{rays}  ·  image in {picture.seconds:.2f} s"
     return f"{rays}  ·  image {100 * picture.share:.0f} %"

@@ -21,7 +21,9 @@ def draw(session: Session, canvas: Canvas) -> None:
             imgui.text_colored(session.theme.accent, content.lstrip("# "))
         elif block.startswith("- "):
             for item in block.split("\n- "):
-                imgui.bullet_text(" ".join(item.removeprefix("- ").split()))
+                imgui.bullet()
+                imgui.same_line()
+                imgui.text(" ".join(item.removeprefix("- ").split()))  # wraps, which bullet_text does not
         else:
             imgui.text(content)
         imgui.pop_text_wrap_pos()

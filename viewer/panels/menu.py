@@ -59,6 +59,7 @@ def open_lesson(session: Session, name: str) -> None:
         session.faults = list(unusable.faults)
         return
     session.open(lesson.scene, lesson)
+    session.wants_text = True
 
 
 def open_file(session: Session, path: Path) -> None:
@@ -77,7 +78,7 @@ def save_image(session: Session) -> None:
     path = next(path for k in range(1, 10**6) if not (path := Path(f"{name}-{k}.png")).exists())
     try:
         write_picture(path, picture.shown)
-        session.notice = f"wrote {path.resolve()}" + ("" if picture.finished else " (not finished yet)")
+        session.say(f"wrote {path.resolve()}" + ("" if picture.finished else " (not finished yet)"))
     except Unusable as unusable:
         session.faults = list(unusable.faults)
 
@@ -139,25 +140,29 @@ def _faults(session: Session) -> None:
     room = imgui.get_main_viewport()
     width = min(860 * unit, 0.9 * room.work_size.x)
     middle = (room.work_pos.x + 0.5 * room.work_size.x, room.work_pos.y + 0.5 * room.work_size.y)
-    imgui.set_next_window_pos(middle, imgui.Cond_.appearing, (0.5, 0.5))
-    imgui.set_next_window_size((width, 0))
+    imgui.set_next_window_pos(middle, imgui.Cond_.always, (0.5, 0.5))
     imgui.set_next_window_size_constraints((width, 0), (width, 0.8 * room.work_size.y))
     imgui.push_style_color(imgui.Col_.window_bg, session.theme.raised)
     imgui.push_style_color(imgui.Col_.border, session.theme.fault)
     imgui.push_style_var(imgui.StyleVar_.window_border_size, 1.5 * unit)
     flags = imgui.WindowFlags_
     opened, stays = imgui.begin(
-        "This cannot be shown", True, flags.no_docking | flags.no_collapse | flags.no_saved_settings
+        "This cannot be shown",
+        True,
+        flags.no_docking | flags.no_collapse | flags.no_saved_settings | flags.no_move | flags.always_auto_resize,
     )
     if opened:
         count = len(session.faults)
         said = "1 fault" if count == 1 else f"{count} faults"
         kept = "; the last good scene stays" if session.world else ""
-        imgui.text_colored(session.theme.fault, f"{said}{kept}. Save the file and it is read again.")
+        again = " Save the file and it is read again." if session.attempt and session.attempt[0].is_file() else ""
+        imgui.push_text_wrap_pos(width - 20 * unit)
+        imgui.text_colored(session.theme.fault, f"{said}{kept}.{again}")
+        imgui.pop_text_wrap_pos()
         imgui.separator()
-        imgui.push_text_wrap_pos(0.0)
+        imgui.push_text_wrap_pos(width - 20 * unit)
         for fault in session.faults:
-            imgui.text(_short_path(fault))
+            imgui.text(fault if "not found" in fault else _short_path(fault))
         imgui.pop_text_wrap_pos()
     imgui.end()
     imgui.pop_style_var()
@@ -184,9 +189,14 @@ def _open_dialog(session: Session) -> None:
     if session.folder is None:
         session.folder = session.path.resolve().parent if session.path and not session.lesson else Path.cwd()
     imgui.set_next_item_width(-1)
+    if imgui.is_window_appearing():
+        session.not_found = ""
+        imgui.set_keyboard_focus_here()
     entered, written = imgui.input_text("##path", str(session.folder), imgui.InputTextFlags_.enter_returns_true)
     if entered:
-        _go(session, Path(written).expanduser())
+        _go(session, session.folder / Path(written.strip()).expanduser())
+    if session.not_found:
+        imgui.text_colored(session.theme.fault, session.not_found)
     if imgui.begin_child("files", (0, -imgui.get_frame_height_with_spacing())):
         if imgui.selectable("..", False)[0]:
             session.folder = session.folder.parent
@@ -200,9 +210,10 @@ def _open_dialog(session: Session) -> None:
 
 
 def _go(session: Session, path: Path) -> None:
+    session.not_found = "" if path.exists() else f"not found: {path}"
     if path.is_dir():
         session.folder = path
-    else:
+    elif path.exists():
         imgui.close_current_popup()
         open_file(session, path)
 

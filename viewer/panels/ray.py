@@ -19,6 +19,9 @@ def draw(session: Session, canvas: Canvas) -> None:
     row = session.selected if session.selected is not None else 0
     if row >= len(tree):
         return
+    if canvas.told != (id(tree), row):
+        imgui.set_scroll_y(0.0)
+        canvas.told = (id(tree), row)
     name, fate = headline(tree, row)
     kind = tree.kind(row)
     unit = d.unit()
@@ -54,6 +57,11 @@ def _section(session: Session, section: Section) -> None:
         imgui.pop_text_wrap_pos()
     flags = imgui.TableFlags_.sizing_stretch_prop | imgui.TableFlags_.pad_outer_x
     if imgui.begin_table(section.title, 2, flags):
+        # Values stay on their line, names wrap; but for a value that is a sentence.
+        widest = max(imgui.calc_text_size(line.value).x for line in section.lines)
+        if widest < 0.66 * imgui.get_content_region_avail().x:
+            imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
+            imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
         for line in section.lines:
             imgui.table_next_row()
             imgui.table_next_column()

@@ -150,7 +150,7 @@ class _Diagram:
         """What the parent multiplies this ray by, beside its edge, where there is room for it."""
         unit = d.unit()
         kind = self.tree.kind(i)
-        if kind == "shadow" or i == 0 or self.step_x < 74 * unit or self.step_y < 52 * unit:
+        if kind == "shadow" or i == 0 or self.step_x < 74 * unit or self.step_y < 44 * unit:
             return
         a, b = self._top(i), self.at[i]
         content = f"{STYLES[kind].letter} × {shown(float(self.tree.nodes['factor'][i].max()), 3)}"
@@ -201,7 +201,7 @@ class _Diagram:
         x, y = self.at[i]
         kinds = self.tree.nodes["kind"]
         beside = [at for j, at in self.at.items() if j < len(kinds) and kinds[j] != SHADOW and at[1] == y and at[0] > x]
-        right = min((other - self.radius for other, _ in beside), default=math.inf)
+        right = min((other - self.radius for other, _ in beside), default=self.corner.x + self.room.x)
         return min(right, x + 3.0 * self.step_x) - x - self.radius - 6.0 * d.unit()
 
     def _light_end(self, i: int) -> None:
