@@ -75,7 +75,7 @@ def test_selected_ray_comes_to_the_front_and_begins_at_its_top(room: Driver) -> 
 
 def test_lecture_size_and_back_leaves_no_trace(room: Driver) -> None:
     before = room.picture()
-    for _ in range(2):
+    for _ in range(5):
         room.press(Key.tab)
         room.press(Key.tab)
     room.frames(3)
