@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from tracer.shapes.mesh import Mesh
 
 if TYPE_CHECKING:
-    from tracer.scene import Scene
+    from tracer.scene import Object, Scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,12 +52,33 @@ def needs(scene: Scene, surfaces: int, boxes: int) -> tuple[Need, ...]:
     )
 
 
+def hidden_solids(ranked: list[Object]) -> list[str]:
+    """Transparent solids that never show: inside another that outranks them. `ranked`: highest priority first.
+
+    A solid counts as inside where all corners of its box are: what is told is so, though not all that is so is told.
+    """
+    notes = []
+    for k, inner in enumerate(ranked):
+        box = inner.shape.bounds()
+        if box is None:
+            continue
+        corners = np.array(list(itertools.product(*zip(box[:, 0].min(axis=0), box[:, 1].max(axis=0), strict=True))))
+        for outer in ranked[:k]:
+            if all(outer.shape.contains(corner) for corner in corners):
+                notes.append(f'"{_name(inner)}" lies inside "{_name(outer)}" and never shows: raise its priority')
+                break
+    return notes
+
+
+def _name(item: Object) -> str:
+    return item.name or type(item.shape).__name__.lower()
+
+
 def _which(objects: list, does: str) -> str:
     if not objects:
         return f"nothing {does}"
-    first = objects[0].name or type(objects[0].shape).__name__.lower()
     others = f" and {len(objects) - 1} more" if len(objects) > 1 else ""
-    return f'"{first}"{others} {does}'
+    return f'"{_name(objects[0])}"{others} {does}'
 
 
 def _shadow_reason(lights: int, lit: int) -> str:

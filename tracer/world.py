@@ -11,7 +11,7 @@ import numpy as np
 from tracer.bundle import Bundle
 from tracer.bvh import build
 from tracer.camera import View, scene_view
-from tracer.plan import Need, needs
+from tracer.plan import Need, hidden_solids, needs
 from tracer.scene import Material, Object, Scene, SceneError
 from tracer.shapes import CODES
 from tracer.shapes.mesh import Mesh
@@ -105,6 +105,11 @@ class World:
     def left_out(self) -> list[str]:
         """What this scene does without."""
         return [need.name for need in self.needs if not need.needed]
+
+    @property
+    def notes(self) -> list[str]:
+        """What an author will hardly have meant, though it is no fault."""
+        return hidden_solids([self.scene.objects[k] for k in self.solids])
 
     def __repr__(self) -> str:
         scene = self.scene

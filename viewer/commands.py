@@ -30,6 +30,7 @@ def trace(options: Namespace) -> int:
     announce_compiling()
     with faults():
         world = tracer.prepare(tracer.load(path))
+        put_notes(world)
         ray = (options.ray[:3], options.ray[3:]) if options.ray else None
         tree = tracer.trace(
             world,
@@ -61,6 +62,7 @@ def render(options: Namespace) -> int:
         scene = tracer.load(path)
         loaded = time.perf_counter()
         world = tracer.prepare(scene)
+        put_notes(world)
         prepared = time.perf_counter()
         with Progress("rendering") as progress:
             image = tracer.render(
@@ -93,6 +95,7 @@ def plan(options: Namespace) -> int:
     path, _ = find(options.scene)
     with faults():
         world = tracer.prepare(tracer.load(path))
+        put_notes(world)
     width = max(len(need.name) for need in world.needs)
     lines = [f"{need.name:{width}}  {'needed' if need.needed else 'left out':8}  {need.why}" for need in world.needs]
     put("\n".join(lines) + "\n")
@@ -129,6 +132,11 @@ def faults() -> Iterator[None]:
         raise Unusable(*error.faults) from None
     except ValueError as error:
         raise Unusable(f"raytree: {error}") from None
+
+
+def put_notes(world: tracer.World) -> None:
+    for note in world.notes:
+        print(f"note: {note}", file=sys.stderr)
 
 
 def announce_compiling() -> None:

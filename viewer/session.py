@@ -157,6 +157,8 @@ class Session:
             self.selected = None
             self.home()
         self._check_pixel(again)
+        for note in world.notes[:1]:
+            self.say(note)
 
     def _check_pixel(self, moves: bool) -> None:
         """A pixel that is outside the image is a fault; but where the image has become smaller, it moves inside."""

@@ -319,3 +319,16 @@ def test_mirrored_scene_has_the_mirrored_tree() -> None:
         np.testing.assert_array_equal(right.nodes[field][:, 1:], left.nodes[field][:, 1:])
     for field in ("t", "radiance", "weight", "theta1", "theta2", "kind", "end"):
         np.testing.assert_array_equal(right.nodes[field], left.nodes[field])
+
+
+def test_solid_that_another_hides_is_named() -> None:
+    """Water in a glass box that outranks it shows nowhere, and the author is told; with a higher priority it shows."""
+    glass, water = Material("glass", transmit=1.0, ior=1.5), Material("water", transmit=1.0, ior=1.33)
+    outer = box((-1, -1, -1), (1, 1, 1), glass, "glass box")
+    for more, said in (({}, ["water ball"]), ({"priority": 1}, [])):
+        world = world_of(outer, ball((0, 0, 0), 0.5, water, "water ball", **more))
+        assert [note.split('"')[1] for note in world.notes] == said
+        tree = tracer.trace(world, ray=((0.1, 0.1, 3), (0, 0, -1)), depth=3)
+        assert ("water ball" in {tree.object_name(i) for i in range(len(tree))}) == (not said)
+    apart = world_of(outer, ball((0, 0, 0.6), 0.5, water, "water ball"))
+    assert apart.notes == []

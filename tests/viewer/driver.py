@@ -31,6 +31,11 @@ class Driver:
         self.session.open(path)
         self.app.settle()
 
+    def resize(self, size: tuple[int, int]) -> None:
+        assert isinstance(self.app.surface, Offscreen)
+        self.app.surface.resize(size)
+        self.frames()
+
     def frames(self, count: int = 2) -> None:
         for _ in range(count):
             self.session.update()

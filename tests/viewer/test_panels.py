@@ -52,7 +52,7 @@ def test_every_character_is_in_the_fonts(room: Driver) -> None:
 
 @pytest.mark.parametrize("size", [(900, 600), (1280, 720), (1600, 900)])
 def test_lesson_texts_stay_inside_their_panel(room: Driver, size: tuple[int, int]) -> None:
-    room.app.surface.resize(size)
+    room.resize(size)
     for name in LESSONS:
         menu.open_lesson(room.session, name)
         room.app.settle(4)
