@@ -1,8 +1,11 @@
-"""What is switched on and how it is looked at: parts of a session that change by hand alone."""
+"""What is switched on, how it is looked at, and what is said for a while: small parts of a session."""
 
+import time
 from dataclasses import dataclass, field
 
 from viewer.theme import STYLES
+
+STAYS = 6.0  # seconds that a notice is to be read
 
 
 @dataclass
@@ -37,3 +40,22 @@ class Look:
         self.zoom = zoom
         if zoom == 1.0:
             self.center = (0.5, 0.5)
+
+
+@dataclass
+class Notice:
+    """What was last done, where nothing else shows it."""
+
+    text: str = ""
+    ends: float = 0.0  # of time.monotonic()
+
+    def say(self, text: str) -> None:
+        self.text = text
+        self.ends = time.monotonic() + STAYS
+
+    def passes(self) -> bool:
+        """Whether it has just gone."""
+        if self.text and time.monotonic() > self.ends:
+            self.text = ""
+            return True
+        return False

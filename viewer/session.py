@@ -1,7 +1,6 @@
 """What is on show: the only state that changes. Panels read it and call its methods; it knows no panel and no GPU."""
 
 import threading
-import time
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
@@ -13,7 +12,7 @@ from tracer.limits import MODELS
 from tracer.tree import RayTree, make_limits
 from tracer.world import World
 from viewer.lesson import Lesson, LessonView
-from viewer.looks import Look, Shown
+from viewer.looks import Look, Notice, Shown
 from viewer.orbit import Frame, Orbit
 from viewer.progressive import Picture, Progressive
 from viewer.theme import DARK, LECTURE_ZOOM, LIGHT, Theme
@@ -21,7 +20,6 @@ from viewer.warmup import Warmup
 from viewer.watch import Watch
 
 STEP_DEPTH = 3  # trees are laid out for at least this depth, so that stepping 0..3 moves nothing
-NOTICE = 6.0  # seconds that a notice stays
 MOST_ROWS = 20_000  # of a tree in the window; the command line has no such limit
 
 
@@ -54,8 +52,7 @@ class Session:
         self.full_tree: RayTree | None = None  # the same pixel, at least STEP_DEPTH deep: its first rows are `tree`'s
         self.selected: int | None = None
         self.seen_finished: Picture | None = None  # the finished image that the last update knew of
-        self.notice = ""  # what was last done, where nothing else shows it
-        self.notice_ends = 0.0  # of time.monotonic()
+        self.notice = Notice()
         self.shows_help = False
         self.wants_open = False  # the dialog that opens a scene
         self.wants_quit = False
@@ -111,10 +108,7 @@ class Session:
 
     def update(self) -> bool:
         """Take in what happened in the background since the last frame; whether there is anything new to see."""
-        news = False
-        if self.notice and time.monotonic() > self.notice_ends:
-            self.notice = ""
-            news = True
+        news = self.notice.passes()
         if self.watch.changed():
             self.reload()
         if self.loading and self.loading.done():
@@ -158,7 +152,7 @@ class Session:
             self.home()
         self._check_pixel(again)
         for note in world.notes[:1]:
-            self.say(note)
+            self.notice.say(note)
 
     def _check_pixel(self, moves: bool) -> None:
         """A pixel that is outside the image is a fault; but where the image has become smaller, it moves inside."""
@@ -255,11 +249,6 @@ class Session:
         assert self.world
         limits = make_limits(self.world, self.depth, 0.0, 10**6, self.model, records=False)
         self.image.show(self.world, limits, self.size)
-
-    def say(self, notice: str) -> None:
-        """Show for a while what was done."""
-        self.notice = notice
-        self.notice_ends = time.monotonic() + NOTICE
 
     # --- how it is looked at ------------------------------------------------------------------------------------------
 

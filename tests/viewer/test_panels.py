@@ -96,12 +96,12 @@ def test_however_many_faults_all_can_be_reached(room: Driver, tmp_path: Path) ->
 
 
 def test_notice_goes_by_itself(room: Driver) -> None:
-    room.session.say("wrote a file")
+    room.session.notice.say("wrote a file")
     room.frames()
-    assert room.session.notice == "wrote a file"
-    room.session.notice_ends = 0.0
+    assert room.session.notice.text == "wrote a file"
+    room.session.notice.ends = 0.0
     assert room.session.update()
-    assert room.session.notice == ""
+    assert room.session.notice.text == ""
 
 
 def test_escape_closes_an_open_menu_and_nothing_else(room: Driver) -> None:

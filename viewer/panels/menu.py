@@ -78,7 +78,7 @@ def save_image(session: Session) -> None:
     path = next(path for k in range(1, 10**6) if not (path := Path(f"{name}-{k}.png")).exists())
     try:
         write_picture(path, picture.shown)
-        session.say(f"wrote {path.resolve()}" + ("" if picture.finished else " (not finished yet)"))
+        session.notice.say(f"wrote {path.resolve()}" + ("" if picture.finished else " (not finished yet)"))
     except Unusable as unusable:
         session.faults = list(unusable.faults)
 
@@ -119,8 +119,8 @@ def _view_menu(session: Session) -> bool:
 
 def _title(session: Session) -> None:
     """The scene's title at the right end of the menu, or the last notice."""
-    if session.notice:
-        content = session.notice
+    if session.notice.text:
+        content = session.notice.text
     elif session.world:
         content = session.world.scene.title or (session.path.name if session.path else "")
     else:
