@@ -11,6 +11,7 @@ from pathlib import Path
 import tracer
 from tracer.formats import READERS
 from tracer.jit import is_cached
+from tracer.render import fill_cache
 from tracer.tile import trace_area
 from viewer import lesson
 from viewer.files import Unusable, check_writable, write_atomically
@@ -27,7 +28,7 @@ def trace(options: Namespace) -> int:
     if options.output:
         check_writable(options.output)
     path, _ = find(options.scene)
-    announce_compiling()
+    compile_once()
     with faults():
         world = tracer.prepare(tracer.load(path))
         put_notes(world)
@@ -56,7 +57,7 @@ def render(options: Namespace) -> int:
     for path in filter(None, (options.output, options.stats)):
         check_writable(path)
     path, _ = find(options.scene)
-    announce_compiling()
+    compiling = compile_once()
     with faults():
         began = time.perf_counter()
         scene = tracer.load(path)
@@ -76,6 +77,7 @@ def render(options: Namespace) -> int:
                 progress=progress,
             )
     write_picture(options.output, image.pixels)
+    image.seconds["compile"] += compiling
     if options.stats:
         stats = {
             "seconds": {"load": loaded - began, "prepare": prepared - loaded, **image.seconds},
@@ -139,10 +141,14 @@ def put_notes(world: tracer.World) -> None:
         print(f"note: {note}", file=sys.stderr)
 
 
-def announce_compiling() -> None:
-    """On the very first start on a machine: why nothing is to be seen for a while."""
-    if not is_cached(trace_area):
-        print("preparing the tracer: its formulas are compiled, only this once", file=sys.stderr, flush=True)
+def compile_once() -> float:
+    """On the very first start on a machine compile all kernels, and say why nothing is to be seen; the seconds."""
+    if is_cached(trace_area):
+        return 0.0
+    print("preparing the tracer: its formulas are compiled, only this once", file=sys.stderr, flush=True)
+    began = time.perf_counter()
+    fill_cache()
+    return time.perf_counter() - began
 
 
 def as_text(tree: tracer.RayTree, name: str) -> str:

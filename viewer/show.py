@@ -7,7 +7,7 @@ import platformdirs
 
 import tracer
 from viewer.app import App
-from viewer.commands import announce_compiling, faults, put
+from viewer.commands import compile_once, faults, put
 from viewer.files import Unusable, check_writable
 from viewer.lesson import Lesson
 from viewer.picture import write_picture
@@ -57,7 +57,7 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: Namespace, targe
 def without_display(path: Path, lesson: Lesson | None, options: Namespace, reason: str) -> int:
     """The same job where no window can be opened: the picked pixel's tree in the terminal, and a screenshot."""
     put(f"{reason}.\n")
-    announce_compiling()
+    compile_once()
     with faults():
         world = tracer.prepare(tracer.load(path))
         image = world.scene.image
