@@ -13,7 +13,7 @@ import numpy as np
 
 from tracer.jit import compiled
 from tracer.scene import Scene, middle_and_radius
-from tracer.vector import Vector, add, cross, scale, subtract, unit
+from tracer.vector import Vector, add, cross, scale, subtract, tame, unit
 
 BESIDE = 1.1  # how much more than the whole scene a framing camera sees
 
@@ -32,8 +32,8 @@ class View(NamedTuple):
 def make_view(eye: Vector, look_at: Vector, up: Vector, fov: float, size: tuple[int, int]) -> View:
     """`fov` in degrees; `size` in pixels, width first."""
     eye = _vector(eye)  # floats, whatever the author wrote: kernels are compiled for one type
-    forward = unit(subtract(look_at, eye))
-    right = unit(cross(forward, up))
+    forward = unit(tame(subtract(look_at, eye)))
+    right = unit(tame(cross(forward, tame(up))))
     half = math.tan(math.radians(fov) / 2)
     return View(eye, forward, scale(half, right), scale(half, cross(right, forward)), *size)
 
@@ -49,7 +49,7 @@ def scene_view(scene: Scene, bounds: np.ndarray, size: tuple[int, int] | None = 
         narrow = math.radians(camera.fov) / 2
         if width < height:
             narrow = math.atan(math.tan(narrow) * width / height)
-        up = unit(camera.up)
+        up = unit(tame(camera.up))
         aside = unit(cross(up, (0.0, 0.0, 1.0) if abs(up[2]) < 0.9 else (1.0, 0.0, 0.0)))
         ahead = cross(aside, up)
         away = unit(add(add(scale(0.35, up), scale(0.45, aside)), ahead))

@@ -22,7 +22,7 @@ from tracer.nodes import BLOCKED, ENDS, KINDS, PUBLIC, SHADOW, SURFACE
 from tracer.outline import outline
 from tracer.scene import Scene
 from tracer.tile import CENTER, Area, Samples, Workspace, eye_view, run
-from tracer.vector import Vector, unit
+from tracer.vector import Vector, tame, unit
 from tracer.world import World
 
 MAX_NODES = 10**6
@@ -258,12 +258,9 @@ def _ray_view(origin: Sequence[float], direction: Sequence[float]) -> View:
     numbers = [*map(float, origin), *map(float, direction)]
     if len(numbers) != 6 or not all(map(math.isfinite, numbers)):
         raise ValueError(f"a ray must be six finite numbers, got {numbers}")
-    size = max(map(abs, numbers[3:]))
-    if size == 0.0:
+    if not any(numbers[3:]):
         raise ValueError("a ray's direction must not be 0,0,0")
-    _, exponent = math.frexp(size)  # so that no square overflows, and no digit changes
-    x, y, z = (math.ldexp(component, -exponent) for component in numbers[3:])
-    return eye_view((numbers[0], numbers[1], numbers[2]), unit((x, y, z)))
+    return eye_view((numbers[0], numbers[1], numbers[2]), unit(tame(numbers[3:])))
 
 
 def _fill_angles(nodes: np.ndarray, scene: Scene) -> None:

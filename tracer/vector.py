@@ -79,6 +79,16 @@ def unit(a: Vector) -> Vector:
     return (a[0] / size, a[1] / size, a[2] / size)
 
 
+def tame(a: VectorLike) -> Vector:
+    """A vector of any size but 0 times a power of two that makes its largest component about 1.
+
+    So no square of it overflows or vanishes, and not a digit changes.
+    """
+    _, exponent = math.frexp(max(abs(float(component)) for component in a))
+    x, y, z = (math.ldexp(float(component), -exponent) for component in a)
+    return (x, y, z)
+
+
 @compiled
 def largest(a: Vector) -> float:
     """The largest component: how much a colour can matter at most."""

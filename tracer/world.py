@@ -19,7 +19,7 @@ from tracer.shapes.planar import NEAR
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.triangle import Triangle
-from tracer.vector import Vector, cross, unit
+from tracer.vector import Vector, cross, tame, unit
 
 SURFACE = np.dtype(
     [
@@ -212,7 +212,7 @@ def _object(item: Object, material: int, rank: int) -> tuple[Any, ...]:
 def _flat_normal(shape: Any) -> Vector | None:
     """The normal of a shape whose checker is flat."""
     if isinstance(shape, Plane):
-        return unit(shape.normal)
+        return unit(tame(shape.normal))
     if isinstance(shape, Polygon):
         row = np.zeros(1, SURFACE)
         shape.pack(row)
@@ -257,7 +257,7 @@ def _lights(scene: Scene) -> np.ndarray:
         row["color"] = light.color
         row["distant"] = light.direction is not None
         if light.direction is not None:
-            x, y, z = unit(light.direction)
+            x, y, z = unit(tame(light.direction))
             row["towards"] = (-x, -y, -z)
         elif light.position is not None:
             row["position"] = light.position

@@ -11,6 +11,7 @@ import numpy as np
 
 from tracer.camera import View
 from tracer.scene import middle_and_radius
+from tracer.vector import tame, unit
 from tracer.world import World
 
 FOV = math.radians(35)
@@ -55,7 +56,7 @@ class Orbit:
     @staticmethod
     def beside(view: View, up: tuple, azimuth: float, elevation: float, distance: float) -> "Orbit":
         """An eye turned away from the scene's own camera by these angles (degrees)."""
-        axis = np.array(up) / np.linalg.norm(up)
+        axis = np.array(unit(tame(up)))
         back = -np.array(view.forward)
         north = back - (back @ axis) * axis
         if np.linalg.norm(north) < 1e-6:

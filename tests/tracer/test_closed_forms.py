@@ -7,7 +7,7 @@ import pytest
 
 import tracer
 from tests.scenes import DARK, GLASS, MATTE, MIRROR, ball, box, ends, kinds, plane, world_of
-from tracer.scene import Light, Material
+from tracer.scene import Camera, Light, Material
 
 U = 2.0**-53
 
@@ -198,3 +198,17 @@ def test_scaling_a_scene_by_a_power_of_two_scales_its_tree_and_nothing_else() ->
             factor = 2.0**k if field in ("origin", "point", "t") else 1
             expected = reference.nodes[field] * factor if factor != 1 else reference.nodes[field]
             np.testing.assert_array_equal(tree.nodes[field], expected, err_msg=f"{field} at 2^{k}")
+
+
+@pytest.mark.parametrize("k", [-1074, -600, 490])
+def test_length_of_a_direction_is_no_matter(k: int) -> None:
+    """Normal, light's direction and camera's up, however small or large: the same bits."""
+
+    def tree_with(s: float) -> tracer.RayTree:
+        slope = plane((0, 0, 0), (0, s, 0), Material("floor", diffuse=0.5, reflect=0.25), "floor")
+        light = Light("sun", direction=(s, -s, s))
+        camera = Camera(position=(1.0, 2.0, 3.0), look_at=(0.0, 0.0, 0.0), up=(s, s, 0.0))
+        world = world_of(slope, lights=[light], camera=camera, background=(0.1, 0.2, 0.3))
+        return tracer.trace(world, (20, 40))
+
+    assert tree_with(2.0**k).nodes.tobytes() == tree_with(1.0).nodes.tobytes()

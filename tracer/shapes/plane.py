@@ -10,7 +10,7 @@ from tracer.jit import compiled
 from tracer.rays import Ray
 from tracer.shapes import planar
 from tracer.shapes.planar import plane_distance
-from tracer.vector import Vector, unit
+from tracer.vector import Vector, tame, unit
 
 NAME = "plane"
 
@@ -22,7 +22,7 @@ class Plane:
 
     def pack(self, rows: Any) -> None:
         rows["a"] = self.point
-        rows["normal"] = unit(self.normal)
+        rows["normal"] = unit(tame(self.normal))
         rows["r"] = np.abs(self.point).sum()
 
     def bounds(self) -> None:

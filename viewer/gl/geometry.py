@@ -14,7 +14,7 @@ from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
-from tracer.vector import unit
+from tracer.vector import tame, unit
 from viewer.orbit import Frame
 
 PLANE_REACH = 12.0  # radii of the scene
@@ -116,7 +116,7 @@ def _polygon(corners: np.ndarray) -> np.ndarray:
 
 def _plane(plane: Plane, frame: Frame) -> np.ndarray:
     """A square about the foot of the perpendicular from the scene's middle."""
-    n = np.array(unit(plane.normal))
+    n = np.array(unit(tame(plane.normal)))
     foot = frame.middle - ((frame.middle - plane.point) @ n) * n
     aside = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
     aside /= np.linalg.norm(aside)
