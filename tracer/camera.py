@@ -32,8 +32,12 @@ class View(NamedTuple):
 def make_view(eye: Vector, look_at: Vector, up: Vector, fov: float, size: tuple[int, int]) -> View:
     """`fov` in degrees; `size` in pixels, width first."""
     eye = _vector(eye)  # floats, whatever the author wrote: kernels are compiled for one type
-    forward = unit(tame(subtract(look_at, eye)))
-    right = unit(tame(cross(forward, tame(up))))
+    gaze = subtract(look_at, eye)
+    forward = unit(tame(gaze)) if any(gaze) else (0.0, 0.0, -1.0)
+    aside = cross(forward, tame(up))
+    if not any(aside):  # a view straight along `up`, which only a camera can have that its author left open
+        aside = cross(forward, (0.0, 0.0, 1.0) if abs(forward[2]) < 0.5 else (1.0, 0.0, 0.0))
+    right = unit(tame(aside))
     half = math.tan(math.radians(fov) / 2)
     return View(eye, forward, scale(half, right), scale(half, cross(right, forward)), *size)
 
@@ -53,7 +57,9 @@ def scene_view(scene: Scene, bounds: np.ndarray, size: tuple[int, int] | None = 
         aside = unit(cross(up, (0.0, 0.0, 1.0) if abs(up[2]) < 0.9 else (1.0, 0.0, 0.0)))
         ahead = cross(aside, up)
         away = unit(add(add(scale(0.35, up), scale(0.45, aside)), ahead))
-        position = add(look_at, scale(BESIDE * (radius or 1.0) / math.sin(narrow), away))
+        # Of a speck far from the origin no camera can come near: its place has no digits for that.
+        least = 2.0**-40 * max(map(abs, look_at))
+        position = add(look_at, scale(BESIDE * (max(radius, least) or 1.0) / math.sin(narrow), away))
     return make_view(position, look_at, camera.up, camera.fov, (width, height))
 
 
