@@ -86,7 +86,8 @@ def numbers(tree: RayTree, i: int) -> Section:
         section.add("normal n", triple(row["normal"]))
         section.add("n₁ → n₂", pair(shown(row["n1"]), shown(row["n2"])))
         section.add("θ₁ → θ₂", pair(angle(row["theta1"]), angle(row["theta2"])))
-        section.add("1 − n²(1 − c₁²)", shown(row["radicand"]))
+        if not math.isnan(row["radicand"]):
+            section.add("1 − η²(1 − c₁²)", shown(row["radicand"]))
     section.add("factor", same(row["factor"]))
     section.add("weight", same(row["weight"]))
     section.add("sends up", triple(row["radiance"], 4))
@@ -104,7 +105,7 @@ def explain(tree: RayTree, world: World, i: int) -> list[Section]:
     if math.isnan(row["t"]):
         return [_sum(tree, i), numbers(tree, i)]
     material = world.scene.objects[row["object"]].material
-    sections = [_sum(tree, i), numbers(tree, i)]
+    sections = [_sum(tree, i)]
     tir = row["radicand"] <= 0.0
     if not math.isnan(row["radicand"]):
         sections.append(_snell(tree, i))
@@ -115,7 +116,7 @@ def explain(tree: RayTree, world: World, i: int) -> list[Section]:
             sections.append(_fresnel(tree, i, material))
     if material.reflect > 0.0 or tir or (tree.model == MODELS[1] and material.transmit > 0.0):
         sections.append(_reflection(tree, i))
-    return [*sections, _local(tree, world, i)]
+    return [*sections, _local(tree, world, i), numbers(tree, i)]
 
 
 def _sum(tree: RayTree, i: int) -> Section:
@@ -168,12 +169,12 @@ def _transmission(tree: RayTree, i: int) -> Section:
     n1, n2 = float(row["n1"]), float(row["n2"])
     c1 = optics.cosine(v, normal)
     root = float(row["radicand"])
-    section = Section("Transmission direction", "t = n v + (n c₁ − c₂) n,  n = n₁/n₂")
-    section.add("n = n₁/n₂", shown(n1 / n2))
+    section = Section("Transmission direction", "t = η v + (η c₁ − c₂) n,  η = n₁/n₂")
+    section.add("η = n₁/n₂", shown(n1 / n2))
     section.add("c₁ = −v·n", shown(c1))
-    section.add("1 − n²(1 − c₁²)", shown(root))
+    section.add("1 − η²(1 − c₁²)", shown(root))
     if root <= 0.0:
-        section.add("n²(1 − c₁²)", f"{shown(1.0 - root)} ≥ 1: total internal reflection")
+        section.add("η²(1 − c₁²)", f"{shown(1.0 - root)} ≥ 1: total internal reflection")
         return section
     c2 = math.sqrt(root)
     section.add("c₂ = √", shown(c2))
@@ -193,7 +194,11 @@ def _fresnel(tree: RayTree, i: int, material: Material) -> Section:
     n1, n2 = float(row["n1"]), float(material.ior if thin else row["n2"])
     r, t = optics.fresnel(min(1.0, optics.cosine(v, normal)), n1, n2)
     section = Section("Fresnel", "reflected kr + kt R,  refracted kt T")
-    section.add("R, T", f"{shown(r)}, {shown(t)}")
+    c1, c2 = math.cos(row["theta1"]), math.sqrt(max(optics.radicand(math.sin(row["theta1"]), n1, n2), 0.0))
+    section.add("rₛ = (n₁c₁ − n₂c₂) / (n₁c₁ + n₂c₂)", shown((n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2)))
+    section.add("rₚ = (n₂c₁ − n₁c₂) / (n₂c₁ + n₁c₂)", shown((n2 * c1 - n1 * c2) / (n2 * c1 + n1 * c2)))
+    section.add("R = (rₛ² + rₚ²) / 2", shown(r))
+    section.add("T, computed for itself", shown(t))
     section.add("kr + kt R", shown(material.reflect + material.transmit * r))
     section.add("kt T", shown(material.transmit * t))
     return section
@@ -214,7 +219,7 @@ def _local(tree: RayTree, world: World, i: int) -> Section:
     """The local term, light by light."""
     row = tree.nodes[i]
     material = world.scene.objects[row["object"]].material
-    section = Section("Local light", "I = A ka C + Σ L (kd C (N·L) + ks (R·V)ᵖ)")
+    section = Section("Local light", "I = A ka C + Σ S L (kd C (N·L) + ks (R·V)ᵖ)")
     color = _color(world, tree, i)
     ambient = np.array(world.scene.tracing.ambient) * material.ambient * color
     section.add("colour C", triple(color, 3))
@@ -231,7 +236,7 @@ def _local(tree: RayTree, world: World, i: int) -> Section:
         else:
             detail = f"N·L {shown(n_l, 3)}, R·V {shown(max(r_v, 0.0), 3)}"
             if tree.end(child) == "filtered":
-                detail += f", × {shown(tree.nodes['factor'][child][0], 3)} through glass"
+                detail += f", × {shown(tree.nodes['factor'][child][0], 3)} through glass (S)"
         section.add(f"{name}: {detail}", triple(tree.nodes["radiance"][child], 4))
     section.add("local", triple(row["local"], 4))
     return section
@@ -245,7 +250,7 @@ def _light(tree: RayTree, world: World, i: int, j: int) -> Section:
     material = world.scene.objects[row["object"]].material
     n_l, r_v = _cosines(tree, i, child)
     color = _color(world, tree, i)
-    section = Section(f"Light from {light.name or f'light {j}'}", "L (kd C (N·L) + ks (R·V)ᵖ)")
+    section = Section(f"Light from {light.name or f'light {j}'}", "S L (kd C (N·L) + ks (R·V)ᵖ)")
     section.add("light L", triple(light.color, 3))
     section.add("N·L", shown(n_l))
     if n_l <= 0.0:
@@ -254,8 +259,8 @@ def _light(tree: RayTree, world: World, i: int, j: int) -> Section:
     section.add("kd C (N·L)", triple(material.diffuse * n_l * color, 4))
     highlight = material.specular * r_v**material.shininess if r_v > 0.0 else 0.0
     section.add("R·V", shown(r_v))
-    section.add(f"ks (R·V)ᵖ, p = {shown(material.shininess)}", shown(highlight))
-    section.add("gets through", same(tree.nodes["factor"][child]))
+    section.add(f"ks (R·V)ᵖ, p = {shown(material.shininess)}", f"{highlight:.4f}")
+    section.add("S: gets through", same(tree.nodes["factor"][child]))
     section.add("share", triple(tree.nodes["radiance"][child], 4))
     return section
 

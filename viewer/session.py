@@ -140,6 +140,7 @@ class Session:
         self.faults = []
         scene = world.scene
         self.image.forget()
+        self.wants_text = lesson is not None and self.world is not None and not again
         self.world, self.path, self.lesson = world, path, lesson
         self.watch.follow_meshes(path, scene)
         self.frame = Frame.of(world)

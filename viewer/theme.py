@@ -57,7 +57,7 @@ FILTERED_DASH = (12.0, 4.0)
 
 HALO = 1.6  # pixels of ground colour on either side of a ray, so that it reads on any picture
 HIDDEN = 0.30  # opacity of what is behind or inside an opaque object
-DIMMED = 0.28  # opacity of what does not belong to the selected ray: dimmed, never hidden
+DIMMED = 0.4  # opacity of what does not belong to the selected ray: dimmed, never hidden
 ARROW = 11.0  # pixels
 ARROW_AT = 0.58  # of the ray's length: an arrow at the end would hide in the surface
 ESCAPE = 0.9  # of the scene's radius: how far a ray that leaves the scene is drawn

@@ -118,3 +118,12 @@ def heaviest_rows(tree: RayTree, most: int, rows: set[int]) -> set[int]:
             break
         kept |= {i} | shadows
     return kept
+
+
+def with_parents_only(parents: np.ndarray, wanted: set[int]) -> set[int]:
+    """Rows whose every ancestor is wanted too: a branch that is switched off takes what hangs on it along."""
+    kept: set[int] = set()
+    for i in sorted(wanted):
+        if i == 0 or int(parents[i]) in kept:
+            kept.add(i)
+    return kept

@@ -27,6 +27,15 @@ def text_size(text: str, size: float) -> Point:
     return (found.x * share, found.y * share)
 
 
+def shortened(content: str, size: float, room: float) -> str:
+    """A text cut to what fits into `room`, with an ellipsis."""
+    if text_size(content, size)[0] <= room:
+        return content
+    while len(content) > 4 and text_size(content + "…", size)[0] > room:
+        content = content[:-1]
+    return content.rstrip() + "…"
+
+
 def text(
     draw: imgui.ImDrawList, at: Point, color: Color, content: str, size: float, plate: Color | None = None
 ) -> None:

@@ -102,7 +102,12 @@ def _head(session: Session) -> None:
     if session.tree:
         rgb = session.tree.radiance
         imgui.same_line()
-        imgui.color_button("##color", d.swatch(rgb), imgui.ColorEditFlags_.no_tooltip, (22 * unit, 22 * unit))
+        imgui.color_button(
+            "##color",
+            d.swatch(rgb),
+            imgui.ColorEditFlags_.no_tooltip,
+            (imgui.get_frame_height(), imgui.get_frame_height()),
+        )
         content = "  ".join(f"{value:.4f}" for value in rgb)
         room = imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x - imgui.get_item_rect_max().x
         if room >= d.text_size(content, imgui.get_font_size())[0] + 8 * unit:

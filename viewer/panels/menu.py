@@ -59,7 +59,6 @@ def open_lesson(session: Session, name: str) -> None:
         session.faults = list(unusable.faults)
         return
     session.open(lesson.scene, lesson)
-    session.wants_text = True
 
 
 def open_file(session: Session, path: Path) -> None:
@@ -192,14 +191,17 @@ def _open_dialog(session: Session) -> None:
     if imgui.is_window_appearing():
         session.not_found = ""
         imgui.set_keyboard_focus_here()
-    entered, written = imgui.input_text("##path", str(session.folder), imgui.InputTextFlags_.enter_returns_true)
+    elif session.not_found and not imgui.is_any_item_active():
+        imgui.set_keyboard_focus_here()  # what was typed stays, to be mended
+    shown = session.not_found or str(session.folder)
+    entered, written = imgui.input_text("##path", shown, imgui.InputTextFlags_.enter_returns_true)
     if entered:
         _go(session, session.folder / Path(written.strip()).expanduser())
     if session.not_found:
-        imgui.text_colored(session.theme.fault, session.not_found)
+        imgui.text_colored(session.theme.fault, "not found")
     if imgui.begin_child("files", (0, -imgui.get_frame_height_with_spacing())):
         if imgui.selectable("..", False)[0]:
-            session.folder = session.folder.parent
+            _go(session, session.folder.parent)
         for path in _entries(session.folder):
             if imgui.selectable(f"{path.name}/" if path.is_dir() else path.name, False)[0]:
                 _go(session, path)
@@ -210,7 +212,7 @@ def _open_dialog(session: Session) -> None:
 
 
 def _go(session: Session, path: Path) -> None:
-    session.not_found = "" if path.exists() else f"not found: {path}"
+    session.not_found = "" if path.exists() else str(path)
     if path.is_dir():
         session.folder = path
     elif path.exists():

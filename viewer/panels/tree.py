@@ -8,7 +8,7 @@ from imgui_bundle import imgui
 from tracer.nodes import SHADOW
 from viewer.canvas import Canvas
 from viewer.explain import headline
-from viewer.figures.layout import Place, heaviest_rows, layout
+from viewer.figures.layout import Place, heaviest_rows, layout, with_parents_only
 from viewer.panels import draw as d
 from viewer.raylines import family
 from viewer.session import Session
@@ -20,7 +20,7 @@ TITLE = "Ray tree"
 MOST_ROWS = 160  # drawn; of larger trees the heaviest rays
 # Logical pixels: between neighbours and between levels, at most and at least; smaller and the tree has to be moved.
 WIDEST, NARROWEST = 170.0, 34.0
-TALLEST, LOWEST = 104.0, 29.0
+TALLEST, LOWEST = 104.0, 22.0
 EYE_ROOM = 50.0  # above the first hit
 RADIUS = 11.0
 
@@ -60,7 +60,7 @@ class _Diagram:
         self.theme = session.theme
         full = session.full_tree
         wanted = {i for i in range(len(full)) if full.kind(i) in session.shown.kinds or i == 0}
-        wanted = _with_parents_only(full.nodes["parent"], wanted)
+        wanted = with_parents_only(full.nodes["parent"], wanted)
         rows = heaviest_rows(full, MOST_ROWS, wanted)
         places = layout(full, rows)
         self.folded = len(self.tree) - sum(i < len(self.tree) for i in wanted & rows)
@@ -85,6 +85,7 @@ class _Diagram:
         base_y = corner.y + head + look.center[1] * unit
         self.at = {i: (base_x + p.x * self.step_x, base_y + p.y * self.step_y) for i, p in places.items()}
         self.text_size = SMALL * imgui.get_font_size()
+        self.labels_edges = self.step_x >= 74 * unit and self.step_y >= 44 * unit
         self.radius = min(RADIUS, 0.2 * self.step_y / unit, 0.2 * self.step_x / unit) * unit
         self.corner, self.room = corner, room
 
@@ -150,10 +151,10 @@ class _Diagram:
         """What the parent multiplies this ray by, beside its edge, where there is room for it."""
         unit = d.unit()
         kind = self.tree.kind(i)
-        if kind == "shadow" or i == 0 or self.step_x < 74 * unit or self.step_y < 44 * unit:
+        if kind == "shadow" or i == 0 or not self.labels_edges:
             return
         a, b = self._top(i), self.at[i]
-        content = f"{STYLES[kind].letter} × {shown(float(self.tree.nodes['factor'][i].max()), 3)}"
+        content = f"{STYLES[kind].letter} {self._factor(i)}"
         size = self.text_size
         width, height = d.text_size(content, size)
         x, y = a[0] + 0.6 * (b[0] - a[0]), a[1] + 0.6 * (b[1] - a[1])
@@ -161,6 +162,9 @@ class _Diagram:
         x = x - width - gap if b[0] < a[0] - 1.0 else x + gap
         color = faded(self.theme.ray(self.tree.kind(i)), self.opacity(i))
         d.text(self.pad, (x, y - 0.5 * height), color, content, size, self.theme.panel)
+
+    def _factor(self, i: int) -> str:
+        return f"× {shown(float(self.tree.nodes['factor'][i].max()), 3)}"
 
     def _node(self, i: int) -> None:
         if self.tree.nodes["kind"][i] == SHADOW:
@@ -190,7 +194,15 @@ class _Diagram:
         if note and room < d.text_size(f"{i}  {name}", size)[0] + gap + d.text_size(note, size)[0]:
             note = "cut"
         taken = gap + d.text_size(note, size)[0] if note else 0.0
-        content = _shortened(f"{i}  {name}", size, room - taken)
+        # Where there is no room at the edge, what the parent multiplies by stands here, if it fits.
+        factor = self._factor(i) if i and not self.labels_edges else ""
+        wide = gap + d.text_size(factor, size)[0]
+        if factor and room >= d.text_size(f"{i}  {name}", size)[0] + taken + wide:
+            ink = faded(self.theme.ray(self.tree.kind(i)), opacity)
+            d.text(self.pad, (at, y - 0.5 * size), ink, factor, size, self.theme.panel)
+            at += wide
+            taken += wide
+        content = d.shortened(f"{i}  {name}", size, room - taken)
         d.text(self.pad, (at, y - 0.5 * size), color, content, size, self.theme.panel)
         if note:
             at += d.text_size(content, size)[0] + gap
@@ -280,20 +292,3 @@ class _Diagram:
             if float(np.hypot(*(a + t * along - mouse))) <= reach:
                 return i
         return None
-
-
-def _with_parents_only(parents: np.ndarray, wanted: set[int]) -> set[int]:
-    """Rows whose every ancestor is wanted too: a branch that is switched off takes what hangs on it along."""
-    kept: set[int] = set()
-    for i in sorted(wanted):
-        if i == 0 or int(parents[i]) in kept:
-            kept.add(i)
-    return kept
-
-
-def _shortened(content: str, size: float, room: float) -> str:
-    if d.text_size(content, size)[0] <= room:
-        return content
-    while len(content) > 4 and d.text_size(content + "…", size)[0] > room:
-        content = content[:-1]
-    return content.rstrip() + "…"
