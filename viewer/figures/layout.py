@@ -7,6 +7,8 @@ its width; the same subtree looks the same wherever it stands.
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from tracer.nodes import REFRACTION, SHADOW
 from tracer.tree import RayTree
 
