@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -57,13 +58,17 @@ def hidden_solids(ranked: list[Object]) -> list[str]:
 
     A solid counts as inside where all corners of its box are: what is told is so, though not all that is so is told.
     """
+    endless = np.full(3, math.inf)
+    boxes = [item.shape.bounds() for item in ranked]
+    low = np.array([-endless if box is None else box[:, 0].min(axis=0) for box in boxes]).reshape(-1, 3)
+    high = np.array([endless if box is None else box[:, 1].max(axis=0) for box in boxes]).reshape(-1, 3)
     notes = []
     for k, inner in enumerate(ranked):
-        box = inner.shape.bounds()
-        if box is None:
+        if boxes[k] is None:
             continue
-        corners = np.array(list(itertools.product(*zip(box[:, 0].min(axis=0), box[:, 1].max(axis=0), strict=True))))
-        for outer in ranked[:k]:
+        around = ((low[:k] <= low[k]) & (high[:k] >= high[k])).all(axis=1)
+        corners = np.array(list(itertools.product(*zip(low[k], high[k], strict=True))))
+        for outer in (ranked[j] for j in np.flatnonzero(around)):
             if all(outer.shape.contains(corner) for corner in corners):
                 notes.append(f'"{_name(inner)}" lies inside "{_name(outer)}" and never shows: raise its priority')
                 break

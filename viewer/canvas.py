@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
+from tracer.tree import RayTree
 from viewer.gl.stage import ImagePlane, Stage
 from viewer.raylines import RayLine, ray_lines
 from viewer.session import Session
@@ -25,7 +26,9 @@ class Canvas:
         self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)
         self.nodes: dict[int, tuple[float, float]] = {}
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
-        self.told: tuple[int, int] | None = None  # the tree and its ray that the panel of the selected ray was about
+        self.told: tuple[RayTree, int] | None = (
+            None  # which ray the panel of numbers was about
+        )
         self._image_key: object = None
         self._world: object = None
         self._theme: object = None
@@ -39,7 +42,7 @@ class Canvas:
         shown = self.session.image.picture
         if shown is None:
             return None
-        key = (id(shown), shown.version)
+        key = (shown, shown.version)
         height, width = shown.shown.shape[:2]
         if self.image is None or self.image.size != (width, height):
             if self.image:
@@ -74,7 +77,7 @@ class Canvas:
         picture = self._image_state() if shown.camera else None
         switches = (frozenset(shown.kinds), shown.camera, shown.normals)
         return (
-            size, scale, eye, picture, switches, id(session.world), id(session.tree), session.selected,
+            size, scale, eye, picture, switches, session.world, session.tree, session.selected,
             session.theme.name,
         )  # fmt: skip
 

@@ -113,7 +113,7 @@ def view(options: Namespace) -> int:
 
 def find(name: str) -> tuple[Path, Lesson | None]:
     """The scene's file, and the lesson it belongs to if it was named."""
-    path = Path(name) if name else Path()
+    path = Path(name)
     if (path / "lesson.md").is_file():
         found = lesson.read_file(path / "lesson.md")
         return found.scene, found

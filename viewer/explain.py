@@ -192,9 +192,10 @@ def _fresnel(tree: RayTree, i: int, material: Material) -> Section:
     v, normal = vector(row["direction"]), vector(row["normal"])
     thin = row["n1"] == row["n2"]
     n1, n2 = float(row["n1"]), float(material.ior if thin else row["n2"])
-    r, t = optics.fresnel(min(1.0, optics.cosine(v, normal)), n1, n2)
+    c1 = min(1.0, optics.cosine(v, normal))
+    c2 = math.sqrt(max(optics.radicand(optics.sine(v, normal), n1, n2), 0.0))
+    r, t = optics.fresnel(c1, n1, n2)
     section = Section("Fresnel", "reflected kr + kt R,  refracted kt T")
-    c1, c2 = math.cos(row["theta1"]), math.sqrt(max(optics.radicand(math.sin(row["theta1"]), n1, n2), 0.0))
     section.add("rₛ = (n₁c₁ − n₂c₂) / (n₁c₁ + n₂c₂)", shown((n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2)))
     section.add("rₚ = (n₂c₁ − n₁c₂) / (n₂c₁ + n₁c₂)", shown((n2 * c1 - n1 * c2) / (n2 * c1 + n1 * c2)))
     section.add("R = (rₛ² + rₚ²) / 2", shown(r))

@@ -94,7 +94,7 @@ class Session:
 
         def load() -> tuple:
             world = tracer.prepare(tracer.load(path))
-            return world, path, lesson, again
+            return world, path, lesson, again, world.notes
 
         self.loading = self.loader.submit(self._and_tell, load)
 
@@ -130,7 +130,7 @@ class Session:
 
     def _finish_loading(self, loading: Future) -> None:
         try:
-            world, path, lesson, again = loading.result()
+            world, path, lesson, again, notes = loading.result()
         except tracer.SceneError as error:
             self.faults = error.faults
             return
@@ -152,7 +152,7 @@ class Session:
             self.selected = None
             self.home()
         self._check_pixel(again)
-        for note in world.notes[:1]:
+        for note in notes[:1]:
             self.notice.say(note)
 
     def _check_pixel(self, moves: bool) -> None:

@@ -87,6 +87,7 @@ def _reset(style: imgui.Style) -> None:
     """Every size as imgui has it at first."""
     defaults = imgui.Style()
     for name in dir(defaults):
+        # What scale_all_sizes has multiplied so far is a size, too, though its name says it is imgui's own.
         value = getattr(defaults, name)
         if (not name.startswith("_") or name == "_main_scale") and not callable(value):
             setattr(style, name, value)

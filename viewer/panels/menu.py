@@ -154,14 +154,15 @@ def _faults(session: Session) -> None:
         count = len(session.faults)
         said = "1 fault" if count == 1 else f"{count} faults"
         kept = "; the last good scene stays" if session.world else ""
-        again = " Save the file and it is read again." if session.attempt and session.attempt[0].is_file() else ""
+        is_there = session.attempt is not None and session.attempt[0].is_file()
+        again = " Save the file and it is read again." if is_there else ""
         imgui.push_text_wrap_pos(width - 20 * unit)
         imgui.text_colored(session.theme.fault, f"{said}{kept}.{again}")
         imgui.pop_text_wrap_pos()
         imgui.separator()
         imgui.push_text_wrap_pos(width - 20 * unit)
         for fault in session.faults:
-            imgui.text(fault if "not found" in fault else _short_path(fault))
+            imgui.text(_short_path(fault) if is_there else fault)
         imgui.pop_text_wrap_pos()
     imgui.end()
     imgui.pop_style_var()

@@ -19,9 +19,9 @@ def draw(session: Session, canvas: Canvas) -> None:
     row = session.selected if session.selected is not None else 0
     if row >= len(tree):
         return
-    if canvas.told != (id(tree), row):
+    if canvas.told != (tree, row):
         imgui.set_scroll_y(0.0)
-        canvas.told = (id(tree), row)
+        canvas.told = (tree, row)
     name, fate = headline(tree, row)
     kind = tree.kind(row)
     unit = d.unit()

@@ -1,5 +1,6 @@
 """The ray tree as a diagram: the eye on top, reflected rays to the left, refracted right, stubs to the lights."""
 
+import bisect
 import math
 
 import numpy as np
@@ -66,6 +67,9 @@ class _Diagram:
         self.folded = len(self.tree) - sum(i < len(self.tree) for i in wanted & rows)
         self._fit(places, corner, room)
         self.rows = sorted(i for i in rows if i < len(self.tree))
+        self.levels: dict[float, list[float]] = {}  # where hits stand on each level, left to right
+        for x, y in sorted(self.at[i] for i in self.rows if self.tree.nodes["kind"][i] != SHADOW):
+            self.levels.setdefault(y, []).append(x)
         self.kept = family(self.tree, session.selected) if session.selected is not None else None
 
     def _fit(self, places: dict[int, Place], corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
@@ -211,9 +215,9 @@ class _Diagram:
     def _room_beside(self, i: int) -> float:
         """Pixels between a node's rim and what stands next on its level, at most what a long name needs."""
         x, y = self.at[i]
-        kinds = self.tree.nodes["kind"]
-        beside = [at for j, at in self.at.items() if j < len(kinds) and kinds[j] != SHADOW and at[1] == y and at[0] > x]
-        right = min((other - self.radius for other, _ in beside), default=self.corner.x + self.room.x)
+        level = self.levels[y]
+        next_one = bisect.bisect_right(level, x)
+        right = level[next_one] - self.radius if next_one < len(level) else self.corner.x + self.room.x
         return min(right, x + 3.0 * self.step_x) - x - self.radius - 6.0 * d.unit()
 
     def _light_end(self, i: int) -> None:
