@@ -70,3 +70,9 @@ def polygon(corners: Iterable[Iterable[float]], material: Material = MATTE, name
 def _three(values: Sequence[float]) -> tuple[float, float, float]:
     x, y, z = (float(value) for value in values)
     return (x, y, z)
+
+
+def sheet(height: float, material: Material) -> Object:
+    """A thin level square about the y axis."""
+    corners = ((-9.0, height, -9.0), (-9.0, height, 9.0), (9.0, height, 9.0), (9.0, height, -9.0))
+    return Object(Polygon(corners), material, "sheet", thin=True)

@@ -26,9 +26,7 @@ class Canvas:
         self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)
         self.nodes: dict[int, tuple[float, float]] = {}
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
-        self.told: tuple[RayTree, int] | None = (
-            None  # which ray the panel of numbers was about
-        )
+        self.told: tuple[RayTree, int] | None = None  # which ray the panel of numbers was about
         self._image_key: object = None
         self._world: object = None
         self._theme: object = None

@@ -1,4 +1,4 @@
-"""The rules of DESIGN's "what the numbers mean": limits, cuts, shadow rays, thin sheets, lights."""
+"""The rules of DESIGN's "what the numbers mean": limits, cuts, thin sheets, media, Fresnel's shares."""
 
 import math
 
@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import DARK, GLASS, MATTE, MIRROR, ball, box, ends, kinds, plane, world_of
+from tests.scenes import GLASS, MATTE, MIRROR, ball, box, ends, kinds, plane, sheet, world_of
 from tracer.nodes import SHADOW
 from tracer.scene import Checker, Light, Material
-from tracer.shapes.polygon import Polygon
 
 HALF_MIRROR = Material("half", reflect=0.5)
 SUN = Light("sun", direction=(0.0, -1.0, 0.0))
@@ -59,73 +58,6 @@ def test_what_is_missing_is_within_the_residual(limits: dict) -> None:
     assert leaves + cut.residual == pytest.approx(1.0, abs=len(cut) * 2.0**-50)
 
 
-def test_image_traces_one_shadow_ray_a_lit_hit() -> None:
-    """Nothing needless: none to a light behind the surface, none for a surface that light does not change."""
-    lamps = [Light("eye", position=(0.0, 0.0, 100.0)), Light("behind", position=(0.0, 0.0, -100.0))]
-    for lights in (lamps[:1], lamps):
-        image = tracer.render(world_of(ball(), lights=lights))
-        hits = int((image.pixels.sum(axis=2) > 0.0).sum())
-        assert image.rays == {"camera": 64 * 48, "reflection": 0, "refraction": 0, "tir": 0, "shadow": hits}
-    image = tracer.render(world_of(ball(material=Material("dull", ambient=1.0)), lights=lamps))
-    assert image.rays["shadow"] == 0
-
-
-def test_tree_has_a_shadow_ray_to_every_light() -> None:
-    """Also to those that add nothing: behind the surface, or where the material takes no light."""
-    below = Light("below", position=(0.0, -3.0, 0.0))
-    ray = ((0, 1, 0), (0.1, -1, 0))
-    for material in (Material("matte", diffuse=1.0), Material("dull", ambient=1.0)):
-        floor = plane((0, 0, 0), (0, 1, 0), material)
-        tree = tracer.trace(world_of(floor, lights=[SUN, below]), ray=ray)
-        assert ends(tree) == ["surface", "lit", "blocked"]
-        assert tree.object_name(2) == "plane"
-        assert tree.faces_away(2)
-        assert tree.nodes["t"][2] == 0.0
-        assert tree.nodes["point"][2].tolist() == tree.nodes["point"][0].tolist()
-        assert not tree.nodes["radiance"][2].any()
-        assert tree.nodes["local"][0][0] == material.diffuse + material.ambient
-
-
-@pytest.mark.parametrize(("shadows", "share"), [("filter", 0.9), ("block", 0.0)])
-def test_glass_that_faces_away_is_in_its_own_way(shadows: str, share: float) -> None:
-    """A sheet seen from above, lit from below: its light comes through it, and adds nothing on this side."""
-    below = Light("below", position=(0.0, -3.0, 0.0))
-    pane = tracer_sheet(0.0, Material("sheet", transmit=0.9, diffuse=1.0))
-    tree = tracer.trace(world_of(pane, lights=[below], shadows=shadows), ray=((0, 1, 0), (0, -1, 0)), depth=0)
-    assert tree.end(1) == ("filtered" if share else "blocked")
-    assert tree.object_name(1) == tree.object_name(0)
-    assert tree.nodes["factor"][1].tolist() == [share] * 3
-    assert not tree.nodes["local"][0].any()
-
-
-def test_shadow_rows_carry_their_lights_share() -> None:
-    lamps = [
-        Light("near", position=(0.0, 2.0, 0.0), color=(0.5, 0.25, 0.125)),
-        Light("far", position=(0.0, 4.0, 0.0), color=(0.25, 0.5, 1.0)),
-        SUN,
-    ]
-    floor = plane((0, 0, 0), (0, 1, 0), Material("floor", color=(0.5, 1.0, 1.0), diffuse=0.5, ambient=0.25))
-    lid = box((-1, 3, -1), (1, 3.5, 1), DARK, "lid")
-    tree = tracer.trace(world_of(floor, lid, lights=lamps), ray=((0, 1, 0), (0, -1, 0)), depth=0)
-    assert kinds(tree) == ["camera", "shadow", "shadow", "shadow"]
-    assert [tree.light_name(i) for i in (1, 2, 3)] == ["near", "far", "sun"]
-    assert ends(tree)[1:] == ["lit", "blocked", "blocked"]
-    assert [tree.object_name(i) for i in (1, 2, 3)] == [None, "lid", "lid"]
-    assert tree.nodes["t"][1:].tolist() == [2.0, 3.0, 3.0]
-    assert tree.nodes["radiance"][1].tolist() == [0.125, 0.125, 0.0625]
-    assert tree.nodes["radiance"][2:].tolist() == [[0.0] * 3] * 2
-    assert tree.nodes["local"][0].tolist() == [0.25, 0.375, 0.3125]
-    assert [tree.path(i) for i in range(4)] == ["ED", "EDL", "ED", "ED"]
-
-
-def test_unblocked_light_at_infinity_has_no_end() -> None:
-    tree = tracer.trace(world_of(plane((0, 0, 0), (0, 1, 0)), lights=[SUN]), ray=((0, 1, 0), (1, -1, 0)), depth=0)
-    assert ends(tree) == ["surface", "lit"]
-    assert math.isnan(tree.nodes["t"][1])
-    assert tree.nodes["direction"][1].tolist() == [0.0, 1.0, 0.0]
-    assert tree.to_dict()["nodes"][1]["point"] is None
-
-
 def test_phong_highlight() -> None:
     """ks (R.V)^p at 45 degrees in and straight up out: cos(45)^2 = 1/2."""
     shiny = Material("shiny", specular=0.5, shininess=2.0)
@@ -136,30 +68,10 @@ def test_phong_highlight() -> None:
     assert tree.radiance == pytest.approx([0.25] * 3, rel=1e-14, abs=0.0)
 
 
-@pytest.mark.parametrize(("shadows", "share", "end"), [("filter", 0.81 * 0.5, "filtered"), ("block", 0.0, "blocked")])
-def test_glass_filters_or_blocks_shadow_rays(shadows: str, share: float, end: str) -> None:
-    """In and out of a ball and through a thin sheet: transmit squared, times the sheet's."""
-    glass = ball((0, 3, 0), 1, Material("glass", transmit=0.9, ior=1.5), "glass")
-    sheet = tracer_sheet(5.0, Material("sheet", transmit=0.5))
-    world = world_of(plane((0, 0, 0), (0, 1, 0)), glass, sheet, lights=[SUN], shadows=shadows)
-    tree = tracer.trace(world, ray=((0, 0.5, 0), (0, -1, 0)), depth=0)
-    assert ends(tree) == ["surface", end]
-    assert tree.nodes["factor"][1][0] == pytest.approx(share, rel=4e-16, abs=0.0)
-    assert tree.object_name(1) == "glass"
-    assert tree.radiance[0] == pytest.approx(share, rel=4e-16, abs=0.0)
-
-
-def tracer_sheet(height: float, material: Material):
-    from tracer.scene import Object
-
-    corners = ((-9.0, height, -9.0), (-9.0, height, 9.0), (9.0, height, 9.0), (9.0, height, -9.0))
-    return Object(Polygon(corners), material, "sheet", thin=True)
-
-
 @pytest.mark.parametrize("model", ["whitted", "fresnel"])
 def test_thin_sheet_transmits_unbent(model: str) -> None:
-    sheet = tracer_sheet(0.0, Material("sheet", reflect=0.1, transmit=0.9, ior=1.5))
-    tree = tracer.trace(world_of(sheet, model=model), ray=((0, 1, 0), (1, -2, 0.5)), depth=1)
+    pane = sheet(0.0, Material("sheet", reflect=0.1, transmit=0.9, ior=1.5))
+    tree = tracer.trace(world_of(pane, model=model), ray=((0, 1, 0), (1, -2, 0.5)), depth=1)
     assert kinds(tree) == ["camera", "reflection", "refraction"]
     assert (tree.nodes["direction"][2] == tree.nodes["direction"][0]).all()
     assert tree.nodes["n2"][0] == tree.nodes["n1"][2] == 1.0
