@@ -1,8 +1,9 @@
 """Sphere: |p - c|^2 = r^2. Packed as a = centre, r = radius.
 
-The slides' quadratic, in the form of Haines, Günther & Akenine-Möller (Ray Tracing Gems, ch. 7): the discriminant from
-the ray's distance to the centre, not from two large numbers, and the root that would cancel as the product of both
-roots over the other one.
+The slides' quadratic. Whether the ray hits, and about where, is asked of the form by Haines, Günther & Akenine-Möller
+(Ray Tracing Gems, ch. 7): the discriminant from the ray's distance to the centre, not from two large numbers. Spheres
+much larger or much smaller than their distance leave it too few digits. So a root that is kept takes one Newton step
+from a residual that does not cancel; and where the form cannot decide, the quadratic is solved in pairs.
 """
 
 import math
@@ -12,11 +13,41 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.jit import compiled
+from tracer.jit import compiled, routine, stay_apart
+from tracer.pairs import (
+    Pair,
+    PairVector,
+    exact_difference,
+    minus,
+    normal_pair,
+    over,
+    pair_cross,
+    pair_dot,
+    pair_vector,
+    plus,
+    root,
+    times,
+    two_product,
+    two_sum,
+)
 from tracer.rays import Ray
-from tracer.vector import Vector, add, dot, length, scale, subtract, vector
+from tracer.vector import Vector, add, dot, length, scale, subtract, unit, vector
 
 NAME = "sphere"
+
+U = 2.0**-53
+SMALLEST = 5e-324  # the number after 0
+
+# The quick form gets the ray's closest point to the centre wrong by 8 u |f| at most, f from the centre to the ray's
+# start; so the discriminant by less than SHARE of (CLOSE (r^2 + beside^2) + ROUGH |f|^2), since 2xy <= x^2 + y^2.
+SHARE = 2.0**-10
+CLOSE = 2.0**-20
+ROUGH = (8 * U) ** 2 / (SHARE * SHARE * CLOSE)
+POWER = 32 * U  # |f|^2 - r^2 has the right sign where it is more than this of |f|^2 + r^2
+
+# Times the way to the hit: a sphere so large has a centre too far, one so small a surface too fine, to start from.
+LARGE = 4.0
+SMALL = 2.0**20
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,30 +73,132 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) 
     f = subtract(ray.origin, vector(surface.a))
     b = -dot(f, ray.direction)
     beside = add(f, scale(b, ray.direction))  # from the centre to the ray's closest point
-    r2 = surface.r * surface.r
-    discriminant = r2 - dot(beside, beside)
-    if discriminant < 0.0:
+    r2, beside2 = surface.r * surface.r, dot(beside, beside)
+    discriminant = r2 - beside2
+    doubt = CLOSE * (r2 + beside2) + ROUGH * (b * b)
+    if discriminant < -doubt:
         return math.inf
-    q = b + math.copysign(math.sqrt(discriminant), b)
-    product = (dot(f, f) - r2) / q if q != 0.0 else 0.0
-    near, far = min(q, product), max(q, product)
+    power = dot(f, f) - r2  # the product of both roots: above 0 outside
+    if not (discriminant > doubt and abs(power) > POWER * (power + 2.0 * r2)):
+        return first_root(surface, ray, floor)
+    if power > 0.0 and b < 0.0:
+        return math.inf
+    half_chord = math.sqrt(discriminant)
+    first = b - math.copysign(half_chord, power)
+    if first - (SHARE * half_chord + POWER * abs(b)) > ceiling:
+        return math.inf
+    t = polished(surface, ray, first)
+    if t < floor and power > 0.0:
+        t = polished(surface, ray, b + half_chord)
+    return t if t >= floor else math.inf
+
+
+@compiled
+def polished(surface: Any, ray: Ray, t: float) -> float:
+    """The root near t, to the last digit, by a Newton step: g(t) = |f + t d|^2 - r^2, g'(t) = 2 (f + t d).d."""
+    p, g = residual(surface, ray, t)
+    slope = dot((p[0][0], p[1][0], p[2][0]), ray.direction)
+    step = g / (2.0 * slope)
+    # What a second step would still move it by, and what the slope's own rounding does.
+    if abs(step) * (abs(step) + 8 * U * surface.r) <= 0.125 * U * abs(t * slope):
+        return t - step
+    near, far = roots(surface, ray)
+    return near if slope < 0.0 else far
+
+
+@compiled
+def residual(surface: Any, ray: Ray, t: float) -> tuple[PairVector, float]:
+    """From the centre to the point at t, and that vector's |p|^2 - r^2."""
+    x = beyond(ray.origin[0], surface.a[0], t, ray.direction[0])
+    y = beyond(ray.origin[1], surface.a[1], t, ray.direction[1])
+    z = beyond(ray.origin[2], surface.a[2], t, ray.direction[2])
+    xx, yy, zz = two_product(x[0], x[0]), two_product(y[0], y[0]), two_product(z[0], z[0])
+    rr = two_product(surface.r, surface.r)
+    two = two_sum(xx[0], yy[0])
+    three = two_sum(two[0], zz[0])
+    four = two_sum(three[0], -rr[0])
+    low = (two[1] + three[1] + four[1]) + (xx[1] + yy[1] + zz[1] - rr[1])
+    return ((x, y, z), four[0] + (low + 2.0 * (x[0] * x[1] + y[0] * y[1] + z[0] * z[1])))
+
+
+@compiled
+def beyond(o: float, c: float, t: float, d: float) -> Pair:
+    """o - c + t d."""
+    start, way = two_sum(o, -c), two_product(t, d)
+    total = two_sum(start[0], way[0])
+    return normal_pair(total[0], total[1] + (start[1] + way[1]))
+
+
+@routine
+def first_root(surface: Any, ray: Ray, floor: float) -> float:
+    """`intersect` where the quick form cannot tell."""
+    stay_apart()
+    near, far = roots(surface, ray)
     if near > 0.0 and near >= floor:
         return near
-    if far > 0.0 and far >= floor:
-        return far
-    return math.inf
+    return far if far > 0.0 and far >= floor else math.inf
+
+
+@routine
+def roots(surface: Any, ray: Ray) -> tuple[float, float]:
+    """Both roots of A t^2 + 2 B t + C = 0, solved in pairs; infinite where there are none.
+
+    The discriminant B^2 - A C is A r^2 - |f x d|^2 (Lagrange's identity); q/A and C/q never cancel.
+    """
+    stay_apart()
+    f, d = exact_difference(ray.origin, vector(surface.a)), pair_vector(ray.direction)
+    a, b = pair_dot(d, d), pair_dot(f, d)
+    r2 = two_product(surface.r, surface.r)
+    across = pair_cross(f, d)
+    discriminant = minus(times(a, r2), pair_dot(across, across))
+    if not discriminant[0] >= 0.0:
+        return (math.inf, math.inf)
+    half_chord = root(discriminant)
+    if b[0] < 0.0:
+        q = minus(half_chord, b)
+        return (over(minus(pair_dot(f, f), r2), q), over(q, a))
+    q = plus(half_chord, b)
+    if q[0] == 0.0:
+        return (0.0, 0.0)
+    near = -over(q, a)
+    return (near, -over(minus(pair_dot(f, f), r2), q))
 
 
 @compiled
 def again(world: Any, surface: Any, ray: Ray) -> float:
     """The other end of the chord, for a ray that starts on this sphere: t = -2 f.d, no quadratic left to solve."""
     chord = -2.0 * dot(subtract(ray.origin, vector(surface.a)), ray.direction)
-    return chord if ray.side < 0.0 and chord > 0.0 else math.inf
+    return max(chord, SMALLEST) if ray.side < 0.0 else math.inf
 
 
 @compiled
 def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+    """The hit, put onto the sphere, and its normal."""
+    reach = ray.reach + t
+    if surface.r > LARGE * reach or reach > SMALL * surface.r:
+        return locate_with_care(surface, ray, t)
     center = vector(surface.a)
     f = subtract(add(ray.origin, scale(t, ray.direction)), center)
     n = scale(1.0 / length(f), f)
     return (add(center, scale(surface.r, n)), n, n)
+
+
+@routine
+def locate_with_care(surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+    """`locate` on a sphere whose centre or whose size is out of all proportion to the way there."""
+    stay_apart()
+    d, r = ray.direction, surface.r
+    f, g = residual(surface, ray, t)
+    to_hit = (f[0][0], f[1][0], f[2][0])
+    if r > ray.reach + t:  # the centre has fewer digits than the hit: move this along the normal, no more
+        n = unit(to_hit)
+        p = add(ray.origin, scale(t, d))
+        return (subtract(p, scale(0.5 * g / r, n)), n, n)
+    # t has fewer digits than the sphere: from the ray's closest point, half a chord back or on.
+    along = dot(to_hit, d)
+    beside = scale(1.0 / r, subtract(to_hit, scale(along, d)))
+    half_chord = math.sqrt(max(1.0 - dot(beside, beside), 0.0))
+    center = vector(surface.a)
+    back = t <= -dot(subtract(ray.origin, center), d) and ray.side >= 0.0
+    n = unit(add(beside, scale(-half_chord if back else half_chord, d)))
+    return (add(center, scale(r, n)), n, n)
