@@ -7,12 +7,10 @@ a change in the entry point's own file only and would go on using stale code of 
 """
 
 import hashlib
-import math
 import os
 import shutil
 import tempfile
 from collections.abc import Callable
-from fractions import Fraction
 from functools import cache
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
@@ -58,22 +56,30 @@ def _lower_stay_apart(context: Any, builder: Any, signature: Any, arguments: Any
     return context.get_dummy_value()
 
 
-def fused(a: float, b: float, c: float) -> float:
-    """a b + c with a single rounding: one instruction once compiled (IEEE 754, 5.4.1: fusedMultiplyAdd)."""
-    roughly = a * b + c
-    if not math.isfinite(roughly):
-        return roughly
-    return float(Fraction(a) * Fraction(b) + Fraction(c)) or roughly
+SPLIT = 2.0**27 + 1.0
 
 
-@type_callable(fused)
-def _type_fused(context: Any) -> Any:
-    return lambda a, b, c: types.float64
+def product_error(a: Any, b: Any, product: Any) -> Any:
+    """a b - product, where product is a b rounded: a float, without an error.
+
+    Compiled it is one instruction (IEEE 754, 5.4.1: fusedMultiplyAdd). Python before 3.13 has none: there the factors
+    are split into halves whose products are exact (Dekker, Numerische Mathematik 18, 1971); arrays may be given too.
+    """
+    a_high = SPLIT * a - (SPLIT * a - a)
+    b_high = SPLIT * b - (SPLIT * b - b)
+    a_low, b_low = a - a_high, b - b_high
+    return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
 
 
-@lower_builtin(fused, types.float64, types.float64, types.float64)
-def _lower_fused(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    return builder.fma(*arguments)
+@type_callable(product_error)
+def _type_product_error(context: Any) -> Any:
+    return lambda a, b, product: types.float64
+
+
+@lower_builtin(product_error, types.float64, types.float64, types.float64)
+def _lower_product_error(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    a, b, product = arguments
+    return builder.fma(a, b, builder.fneg(product))
 
 
 def kernel(function: Callable[P, R]) -> Callable[P, R]:

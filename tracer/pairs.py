@@ -3,11 +3,13 @@
 A rounding error of a sum or a product is itself a float, and a few operations find it (Knuth, TAOCP 2, 4.2.2; Dekker,
 Numerische Mathematik 18, 1971; Ogita, Rump & Oishi, SIAM J. Sci. Comput. 26(6), 2005). What is kept in pairs here has
 an error of some 2^-104 of the largest number met on the way, so the difference of two large numbers keeps its digits.
+
+From Python these functions take arrays as well.
 """
 
 import math
 
-from tracer.jit import compiled, fused
+from tracer.jit import compiled, product_error
 from tracer.vector import Vector
 
 Pair = tuple[float, float]  # (nearest float, what is missing)
@@ -25,7 +27,7 @@ def two_sum(a: float, b: float) -> Pair:
 def two_product(a: float, b: float) -> Pair:
     """a b without an error."""
     product = a * b
-    return (product, fused(a, b, -product))
+    return (product, product_error(a, b, product))
 
 
 @compiled

@@ -26,7 +26,8 @@ SURFACE = np.dtype(
         ("a", np.float64, 3),  # a..count: as the shape's file says under "Packed as"
         ("b", np.float64, 3),
         ("c", np.float64, 3),
-        ("normal", np.float64, 3),
+        ("normal", np.float64, 3),  # unit, of a flat face
+        ("low", np.float64, 3),  # what rounding took from it, times any one number near 1
         ("r", np.float64),
         ("first", np.int32),  # of a polygon's corners, -1 for none
         ("count", np.int32),  # corners of a flat face, 0 for what has none

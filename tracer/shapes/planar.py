@@ -1,4 +1,4 @@
-"""What plane, polygon and triangle share. Packed as a = a point of it, normal, r = |x| + |y| + |z| of that point.
+"""What plane, polygon and triangle share. Packed as a = a point of it, normal + low, r = |x| + |y| + |z| of that point.
 
 t = n.(a - o) / n.d. Where a ray starts closer to the plane than rounding can tell, the sign of that t says nothing,
 and no threshold would: at the corner of a room the next wall must be hit at once, at the edge of a cube it must not.
@@ -6,20 +6,31 @@ The answer is in the corners: a ray that leaves face A lies on that side of face
 """
 
 import math
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from tracer.jit import compiled, routine, stay_apart
+from tracer.pairs import (
+    PairVector,
+    exact_difference,
+    over,
+    pair_cross,
+    pair_dot,
+    pair_vector,
+    plus,
+    two_product,
+)
 from tracer.rays import Ray
-from tracer.vector import Vector, add, dot, scale, subtract, vector
+from tracer.vector import Vector, VectorLike, add, dot, scale, subtract, vector
 
 # Rounding errors of n.(a - o): three products, three differences and two sums, and as many again in the point of the
 # surface the ray leaves; each at most 2^-53 of |a| + |o| in the 1-norm.
 NEAR = 16 * 2.0**-53
 
 
-LOOSE = 1.0 + 2.0**-50
+FAR = 4.0  # times the way to the hit: where the plane's own point lies farther, it is the one with fewer digits
 
 
 @compiled
@@ -51,36 +62,77 @@ def side_of(world: Any, face: Any, plane: Any) -> int:
 
 
 @compiled
-def plane_distance(world: Any, surface: Any, ray: Ray, ceiling: float) -> tuple[float, float]:
-    """(t, slack): t > 0 to the plane of the face, 0 where the ray starts on it and crosses it, else infinite.
+def rounding(surface: Any, ray: Ray) -> float:
+    """How far from the plane of a face a ray's start may be computed that lies in it."""
+    return NEAR * (surface.r + ray.reach)
 
-    The slack is 0, but where the ray starts on the plane: there it is how far outside of the face's outline rounding
-    may have put a point that lies on the edge of both faces.
-    """
+
+@compiled
+def height_and_speed(surface: Any, ray: Ray) -> tuple[float, float]:
+    """n.(a - o) and n.d; their ratio is the distance to the plane."""
     normal = vector(surface.normal)
-    height = dot(normal, subtract(vector(surface.a), ray.origin))
-    speed = dot(normal, ray.direction)
-    error = NEAR * (surface.r + ray.reach)
-    if ray.start >= 0 and abs(height) <= error and speed != 0.0:
-        return (touching_distance(world, surface, ray, height / speed, speed), 2.0 * error)
-    # Most planes lie behind or too far: that is seen without dividing. Nothing is dropped that would round to the
-    # ceiling.
-    if (height > 0.0) != (speed > 0.0) or abs(height) > abs(speed) * (ceiling * LOOSE):
-        return (math.inf, 0.0)
-    if height == 0.0 or speed == 0.0:
-        return (math.inf, 0.0)
-    return (height / speed, 0.0)
+    return (dot(normal, subtract(vector(surface.a), ray.origin)), dot(normal, ray.direction))
+
+
+@compiled
+def may_cross(surface: Any, ray: Ray, ceiling: float) -> bool:
+    """Whether the ray may cross the plane no farther than the ceiling: most planes lie behind or too far, and that is
+    seen without dividing. Nothing is dropped that rounding could have put there."""
+    height, speed = height_and_speed(surface, ray)
+    error = rounding(surface, ray)
+    behind = (height > 0.0) != (speed > 0.0) and abs(height) > error and abs(speed) > NEAR
+    return not behind and abs(height) - error <= (abs(speed) + NEAR) * ceiling
+
+
+@compiled
+def outline_slack(surface: Any, ray: Ray) -> float:
+    """How far outside of a face's outline rounding may have put a point on the edge of this face and the one the ray
+    starts on; 0 where it starts elsewhere."""
+    height, _ = height_and_speed(surface, ray)
+    error = rounding(surface, ray)
+    return 2.0 * error if ray.start >= 0 and abs(height) <= error else 0.0
+
+
+@compiled
+def plane_distance(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
+    """t > 0 to the plane of the face, 0 where the ray starts on it and crosses it; infinite where not within limits."""
+    height, speed = height_and_speed(surface, ray)
+    if ray.start >= 0 and abs(height) <= rounding(surface, ray):
+        t = touching_distance(world, surface, ray, speed)
+    elif is_aligned(surface):
+        t = height / speed
+    else:
+        t = exact_distance(surface, ray)
+    return t if floor <= t <= ceiling and 0.0 <= t < math.inf else math.inf
+
+
+@compiled
+def is_aligned(surface: Any) -> bool:
+    """Whether the normal is along an axis: then n.(a - o) is one difference and n.d one number."""
+    n = surface.normal
+    return (n[0] == 0.0) + (n[1] == 0.0) + (n[2] == 0.0) == 2
 
 
 @routine
-def touching_distance(world: Any, surface: Any, ray: Ray, t: float, speed: float) -> float:
+def exact_distance(surface: Any, ray: Ray) -> float:
+    """n.(a - o) / n.d in pairs, so that neither a grazing ray nor a far point of the plane costs digits."""
+    n, low = surface.normal, surface.low
+    normal = ((n[0], low[0]), (n[1], low[1]), (n[2], low[2]))
+    height = pair_dot(normal, exact_difference(vector(surface.a), ray.origin))
+    speed = pair_dot(normal, pair_vector(ray.direction))
+    return over(height, speed) if speed[0] != 0.0 else math.inf
+
+
+@routine
+def touching_distance(world: Any, surface: Any, ray: Ray, speed: float) -> float:
     """`plane_distance` for a ray whose start cannot be told from a point of the plane."""
     stay_apart()
+    if speed == 0.0:
+        return math.inf
     start = world.surfaces[ray.start]
-    if start.count < 3:  # not a face with corners: nothing better to go by than t itself
-        return t if t > 0.0 else math.inf
-    side = side_of(world, start, surface)
-    if side == 2:
+    t = exact_distance(surface, ray)
+    side = side_of(world, start, surface) if start.count >= 3 else 2
+    if side == 2:  # no face with corners, or one that the plane cuts: nothing better to go by than t itself
         return t if t > 0.0 else math.inf
     if side == 0 or side * speed > 0.0:
         return math.inf
@@ -103,11 +155,22 @@ def is_beside(ax: float, ay: float, bx: float, by: float, slack: float) -> bool:
 
 @compiled
 def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-    """The hit moved into the plane, so that the rounding of t does not lift it off."""
+    """The hit moved into the plane, so that rounding does not lift it off."""
     n = vector(surface.normal)
     p = add(ray.origin, scale(t, ray.direction))
-    height = dot(n, subtract(p, vector(surface.a)))
+    if surface.r > FAR * (ray.reach + t) and not is_aligned(surface):
+        height = exact_height(surface, p)
+    else:
+        height = dot(n, subtract(p, vector(surface.a)))
     return (subtract(p, scale(height, n)), n, n)
+
+
+@routine
+def exact_height(surface: Any, p: Vector) -> float:
+    """n.(p - a) in pairs, for an `a` so far from the hit that it has fewer digits."""
+    stay_apart()
+    n, low = surface.normal, surface.low
+    return pair_dot(((n[0], low[0]), (n[1], low[1]), (n[2], low[2])), exact_difference(p, vector(surface.a)))[0]
 
 
 @compiled
@@ -116,13 +179,29 @@ def never(world: Any, surface: Any, ray: Ray) -> float:
     return math.inf
 
 
-def newell(corners: np.ndarray) -> np.ndarray:
-    """Unit normal of a closed line of corners (n, 3), seen counter-clockwise from its tip; zero for no area.
+def newell(corners: np.ndarray) -> PairVector:
+    """A normal, of any length, of a closed line of corners (n, 3), seen counter-clockwise from its tip; 0 for no area.
 
-    Sum of the cross products of neighbouring corners about their mean (M. Newell's rule; Sutherland, Sproull &
-    Schumacker, Computing Surveys 6(1), 1974).
+    Sum of the cross products of neighbouring corners about the first (M. Newell's rule; Sutherland, Sproull &
+    Schumacker, Computing Surveys 6(1), 1974), in pairs.
     """
-    arms = corners - corners.mean(axis=0)
-    area = np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0)
-    size = math.hypot(*area)
-    return area / size if size > 0.0 else area
+    arms = [exact_difference(as_floats(corner), as_floats(corners[0])) for corner in corners[1:]]
+    area = pair_vector((0.0, 0.0, 0.0))
+    for before, after in pairwise(arms):
+        x, y, z = pair_cross(before, after)
+        area = (plus(area[0], x), plus(area[1], y), plus(area[2], z))
+    return area
+
+
+def pack_normal(rows: Any, area: PairVector) -> None:
+    """Fill in `normal` and `low` from normals of any length above 0, numbers or arrays."""
+    (x, x_low), (y, y_low), (z, z_low) = area
+    size = np.sqrt(x * x + y * y + z * z)
+    for k, (high, low) in enumerate(((x, x_low), (y, y_low), (z, z_low))):
+        rows["normal"][..., k] = n = high / size
+        product, error = two_product(n, size)
+        rows["low"][..., k] = ((high - product) - error + low) / size
+
+
+def as_floats(a: VectorLike) -> Vector:
+    return (float(a[0]), float(a[1]), float(a[2]))

@@ -1,5 +1,6 @@
 """Plane: all p with n.(p - a) = 0, without end. As a solid it is the half-space its normal points away from."""
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -7,10 +8,11 @@ import numpy as np
 
 from tracer import fields
 from tracer.jit import compiled
+from tracer.pairs import pair_vector
 from tracer.rays import Ray
 from tracer.shapes import planar
-from tracer.shapes.planar import plane_distance
-from tracer.vector import Vector, tame, unit
+from tracer.shapes.planar import may_cross, pack_normal, plane_distance
+from tracer.vector import Vector, tame
 
 NAME = "plane"
 
@@ -22,7 +24,7 @@ class Plane:
 
     def pack(self, rows: Any) -> None:
         rows["a"] = self.point
-        rows["normal"] = unit(tame(self.normal))
+        pack_normal(rows, pair_vector(tame(self.normal)))
         rows["r"] = np.abs(self.point).sum()
 
     def bounds(self) -> None:
@@ -35,8 +37,7 @@ class Plane:
 
 @compiled
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
-    t, _ = plane_distance(world, surface, ray, ceiling)
-    return t if t >= floor else np.inf
+    return plane_distance(world, surface, ray, floor, ceiling) if may_cross(surface, ray, ceiling) else math.inf
 
 
 again = planar.never

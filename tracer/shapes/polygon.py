@@ -14,7 +14,7 @@ from tracer import fields
 from tracer.jit import compiled
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.planar import is_beside, newell, plane_distance
+from tracer.shapes.planar import is_beside, may_cross, newell, outline_slack, pack_normal, plane_distance
 from tracer.vector import Vector, vector
 
 NAME = "polygon"
@@ -28,12 +28,12 @@ class Polygon:
 
     def pack(self, rows: Any) -> None:
         rows["a"] = self.vertices[0]
-        rows["normal"] = newell(np.array(self.vertices))
+        pack_normal(rows, newell(self.corners()))
         rows["r"] = np.abs(self.vertices[0]).sum()
         rows["count"] = len(self.vertices)
 
     def corners(self) -> np.ndarray:
-        return np.array(self.vertices)
+        return np.array(self.vertices, float)
 
     def bounds(self) -> np.ndarray:
         return np.stack([np.min(self.vertices, axis=0), np.max(self.vertices, axis=0)])[None]
@@ -42,10 +42,11 @@ class Polygon:
         return False
 
     def faults(self) -> list[str]:
-        corners = np.array(self.vertices)
-        normal = newell(corners)
-        if not normal.any():
+        corners = self.corners()
+        area = np.array([high for high, _ in newell(corners)])
+        if not area.any():
             return ["vertices must enclose an area, got corners on one line"]
+        normal = area / math.hypot(*area)
         arms = corners - corners.mean(axis=0)
         size = np.linalg.norm(arms, axis=1).max()
         heights = np.abs(arms @ normal)
@@ -60,9 +61,9 @@ class Polygon:
 
 @compiled
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
-    t, slack = plane_distance(world, surface, ray, ceiling)
-    if not (floor <= t <= ceiling and t < math.inf):
+    if not may_cross(surface, ray, ceiling):
         return math.inf
+    slack = outline_slack(surface, ray)
     inside = False
     x0, y0 = sheared(ray, vector(world.corners[surface.first + surface.count - 1]))
     for k in range(surface.count):
@@ -72,13 +73,13 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) 
             # then the edge goes through the ray itself, and that counts as inside, for either neighbour.
             turn = x0 * y1 - x1 * y0
             if turn == 0.0:
-                return t
+                return plane_distance(world, surface, ray, floor, ceiling)
             if (turn > 0.0) == (y1 > y0):
                 inside = not inside
         if slack > 0.0 and is_beside(x0, y0, x1, y1, slack):
-            return t
+            return plane_distance(world, surface, ray, floor, ceiling)
         x0, y0 = x1, y1
-    return t if inside else math.inf
+    return plane_distance(world, surface, ray, floor, ceiling) if inside else math.inf
 
 
 again = planar.never

@@ -31,7 +31,7 @@ from tracer.pairs import (
     two_sum,
 )
 from tracer.rays import Ray
-from tracer.vector import Vector, add, dot, length, scale, subtract, unit, vector
+from tracer.vector import Vector, add, dot, scale, subtract, unit, vector
 
 NAME = "sphere"
 
@@ -179,7 +179,7 @@ def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector
         return locate_with_care(surface, ray, t)
     center = vector(surface.a)
     f = subtract(add(ray.origin, scale(t, ray.direction)), center)
-    n = scale(1.0 / length(f), f)
+    n = unit(f)
     return (add(center, scale(surface.r, n)), n, n)
 
 

@@ -13,9 +13,10 @@ import numpy as np
 
 from tracer import fields
 from tracer.jit import compiled
+from tracer.pairs import exact_difference, pair_cross
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.planar import is_beside, newell, plane_distance
+from tracer.shapes.planar import is_beside, may_cross, newell, outline_slack, pack_normal, plane_distance
 from tracer.vector import Vector, add, cross, dot, scale, subtract, unit, vector
 
 NAME = "triangle"
@@ -35,7 +36,7 @@ class Triangle:
         return False
 
     def faults(self) -> list[str]:
-        if newell(np.array(self.vertices)).any():
+        if any(high for high, _ in newell(np.array(self.vertices, float))):
             return []
         return ["vertices must enclose an area, got corners on one line"]
 
@@ -43,16 +44,15 @@ class Triangle:
 def pack_triangles(rows: Any, corners: np.ndarray) -> None:
     """Fill one row a triangle from corners (n, 3, 3); none may be without area."""
     rows["a"], rows["b"], rows["c"] = corners[:, 0], corners[:, 1], corners[:, 2]
-    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    rows["normal"] = area / np.sqrt((area * area).sum(axis=1, keepdims=True))
+    a, b, c = (tuple(corners[:, k].T) for k in range(3))
+    pack_normal(rows, pair_cross(exact_difference(b, a), exact_difference(c, a)))
     rows["r"] = np.abs(corners[:, 0]).sum(axis=1)
     rows["count"] = 3
 
 
 @compiled
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
-    t, slack = plane_distance(world, surface, ray, ceiling)
-    if not (floor <= t <= ceiling and t < math.inf):
+    if not may_cross(surface, ray, ceiling):
         return math.inf
     ax, ay = sheared(ray, vector(surface.a))
     bx, by = sheared(ray, vector(surface.b))
@@ -61,11 +61,13 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) 
     v = ax * cy - ay * cx
     w = bx * ay - by * ax
     if (u < 0.0 or v < 0.0 or w < 0.0) and (u > 0.0 or v > 0.0 or w > 0.0):
+        slack = outline_slack(surface, ray)
         beside = slack > 0.0 and (
             is_beside(ax, ay, bx, by, slack) or is_beside(bx, by, cx, cy, slack) or is_beside(cx, cy, ax, ay, slack)
         )
-        return t if beside else math.inf
-    return t
+        if not beside:
+            return math.inf
+    return plane_distance(world, surface, ray, floor, ceiling)
 
 
 again = planar.never
