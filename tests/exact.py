@@ -1,0 +1,93 @@
+"""Numbers, vectors and surfaces with 50 digits, for the judge. A new shape is a case in `surface`.
+
+A vector is an array of three mpf. A surface is all p with q.M(q) + 2 g.q + h = 0, where q = p - at: M is the map of a
+quadric, 0 where the surface is flat. Half its gradient, M(q) + g, points outwards.
+"""
+
+from collections.abc import Callable, Iterable
+from functools import lru_cache
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from mpmath import mp, mpf
+
+from tracer.scene import Box, Mesh, Plane, Polygon, Shape, Sphere, Triangle
+
+mp.dps = 50
+
+Vector = np.ndarray
+
+NAN = mpf("nan")
+NOWHERE = np.array([NAN, NAN, NAN], object)
+
+
+def exact(values: Iterable[Any]) -> Vector:
+    """Floats as they are, to the last bit."""
+    return np.array([mpf(value) for value in values], object)
+
+
+def dot(a: Vector, b: Vector) -> mpf:
+    return (a * b).sum()
+
+
+def unit(a: Vector) -> Vector:
+    return a / mp.norm(a)
+
+
+def root(square: mpf) -> Any:
+    return mp.sqrt(square) if square >= 0 else NAN
+
+
+class Surface(NamedTuple):
+    at: Vector
+    g: Vector
+    map: Callable[[Vector], Vector] = lambda q: q * 0
+    h: mpf = mpf(0)
+
+
+def surface(shape: Shape, row: np.void) -> Surface:
+    """The surface of the shape that a recorded ray met."""
+    match shape:
+        case Sphere(center, radius):
+            return Surface(exact(center), exact((0, 0, 0)), lambda q: q, -(mpf(radius) ** 2))
+        case Plane(point, normal):
+            return Surface(exact(point), exact(normal))
+        case Polygon(vertices) | Triangle(vertices):
+            return Surface(exact(vertices[0]), area(vertices))
+        case Box(low, high):
+            k = int(np.argmax(np.abs(row["normal"])))
+            above = abs(row["point"][k] - high[k]) < abs(row["point"][k] - low[k])
+            g = np.eye(3)[k] * (1 if above else -1)
+            return Surface(exact(high if above else low), exact(g))
+        case Mesh():
+            corners = face(shape, row)
+            return Surface(exact(corners[0]), area(corners))
+    raise ValueError(f"the judge does not know the shape {type(shape).__name__}")
+
+
+def area(corners: Iterable[Iterable[float]]) -> Vector:
+    """Twice the area of a face along its normal, as Newell's sum: corners counter-clockwise from the normal's tip."""
+    points = [exact(corner) for corner in corners]
+    return sum((np.cross(a - points[0], b - points[0]) for a, b in pairwise(points)), exact((0, 0, 0)))
+
+
+@lru_cache(maxsize=8)
+def placed(mesh: Mesh) -> np.ndarray:
+    if mesh.smooth() is not None:
+        raise ValueError(f"the judge knows no interpolated normals, and mesh {mesh.file} has them")
+    return mesh.placed()
+
+
+def face(mesh: Mesh, row: np.void) -> np.ndarray:
+    """The corners of the face at the recorded point with the recorded normal."""
+    corners = placed(mesh)
+    edges = np.roll(corners, -1, axis=1) - corners
+    arms = row["point"] - corners
+    n = np.cross(edges[:, 0], edges[:, 1])
+    n /= np.linalg.norm(n, axis=1, keepdims=True)
+    sizes = np.linalg.norm(edges, axis=2)
+    outside = -(np.cross(edges, arms) * n[:, None]).sum(axis=2) / sizes  # of each edge, how far
+    height = np.abs((arms[:, 0] * n).sum(axis=1))
+    turned = np.linalg.norm(np.cross(n, row["normal"]), axis=1) * sizes.max(axis=1)
+    return corners[np.argmin(height + turned + np.maximum(outside.max(axis=1), 0.0))]
