@@ -10,7 +10,7 @@ from typing import Any
 from tracer.jit import compiled, routine
 from tracer.limits import WHITTED, Limits
 from tracer.nodes import DEPTH, INVALID, NODES, REFLECTION, REFRACTION, SURFACE, TIR, WEIGHT
-from tracer.optics import cosine, fresnel_shares, radicand, reflect, sine, transmission
+from tracer.optics import cosine, fresnel_shares, mirrored, radicand, sine, transmission
 from tracer.rows import start_row, way_length
 from tracer.vector import Vector, largest, multiply, store, vector
 
@@ -41,7 +41,7 @@ def spawn(world: Any, limits: Limits, space: Any, i: int, count: int, planned: i
     cut = 0.0
     if reflected > 0.0:
         count, planned, lost = send(
-            world, limits, space, i, count, planned, kind, reflect(d, n), reflected, row.hit_side
+            world, limits, space, i, count, planned, kind, mirrored(d, n), reflected, row.hit_side
         )
         cut += lost
     if refracted > 0.0:
@@ -61,15 +61,15 @@ def bend(limits: Limits, row: Any, material: Any, thin: bool) -> tuple[float, fl
     """
     d, n = vector(row.direction), vector(row.normal)
     kr, kt, n2 = material.reflect, material.transmit, material.ior if thin else row.n2
-    c1, s1 = cosine(d, n), sine(d, n)
-    root = radicand(s1, row.n1, n2)
-    c2 = math.sqrt(max(root, 0.0))
-    through = d if thin else transmission(d, n, row.n1, n2, c1, c2)
+    c1 = cosine(d, n)
+    through = d if thin else transmission(d, n, row.n1, n2, c1, math.sqrt(row.radicand))
     if limits.model == WHITTED:
         return (kr, kt, through)
+    s1 = sine(d, n)
+    root = radicand(s1, row.n1, n2)
     if root <= 0.0:
         return (kr + kt, 0.0, through)
-    r, t = fresnel_shares(c1, s1, c2, row.n1, n2)
+    r, t = fresnel_shares(c1, s1, math.sqrt(root), row.n1, n2)
     return (kr + kt * r, kt * t, through)
 
 

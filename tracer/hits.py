@@ -18,16 +18,18 @@ SMALLEST = 5e-324  # the number after 0
 
 
 @compiled
-def distance(world: Any, s: int, ray: Ray, floor: float, floor_id: int, above: float, ceiling: float) -> float:
+def distance(
+    world: Any, s: int, ray: Ray, floor: float, floor_id: int, above: float, ceiling: float, exactly: bool
+) -> float:
     """Distance to surface s, if it comes after the hit (floor, floor_id) and not beyond the ceiling.
 
-    `above` is the number after `floor`.
+    `above` is the number after `floor`. Not `exactly`: only whether there is one will be asked.
     """
     least = floor if s > floor_id else above
     if s == ray.start:
         t = again(world, world.surfaces[s], ray)
         return t if t >= least else math.inf
-    return intersect(world, world.surfaces[s], ray, least, ceiling)
+    return intersect(world, world.surfaces[s], ray, least, ceiling, exactly)
 
 
 @compiled
@@ -45,7 +47,7 @@ def closest_within(
     best, found, tied = limit, -1, False
     for k in range(len(world.unbounded)):
         s = world.unbounded[k]
-        t = distance(world, s, ray, floor, floor_id, above, best)
+        t = distance(world, s, ray, floor, floor_id, above, best, True)
         best, found, tied = nearer(t, s, best, found, tied)
     depth = 0
     node = 0 if len(world.hierarchy) > 0 and entry(world.hierarchy[0], ray, best) < math.inf else -1
@@ -54,7 +56,7 @@ def closest_within(
         if box.count > 0:
             for k in range(box.second, box.second + box.count):
                 s = world.order[k]
-                t = distance(world, s, ray, floor, floor_id, above, best)
+                t = distance(world, s, ray, floor, floor_id, above, best, True)
                 best, found, tied = nearer(t, s, best, found, tied)
             node = -1
         else:

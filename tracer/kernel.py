@@ -14,7 +14,7 @@ from tracer.jit import compiled, routine
 from tracer.limits import Limits
 from tracer.media import index_of, medium
 from tracer.nodes import BACKGROUND, SHADOW
-from tracer.optics import cosine, radicand, reflect, sine, transmission
+from tracer.optics import cosine, mirrored, radicand, sine, transmission
 from tracer.rays import make_ray
 from tracer.rows import record_shadow, record_unlit, way_length
 from tracer.shading import ambient, phong, surface_color
@@ -83,7 +83,7 @@ def trace_ray(world: Any, space: Any, i: int) -> None:
         if shading_n != n and not is_usable(d, n, shading_n, n1, row.n2):
             shading_n = n
         row.radicand = radicand(sine(d, shading_n), n1, row.n2)
-    elif shading_n != n and dot(reflect(d, shading_n), n) <= 0.0:
+    elif shading_n != n and dot(mirrored(d, shading_n), n) <= 0.0:
         shading_n = n
     store(row.face, n)
     store(row.normal, shading_n)
@@ -92,7 +92,7 @@ def trace_ray(world: Any, space: Any, i: int) -> None:
 @routine
 def is_usable(d: Vector, n: Vector, shading_n: Vector, n1: float, n2: float) -> bool:
     """Whether an interpolated normal sends the reflected ray to the front of the face and the refracted one behind."""
-    if dot(d, shading_n) >= 0.0 or dot(reflect(d, shading_n), n) <= 0.0:
+    if dot(d, shading_n) >= 0.0 or dot(mirrored(d, shading_n), n) <= 0.0:
         return False
     root = radicand(sine(d, shading_n), n1, n2)
     if root <= 0.0:

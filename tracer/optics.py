@@ -12,14 +12,13 @@ nearly match, 1 - R at grazing incidence. Each is written here as an equal produ
 import math
 
 from tracer.jit import compiled
-from tracer.vector import Vector, VectorLike, add, cross, dot, length, scale, subtract, unit, vector
+from tracer.vector import Vector, VectorLike, add, cross, dot, length, nearly_unit, scale, subtract, tame, unit
 
 
 @compiled
-def reflect(v: VectorLike, n: VectorLike) -> Vector:
-    """r = v - 2 (n.v) n: the mirror direction, a unit vector for a v of any length > 0."""
-    d, normal = unit(vector(v)), vector(n)
-    return subtract(d, scale(2.0 * dot(normal, d), normal))
+def mirrored(v: Vector, n: Vector) -> Vector:
+    """r = v - 2 (n.v) n for a unit v. 2 - n.n stands for 1/n.n: the last digit of n's length is not to turn r."""
+    return nearly_unit(subtract(v, scale(2.0 * (dot(n, v) * (2.0 - dot(n, n))), n)))
 
 
 @compiled
@@ -45,7 +44,7 @@ def radicand(s1: float, n1: float, n2: float) -> float:
 def transmission(v: Vector, n: Vector, n1: float, n2: float, c1: float, c2: float) -> Vector:
     """t = eta v + (eta c1 - c2) n for a unit v, the second bracket as (n1^2 - n2^2) / (n2 (n1 c1 + n2 c2))."""
     bend = (n1 - n2) * (n1 + n2) / (n2 * (n1 * c1 + n2 * c2))
-    return unit(add(scale(n1 / n2, v), scale(bend, n)))
+    return nearly_unit(add(scale(n1 / n2, v), scale(bend, n)))
 
 
 @compiled
@@ -76,14 +75,19 @@ def angle(a: Vector, b: Vector) -> float:
 # What follows is for people: any sequence of three numbers, any length of v, None where there is no answer.
 
 
+def reflect(v: VectorLike, n: VectorLike) -> Vector:
+    """The mirror direction, a unit vector."""
+    return mirrored(unit(tame(v)), unit(tame(n)))
+
+
 def refract(v: VectorLike, n: VectorLike, n1: float, n2: float) -> Vector | None:
     """The unit direction behind the surface, or None on total internal reflection."""
-    d = unit(vector(v))
-    s1 = sine(d, vector(n))
+    d, n = unit(tame(v)), unit(tame(n))
+    s1 = sine(d, n)
     root = radicand(s1, n1, n2)
     if root <= 0.0:
         return None
-    return transmission(d, vector(n), n1, n2, cosine(d, vector(n)), math.sqrt(root))
+    return transmission(d, n, n1, n2, cosine(d, n), math.sqrt(root))
 
 
 def fresnel(cos1: float, n1: float, n2: float) -> tuple[float, float]:

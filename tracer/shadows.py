@@ -85,25 +85,25 @@ def obstruction(world: Any, ray: Ray, end: float, glass_blocks: bool, space: Any
 @compiled
 def gather(world: Any, s: int, ray: Ray, end: float, glass_blocks: bool, crossed: Any, count: int) -> int:
     """The count after surface s has been looked at."""
-    t = distance(world, s, ray, 0.0, -1, SMALLEST, end)
-    if t >= end:
+    if distance(world, s, ray, 0.0, -1, SMALLEST, end, False) >= end:
         return count
     if glass_blocks or transmit(world, s) == 0.0:
         return OPAQUE
-    return gather_glass(world, s, ray, t, end, crossed, count)
+    return gather_glass(world, s, ray, end, crossed, count)
 
 
 @routine
-def gather_glass(world: Any, s: int, ray: Ray, t: float, end: float, crossed: Any, count: int) -> int:
-    """Note where the transparent surface s is crossed, first at t: a ball may be crossed twice."""
+def gather_glass(world: Any, s: int, ray: Ray, end: float, crossed: Any, count: int) -> int:
+    """Note where the transparent surface s is crossed: a ball may be crossed twice."""
     stay_apart()
+    t = distance(world, s, ray, 0.0, -1, SMALLEST, end, True)
     while t < end:
         if count == TOO_MANY or count == len(crossed):
             return TOO_MANY
         crossed[count].t = t
         crossed[count].surface = s
         count += 1
-        t = distance(world, s, ray, t, s, np.nextafter(t, math.inf), end)
+        t = distance(world, s, ray, t, s, np.nextafter(t, math.inf), end, True)
     return count
 
 

@@ -79,6 +79,15 @@ def unit(a: Vector) -> Vector:
     return (a[0] / size, a[1] / size, a[2] / size)
 
 
+@compiled
+def nearly_unit(a: Vector) -> Vector:
+    """A vector whose length is 1 but for rounding, with less of it: a step of Newton's for 1/sqrt, which needs no root.
+
+    What has length 1 to the last digit stays as it is, so a direction that only changes signs keeps its digits.
+    """
+    return scale(1.5 - 0.5 * dot(a, a), a)
+
+
 def tame(a: VectorLike) -> Vector:
     """A vector of any size but 0 times a power of two that makes its largest component about 1.
 

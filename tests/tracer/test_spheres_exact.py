@@ -18,7 +18,7 @@ from tracer.nodes import BACKGROUND
 mpmath.mp.dps = 50
 U = 2.0**-53
 
-Vector = tuple[float, float, float]
+Vector = tuple[float, ...]
 
 
 def roots(origin: Vector, direction: Vector, center: Vector, radius: float) -> tuple[mpf, mpf] | None:
@@ -35,7 +35,9 @@ def roots(origin: Vector, direction: Vector, center: Vector, radius: float) -> t
 
 def hit(origin: Vector, direction: Vector, center: Vector, radius: float) -> tuple[float | None, mpf | None]:
     """(distance found, exact distance) of the first hit, None for a miss."""
-    tree = tracer.trace(world_of(ball(center, radius, MATTE)), ray=(origin, direction), depth=0)
+    tree = tracer.trace(
+        world_of(ball((center[0], center[1], center[2]), radius, MATTE)), ray=(origin, direction), depth=0
+    )
     row = tree.nodes[0]
     exact = roots(tuple(row["origin"]), tuple(row["direction"]), center, radius)
     first = None if exact is None else next((t for t in exact if t > 0), None)

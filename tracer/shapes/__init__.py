@@ -2,8 +2,8 @@
 
 A shape's file has NAME, the dataclass an author writes, and what kernels call, all with the row of `world.surfaces`
 the shape was packed into:
-    intersect(world, surface, ray, floor, ceiling)   smallest t > 0 that is >= floor, infinite for none;
-        what lies beyond the ceiling may be left out
+    intersect(world, surface, ray, floor, ceiling, exactly)   smallest t > 0 that is >= floor, infinite for none;
+        what lies beyond the ceiling is left out. Where it need not be exact any number within the limits will do
     again(world, surface, ray)              the same for a ray that starts on this very surface
     locate(world, surface, ray, t)          the hit point, the outward normal, the normal to shade with
 """
@@ -35,10 +35,10 @@ def _fold(part: str, otherwise: Callable[..., Any], link: Callable[..., Any]) ->
 
 def _link_intersect(code: int, own: Any, rest: Any) -> Any:
     @compiled
-    def choose(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
+    def choose(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
         if surface.form == code:
-            return own(world, surface, ray, floor, ceiling)
-        return rest(world, surface, ray, floor, ceiling)
+            return own(world, surface, ray, floor, ceiling, exactly)
+        return rest(world, surface, ray, floor, ceiling, exactly)
 
     return choose
 
@@ -64,7 +64,7 @@ def _link_locate(code: int, own: Any, rest: Any) -> Any:
 
 
 @compiled
-def _no_intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
+def _no_intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     return math.inf
 
 

@@ -56,7 +56,7 @@ def crossing(surface: Any, ray: Ray) -> tuple[float, float]:
 
 
 @compiled
-def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
+def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     enter, leave = crossing(surface, ray)
     if enter > leave:
         return math.inf

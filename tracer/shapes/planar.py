@@ -94,12 +94,15 @@ def outline_slack(surface: Any, ray: Ray) -> float:
 
 
 @compiled
-def plane_distance(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
+def plane_distance(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     """t > 0 to the plane of the face, 0 where the ray starts on it and crosses it; infinite where not within limits."""
     height, speed = height_and_speed(surface, ray)
-    if ray.start >= 0 and abs(height) <= rounding(surface, ray):
+    error = rounding(surface, ray)
+    if ray.start >= 0 and abs(height) <= error:
         t = touching_distance(world, surface, ray, speed)
-    elif is_aligned(surface):
+    elif is_aligned(surface) or (
+        not exactly and (abs(speed) + NEAR) * floor + error < abs(height) < (abs(speed) - NEAR) * ceiling - error
+    ):
         t = height / speed
     else:
         t = exact_distance(surface, ray)
@@ -191,6 +194,12 @@ def newell(corners: np.ndarray) -> PairVector:
         x, y, z = pair_cross(before, after)
         area = (plus(area[0], x), plus(area[1], y), plus(area[2], z))
     return area
+
+
+def unit_normal(corners: np.ndarray) -> np.ndarray:
+    """`newell` with length 1; 0 for no area."""
+    area = np.array([high for high, _ in newell(corners)])
+    return area / (math.hypot(*area) or 1.0)
 
 
 def pack_normal(rows: Any, area: PairVector) -> None:

@@ -36,8 +36,10 @@ class Plane:
 
 
 @compiled
-def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
-    return plane_distance(world, surface, ray, floor, ceiling) if may_cross(surface, ray, ceiling) else math.inf
+def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
+    return (
+        plane_distance(world, surface, ray, floor, ceiling, exactly) if may_cross(surface, ray, ceiling) else math.inf
+    )
 
 
 again = planar.never

@@ -14,7 +14,7 @@ from tracer import fields
 from tracer.jit import compiled
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.planar import is_beside, may_cross, newell, outline_slack, pack_normal, plane_distance
+from tracer.shapes.planar import is_beside, may_cross, newell, outline_slack, pack_normal, plane_distance, unit_normal
 from tracer.vector import Vector, vector
 
 NAME = "polygon"
@@ -43,10 +43,9 @@ class Polygon:
 
     def faults(self) -> list[str]:
         corners = self.corners()
-        area = np.array([high for high, _ in newell(corners)])
-        if not area.any():
+        normal = unit_normal(corners)
+        if not normal.any():
             return ["vertices must enclose an area, got corners on one line"]
-        normal = area / math.hypot(*area)
         arms = corners - corners.mean(axis=0)
         size = np.linalg.norm(arms, axis=1).max()
         heights = np.abs(arms @ normal)
@@ -60,7 +59,7 @@ class Polygon:
 
 
 @compiled
-def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
+def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     if not may_cross(surface, ray, ceiling):
         return math.inf
     slack = outline_slack(surface, ray)
@@ -73,13 +72,13 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) 
             # then the edge goes through the ray itself, and that counts as inside, for either neighbour.
             turn = x0 * y1 - x1 * y0
             if turn == 0.0:
-                return plane_distance(world, surface, ray, floor, ceiling)
+                return plane_distance(world, surface, ray, floor, ceiling, exactly)
             if (turn > 0.0) == (y1 > y0):
                 inside = not inside
         if slack > 0.0 and is_beside(x0, y0, x1, y1, slack):
-            return plane_distance(world, surface, ray, floor, ceiling)
+            return plane_distance(world, surface, ray, floor, ceiling, exactly)
         x0, y0 = x1, y1
-    return plane_distance(world, surface, ray, floor, ceiling) if inside else math.inf
+    return plane_distance(world, surface, ray, floor, ceiling, exactly) if inside else math.inf
 
 
 again = planar.never

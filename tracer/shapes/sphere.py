@@ -69,7 +69,7 @@ class Sphere:
 
 
 @compiled
-def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
+def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     f = subtract(ray.origin, vector(surface.a))
     b = -dot(f, ray.direction)
     beside = add(f, scale(b, ray.direction))  # from the centre to the ray's closest point
@@ -80,17 +80,20 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) 
         return math.inf
     power = dot(f, f) - r2  # the product of both roots: above 0 outside
     if not (discriminant > doubt and abs(power) > POWER * (power + 2.0 * r2)):
-        return first_root(surface, ray, floor)
+        return first_root(surface, ray, floor, ceiling)
     if power > 0.0 and b < 0.0:
         return math.inf
     half_chord = math.sqrt(discriminant)
     first = b - math.copysign(half_chord, power)
-    if first - (SHARE * half_chord + POWER * abs(b)) > ceiling:
+    doubt = SHARE * half_chord + POWER * abs(b)
+    if first - doubt > ceiling:
         return math.inf
+    if not exactly and first - doubt > floor and first + doubt < ceiling:
+        return first
     t = polished(surface, ray, first)
     if t < floor and power > 0.0:
         t = polished(surface, ray, b + half_chord)
-    return t if t >= floor else math.inf
+    return t if floor <= t <= ceiling else math.inf
 
 
 @compiled
@@ -130,13 +133,12 @@ def beyond(o: float, c: float, t: float, d: float) -> Pair:
 
 
 @routine
-def first_root(surface: Any, ray: Ray, floor: float) -> float:
+def first_root(surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
     """`intersect` where the quick form cannot tell."""
     stay_apart()
     near, far = roots(surface, ray)
-    if near > 0.0 and near >= floor:
-        return near
-    return far if far > 0.0 and far >= floor else math.inf
+    t = near if near > 0.0 and near >= floor else far
+    return t if t > 0.0 and floor <= t <= ceiling else math.inf
 
 
 @routine

@@ -16,7 +16,7 @@ from tracer.jit import compiled
 from tracer.pairs import exact_difference, pair_cross
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.planar import is_beside, may_cross, newell, outline_slack, pack_normal, plane_distance
+from tracer.shapes.planar import is_beside, may_cross, outline_slack, pack_normal, plane_distance, unit_normal
 from tracer.vector import Vector, add, cross, dot, scale, subtract, unit, vector
 
 NAME = "triangle"
@@ -36,7 +36,7 @@ class Triangle:
         return False
 
     def faults(self) -> list[str]:
-        if any(high for high, _ in newell(np.array(self.vertices, float))):
+        if unit_normal(np.array(self.vertices, float)).any():
             return []
         return ["vertices must enclose an area, got corners on one line"]
 
@@ -51,7 +51,7 @@ def pack_triangles(rows: Any, corners: np.ndarray) -> None:
 
 
 @compiled
-def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
+def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     if not may_cross(surface, ray, ceiling):
         return math.inf
     ax, ay = sheared(ray, vector(surface.a))
@@ -67,7 +67,7 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float) 
         )
         if not beside:
             return math.inf
-    return plane_distance(world, surface, ray, floor, ceiling)
+    return plane_distance(world, surface, ray, floor, ceiling, exactly)
 
 
 again = planar.never

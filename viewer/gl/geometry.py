@@ -9,7 +9,7 @@ import numpy as np
 
 from tracer.shapes.box import Box
 from tracer.shapes.mesh import Mesh
-from tracer.shapes.planar import newell
+from tracer.shapes.planar import unit_normal
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
@@ -101,7 +101,7 @@ def _polygon(corners: np.ndarray) -> np.ndarray:
     """Cut a flat outline, convex or not, into triangles in its own plane."""
     import mapbox_earcut
 
-    n = newell(corners)
+    n = unit_normal(corners)
     u = corners[1] - corners[0]
     u = u - (u @ n) * n
     u /= np.linalg.norm(u)
