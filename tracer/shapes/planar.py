@@ -119,6 +119,7 @@ def is_aligned(surface: Any) -> bool:
 @routine
 def exact_distance(surface: Any, ray: Ray) -> float:
     """n.(a - o) / n.d in pairs, so that neither a grazing ray nor a far point of the plane costs digits."""
+    stay_apart()
     n, low = surface.normal, surface.low
     normal = ((n[0], low[0]), (n[1], low[1]), (n[2], low[2]))
     height = pair_dot(normal, exact_difference(vector(surface.a), ray.origin))
