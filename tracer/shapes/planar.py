@@ -1,4 +1,4 @@
-"""What plane, polygon and triangle share. Packed as a = a point of it, normal, r = |x| + |y| + |z| of that point.
+"""What plane, polygon, triangle and disc share. Packed as a = a point of it, normal, r = |x| + |y| + |z| of that point.
 
 t = n.(a - o) / n.d. Where a ray starts closer to the plane than rounding can tell, the sign of that t says nothing,
 and no threshold would: at the corner of a room the next wall must be hit at once, at the edge of a cube it must not.
