@@ -101,6 +101,15 @@ def test_ray_along_the_axis_of_a_cylinder_meets_nothing(direction: tuple) -> Non
     assert on_the_side["end"] == BACKGROUND or np.isfinite(on_the_side["point"]).all()
 
 
+def test_hair_thin_fibre() -> None:
+    """Radius and slope 2^-30: A is 2^-60, and still the side is met at z = 3/2, 7/2 and so on, from half way out."""
+    hair = cone((0, 0, 0), 2.0**-30, (0, 0, 1000), 2.0**-30, MIRROR)
+    tree = tracer.trace(world_of(hair), ray=((-(2.0**-31), 0, 0), (2.0**-30, 0, 1)), depth=100)
+    expected = 1.5 + 2.0 * np.arange(101)
+    assert (np.abs(tree.nodes["point"][:, 2] / expected - 1.0) <= 8 * U).all()
+    assert (np.abs(tree.nodes["point"][:, 0]) == 2.0**-30).all()
+
+
 def test_mirrored_pipe_is_a_fibre() -> None:
     """Each reflection turns the hit by the same angle and lifts it by the same height, a hundred times over.
 
@@ -126,10 +135,17 @@ def test_glass_cone_bounds_its_medium_on_the_side_of_its_axis() -> None:
     world = world_of(cone((0, 0, 0), 1, (0, 0, 5), 1, glass))
     across = tracer.trace(world, ray=((3, 0, 2), (-1, 0, 0)), depth=3)
     assert across.nodes["n1"].tolist() == [1.0, 1.5, 1.0]
-    out = tracer.trace(
-        world, ray=((0, 0, 2), (1, 0, 0)), depth=3
-    )  # open: that it begins inside, only its side can tell
+    # It is open: that a ray begins inside, only the side can tell when it is left.
+    out = tracer.trace(world, ray=((0, 0, 2), (1, 0, 0)), depth=3)
     assert out.nodes["n1"].tolist() == [1.5, 1.0]
+
+
+@pytest.mark.parametrize(("z", "climb", "indices"), [(9, -1, (1.0, 1.5)), (1, 1, (1.5, 1.0))])
+def test_tip_of_glass_is_entered_from_without_and_left_from_within(z: int, climb: int, indices: tuple) -> None:
+    glass = Material("glass", transmit=1.0, ior=1.5)
+    tree = tracer.trace(world_of(replace(HAT, material=glass)), ray=((0, 0, z), (0, 0, climb)), depth=1)
+    assert (tree.nodes["n1"][0], tree.nodes["n2"][0]) == indices
+    assert tree.nodes["normal"][0].tolist() == [0.0, 0.0, -climb]
 
 
 @pytest.mark.parametrize(
