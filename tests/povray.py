@@ -15,6 +15,8 @@ import numpy as np
 
 from tracer.scene import Material, Object, Scene
 from tracer.shapes.box import Box
+from tracer.shapes.cone import Cone
+from tracer.shapes.disc import Disc
 from tracer.shapes.mesh import Mesh
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
@@ -59,6 +61,10 @@ def _object(item: Object) -> str:
             return f"plane {{ {_v(unit)}, {float(unit @ point)!r} {finish} }}"
         case Box():
             return f"box {{ {_v(item.shape.min)}, {_v(item.shape.max)} {finish} }}"
+        case Cone(base, base_radius, apex, apex_radius):
+            return f"cone {{ {_v(base)}, {base_radius!r}, {_v(apex)}, {apex_radius!r} open {finish} }}"
+        case Disc(center, normal, radius):
+            return f"disc {{ {_v(center)}, {_v(normal)}, {radius!r} {finish} }}"
         case Polygon(vertices):
             corners = ", ".join(_v(corner) for corner in (*vertices, vertices[0]))
             return f"polygon {{ {len(vertices) + 1}, {corners} {finish} }}"
@@ -77,7 +83,7 @@ def _finish(shape: object, material: Material) -> str:
         assert material.transmit == 0.0
         size = material.checker.size
         pigment = f"checker color {_rgb(material.color)} color {_rgb(material.checker.color)} scale {size!r}"
-        if isinstance(shape, Polygon | Plane):
+        if isinstance(shape, Polygon | Plane | Disc):
             pigment += f" translate {_v(_into_a_cell(shape, size))}"
     shares = {
         "ambient": material.ambient / opaque,
@@ -91,15 +97,14 @@ def _finish(shape: object, material: Material) -> str:
     return f"texture {{ pigment {{ {pigment} }} finish {{ {finish} }} }} {interior}"
 
 
-def _into_a_cell(shape: Polygon | Plane, size: float) -> np.ndarray:
+def _into_a_cell(shape: Polygon | Plane | Disc, size: float) -> np.ndarray:
     """Its checker is one of cubes: moved along the face's normal, an axis, so that the face lies in the middle of cubes
     whose third number is even."""
-    point = np.array(shape.vertices[0] if isinstance(shape, Polygon) else shape.point)
     if isinstance(shape, Polygon):
         corners = np.array(shape.vertices)
-        normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+        point, normal = corners[0], np.cross(corners[1] - corners[0], corners[2] - corners[0])
     else:
-        normal = np.array(shape.normal)
+        point, normal = np.array(shape.center if isinstance(shape, Disc) else shape.point), np.array(shape.normal)
     axis = int(np.abs(normal).argmax())
     assert np.count_nonzero(normal) == 1, "only faces along the axes"
     return (point[axis] - 0.5 * size) * np.eye(3)[axis]

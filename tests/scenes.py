@@ -3,20 +3,27 @@
 import dataclasses
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+
 import tracer
 from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, Tracing
 from tracer.shapes.box import Box
+from tracer.shapes.cone import Cone
+from tracer.shapes.disc import Disc
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
+from tracer.vector import VectorLike
 
-Shape = Sphere | Plane | Polygon | Triangle | Box
+Shape = Sphere | Plane | Polygon | Triangle | Box | Cone | Disc
 
 GLASS = Material("glass", transmit=1.0, ior=1.5)
 MIRROR = Material("mirror", reflect=1.0)
 MATTE = Material("matte", diffuse=1.0)
 DARK = Material("dark")
+OPEN = Material("open", ambient=1.0)
+CLEAR = Material("clear", transmit=1.0, ior=1.0)
 
 
 def ball(
@@ -38,6 +45,32 @@ def box(
     low: Sequence[float], high: Sequence[float], material: Material = MATTE, name: str = "box", **more: object
 ) -> Object:
     return Object(Box(_three(low), _three(high)), material, name, **more)  # type: ignore[arg-type]
+
+
+def cone(
+    base: VectorLike,
+    base_radius: float,
+    apex: VectorLike,
+    apex_radius: float,
+    material: Material = MATTE,
+    name: str = "cone",
+) -> Object:
+    return Object(Cone(_three(base), float(base_radius), _three(apex), float(apex_radius)), material, name)
+
+
+def random_cone(random: np.random.Generator, k: int) -> Cone:
+    """In turn a cylinder, a cone with a tip, one upside down, and frusta of any slope."""
+    base = random.normal(size=3)
+    apex = base + random.normal(size=3) * 10.0 ** random.uniform(-2, 1)
+    r, s = 10.0 ** random.uniform(-1.5, 0.5, 2)
+    radii = [(r, r), (r, 0.0), (0.0, r), (r, s), (s, r)][k % 5]
+    return Cone(tuple(base.tolist()), float(radii[0]), tuple(apex.tolist()), float(radii[1]))
+
+
+def disc(
+    center: VectorLike, normal: VectorLike, radius: float, material: Material = MATTE, name: str = "disc"
+) -> Object:
+    return Object(Disc(_three(center), _three(normal), float(radius)), material, name)
 
 
 def world_of(*objects: Object, lights: Sequence[Light] = (), **options: object) -> tracer.World:
@@ -67,7 +100,7 @@ def polygon(corners: Iterable[Iterable[float]], material: Material = MATTE, name
     return Object(Polygon(tuple(_three(list(corner)) for corner in corners)), material, name)
 
 
-def _three(values: Sequence[float]) -> tuple[float, float, float]:
+def _three(values: VectorLike) -> tuple[float, float, float]:
     x, y, z = (float(value) for value in values)
     return (x, y, z)
 

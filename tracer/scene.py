@@ -14,6 +14,8 @@ import numpy as np
 from tracer import fields
 from tracer.media import INDICES
 from tracer.shapes.box import Box
+from tracer.shapes.cone import Cone
+from tracer.shapes.disc import Disc
 from tracer.shapes.mesh import Mesh
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
@@ -21,7 +23,7 @@ from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
 from tracer.vector import Vector
 
-Shape = Sphere | Plane | Polygon | Triangle | Box | Mesh
+Shape = Sphere | Plane | Polygon | Triangle | Box | Cone | Disc | Mesh
 
 NOT_YET = "0 (this version traces no other)"
 

@@ -37,8 +37,8 @@ def phong(material: Any, color: Vector, light: Vector, n: Vector, to_light: Vect
 def surface_color(material: Any, surface: Any, point: Vector) -> Vector:
     """C: the material's colour, or its checker's second one where the squares' indices add up to an odd number.
 
-    Squares lie along the surface's own two axes on planes and polygons (`surface.tiled`), cubes along the world's three
-    axes elsewhere.
+    Squares lie along the surface's own two axes on planes, polygons and discs (`surface.tiled`), cubes along the
+    world's three axes elsewhere.
     """
     size = material.checker_size
     if size > 0.0:

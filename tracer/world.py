@@ -14,6 +14,8 @@ from tracer.camera import View, scene_view
 from tracer.plan import Need, hidden_solids, needs
 from tracer.scene import Material, Object, Scene, SceneError
 from tracer.shapes import CODES
+from tracer.shapes.cone import Cone
+from tracer.shapes.disc import Disc
 from tracer.shapes.mesh import Mesh
 from tracer.shapes.planar import NEAR
 from tracer.shapes.plane import Plane
@@ -30,7 +32,7 @@ SURFACE = np.dtype(
         ("low", np.float64, 3),  # what rounding took from it, times any one number near 1
         ("r", np.float64),
         ("first", np.int32),  # of a polygon's corners, -1 for none
-        ("count", np.int32),  # corners of a flat face, 0 for what has none
+        ("count", np.int32),  # corners of a flat face, 1 for a sphere, 0 for what has none
         ("form", np.int32),  # which shape, as CODES numbers them
         ("object", np.int32),
         ("smooth", np.int32),  # row of `smooth`, -1 for none
@@ -75,6 +77,9 @@ LIGHT = np.dtype(
     ],
     align=True,
 )
+
+
+OPEN = (Polygon, Triangle, Cone, Disc)  # shapes that have no inside
 
 
 class Arrays(NamedTuple):
@@ -204,7 +209,7 @@ def _name(shape: Any) -> str:
 
 def _object(item: Object, material: int, rank: int) -> tuple[Any, ...]:
     shape = item.shape
-    closed = shape.is_closed() if isinstance(shape, Mesh) else not isinstance(shape, Polygon | Triangle)
+    closed = shape.is_closed() if isinstance(shape, Mesh) else not isinstance(shape, OPEN)
     normal = _flat_normal(shape)
     u, v = _axes(normal) if normal else ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     return (material, rank, closed, normal is not None, u, v)
@@ -212,7 +217,7 @@ def _object(item: Object, material: int, rank: int) -> tuple[Any, ...]:
 
 def _flat_normal(shape: Any) -> Vector | None:
     """The normal of a shape whose checker is flat."""
-    if isinstance(shape, Plane):
+    if isinstance(shape, Plane | Disc):
         return unit(tame(shape.normal))
     if isinstance(shape, Polygon):
         row = np.zeros(1, SURFACE)

@@ -8,6 +8,8 @@ import pytest
 import tracer
 from tracer.scene import Material, Scene, Shape
 from tracer.shapes.box import Box
+from tracer.shapes.cone import Cone
+from tracer.shapes.disc import Disc
 from tracer.shapes.mesh import Mesh
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
@@ -65,5 +67,10 @@ def shape(one: Shape, s: float) -> Shape:
             return replace(one, vertices=tuple(scale(s, vertex) for vertex in one.vertices))
         case Triangle():
             return replace(one, vertices=tuple(scale(s, vertex) for vertex in one.vertices))
+        case Cone():
+            ends = {"base": scale(s, one.base), "apex": scale(s, one.apex)}
+            return replace(one, base_radius=s * one.base_radius, apex_radius=s * one.apex_radius, **ends)
+        case Disc():
+            return replace(one, center=scale(s, one.center), radius=s * one.radius)
         case Mesh():
             return replace(one, scale=s * one.scale, translate=scale(s, one.translate))

@@ -10,9 +10,14 @@ import tracer
 from tests.scenes import MATTE, ball, world_of
 from tracer.scene import Camera, Image, Light, Material, Object, Scene
 from tracer.shapes.box import Box
+from tracer.shapes.cone import Cone
+from tracer.shapes.disc import Disc
 from tracer.shapes.sphere import Sphere
 
 BALL = '[[object]]\nshape = "sphere"\ncenter = [0, 0, 0]\nradius = 1\n'
+
+CONE = '[[object]]\nshape = "cone"\nbase = [0, 0, 0]\nbase_radius = 1\napex = [0, 2, 0]\napex_radius = 0\n'
+DISC = '[[object]]\nshape = "disc"\ncenter = [0, 0, 0]\nnormal = [0, 2, 0]\nradius = 1\n'
 
 FULL = """
 format = 1
@@ -81,6 +86,17 @@ vertices = [[0, 0, 0], [1, 0, 0], [1, 1, 0]]
 shape = "box"
 min = [0, 0, 0]
 max = [1, 2, 3]
+[[object]]
+shape = "cone"
+base = [0, 0, 0]
+base_radius = 2
+apex = [0, 3, 0]
+apex_radius = 0
+[[object]]
+shape = "disc"
+center = [0, 1, 0]
+normal = [0, 0, 5]
+radius = 2
 """
 
 
@@ -108,6 +124,8 @@ def test_every_key_is_read(scene_file) -> None:
     assert checker is not None
     assert (checker.color, checker.size) == ((0.2, 0.2, 0.2), 0.5)
     assert scene.objects[4].shape == Box((0.0, 0.0, 0.0), (1.0, 2.0, 3.0))
+    assert scene.objects[5].shape == Cone((0.0, 0.0, 0.0), 2.0, (0.0, 3.0, 0.0), 0.0)
+    assert scene.objects[6].shape == Disc((0.0, 1.0, 0.0), (0.0, 0.0, 5.0), 2.0)
     tracer.trace(tracer.prepare(scene), (30, 20))
 
 
@@ -205,6 +223,18 @@ def test_format_and_one_object_are_enough(scene_file) -> None:
             'format = 1\n[[object]]\nshape = "plane"\npoint = [0, 0, 0]\nnormal = [0, 0, 0]',
             "object[0]: normal must be a direction other than [0, 0, 0], got [0, 0, 0]",
         ),
+        (f"format = 1\n{CONE}".replace("base_radius = 1", "base_radius = -1"), "object[0]: base_radius must be >= 0, got -1"),
+        (f"format = 1\n{CONE}".replace("apex_radius = 0", "apex_radius = nan"), "object[0]: apex_radius must be a number of at most"),
+        (f"format = 1\n{CONE}".replace("apex_radius = 0", ""), "object[0]: apex_radius is missing"),
+        (f"format = 1\n{CONE}".replace("apex_radius", "top_radius"), 'object[0]: unknown key "top_radius" (did you mean "apex_radius"?)'),
+        (f"format = 1\n{CONE}".replace("[0, 2, 0]", "[0, 0, 0]"), "object[0]: apex must differ from base, got [0, 0, 0] for both"),
+        (
+            f"format = 1\n{CONE}".replace("base_radius = 1", "base_radius = 0"),
+            "object[0]: base_radius or apex_radius must be > 0, got 0 for both",
+        ),
+        (f"format = 1\n{DISC}".replace("radius = 1", "radius = 0"), "object[0]: radius must be > 0, got 0"),
+        (f"format = 1\n{DISC}".replace("[0, 2, 0]", "[0, 0, 0]"), "object[0]: normal must be a direction other than [0, 0, 0]"),
+        (f"format = 1\n{DISC}".replace("center", "centre"), 'object[0]: unknown key "centre" (did you mean "center"?)'),
         ('format = 1\n[[object]]\nshape = "mesh"\nfile = "none.obj"', "object[0]: mesh file not found: "),
         ('format = 1\n[[object]]\nshape = "mesh"', "object[0]: file is missing"),
         ('format = 1\n[[object]]\nshape = "mesh"\nfile = "scene.toml"', "object[0]: a mesh must be one of .obj, .ply, .stl, .glb"),

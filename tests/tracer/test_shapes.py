@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import MATTE, ball, box, kinds, polygon, world_of
+from tests.scenes import MATTE, OPEN, ball, box, kinds, polygon, world_of
 from tracer.nodes import BACKGROUND
 from tracer.rays import make_ray
 from tracer.scene import Material, Object
@@ -17,7 +17,6 @@ from tracer.shapes.polygon import Polygon
 from tracer.shapes.triangle import Triangle
 
 LETTER_U = tuple((float(x), float(y), 0.0) for x, y in ((0, 0), (4, 0), (4, 3), (3, 3), (3, 1), (1, 1), (1, 3), (0, 3)))
-OPEN = Material("open", ambient=1.0)
 
 
 def hits(world: tracer.World, origin: tuple, direction: tuple) -> bool:

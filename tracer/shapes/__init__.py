@@ -15,10 +15,10 @@ from typing import Any
 
 from tracer.jit import compiled
 from tracer.rays import Ray
-from tracer.shapes import box, plane, polygon, sphere, triangle
+from tracer.shapes import box, cone, disc, plane, polygon, sphere, triangle
 from tracer.vector import Vector
 
-SHAPES: tuple[ModuleType, ...] = (sphere, plane, polygon, triangle, box)
+SHAPES: tuple[ModuleType, ...] = (sphere, plane, polygon, triangle, box, cone, disc)
 
 CODES = {module.NAME: code for code, module in enumerate(SHAPES)}
 

@@ -1,4 +1,4 @@
-"""What plane, polygon and triangle share. Packed as a = a point of it, normal + low, r = |x| + |y| + |z| of that point.
+"""What plane, polygon, triangle and disc share. Packed as a = a point of it, normal + low, r = its |x| + |y| + |z|.
 
 t = n.(a - o) / n.d. Where a ray starts closer to the plane than rounding can tell, the sign of that t says nothing,
 and no threshold would: at the corner of a room the next wall must be hit at once, at the edge of a cube it must not.
@@ -33,6 +33,9 @@ NEAR = 16 * 2.0**-53
 FAR = 4.0  # times the way to the hit: where the plane's own point lies farther, it is the one with fewer digits
 
 
+BALL = 1  # the number of corners of a sphere
+
+
 @compiled
 def corner(world: Any, surface: Any, k: int) -> Vector:
     """The k-th corner of a face with `surface.count` corners (none: the face is a whole plane)."""
@@ -47,15 +50,16 @@ def corner(world: Any, surface: Any, k: int) -> Vector:
 
 @routine
 def side_of(world: Any, face: Any, plane: Any) -> int:
-    """On which side of the plane all of a face lies: +1, -1, 0 in it, 2 on both."""
+    """On which side of the plane all of a face lies: +1, -1, 0 in it, 2 on both. A ball is a corner with a radius."""
     above = below = False
     normal, a = vector(plane.normal), vector(plane.a)
+    radius = face.r if face.count == BALL else 0.0
     for k in range(face.count):
         p = corner(world, face, k)
         height = dot(normal, subtract(p, a))
-        error = NEAR * (plane.r + abs(p[0]) + abs(p[1]) + abs(p[2]))
-        above = above or height > error
-        below = below or height < -error
+        error = NEAR * (plane.r + radius + abs(p[0]) + abs(p[1]) + abs(p[2]))
+        above = above or height + radius > error
+        below = below or height - radius < -error
     if above:
         return 2 if below else 1
     return -1 if below else 0
@@ -135,14 +139,14 @@ def touching_distance(world: Any, surface: Any, ray: Ray, speed: float) -> float
         return math.inf
     start = world.surfaces[ray.start]
     t = exact_distance(surface, ray)
-    side = side_of(world, start, surface) if start.count >= 3 else 2
-    if side == 2:  # no face with corners, or one that the plane cuts: nothing better to go by than t itself
+    side = side_of(world, start, surface) if start.count > 0 else 2
+    if side == 2:  # it has no corners, or the plane cuts it: nothing better to go by than t itself
         return t if t > 0.0 else math.inf
     if side == 0 or side * speed > 0.0:
         return math.inf
     if surface.count >= 3:
         heading = 1 if dot(vector(start.normal), ray.direction) > 0.0 else -1
-        beyond = side_of(world, surface, start)
+        beyond = side_of(world, surface, start) if start.count >= 3 else 2
         if beyond != 2 and beyond != heading:
             return math.inf
     return max(t, 0.0)

@@ -31,6 +31,7 @@ from tracer.pairs import (
     two_sum,
 )
 from tracer.rays import Ray
+from tracer.shapes.planar import BALL
 from tracer.vector import Vector, add, dot, scale, subtract, unit, vector
 
 NAME = "sphere"
@@ -58,6 +59,7 @@ class Sphere:
     def pack(self, rows: Any) -> None:
         rows["a"] = self.center
         rows["r"] = self.radius
+        rows["count"] = BALL
 
     def bounds(self) -> np.ndarray:
         """(1, 2, 3): lowest and highest corner."""

@@ -8,6 +8,8 @@ import math
 import numpy as np
 
 from tracer.shapes.box import Box
+from tracer.shapes.cone import Cone
+from tracer.shapes.disc import Disc
 from tracer.shapes.mesh import Mesh
 from tracer.shapes.planar import unit_normal
 from tracer.shapes.plane import Plane
@@ -19,6 +21,7 @@ from viewer.orbit import Frame
 
 PLANE_REACH = 12.0  # radii of the scene
 CREASE = math.cos(math.radians(15.0))  # faces that meet at less than this angle are meant to be one
+ROUND = 64  # corners of a circle
 MOST_CREASES = 4000  # a shape with more is shown by its shading
 
 
@@ -40,10 +43,14 @@ def triangles(shape: object, frame: Frame) -> tuple[np.ndarray, np.ndarray]:
     """(corners, normals), both (n, 3, 3), of any shape."""
     match shape:
         case Sphere():
-            corners, faces = ball(64)
+            corners, faces = ball(ROUND)
             return (np.array(shape.center) + shape.radius * corners)[faces], corners[faces]
+        case Cone():
+            return _cone(shape)
         case Box():
             corners = _box(shape)
+        case Disc():
+            corners = _disc(shape)
         case Triangle():
             corners = np.array(shape.vertices)[None]
         case Polygon():
@@ -95,6 +102,40 @@ def _box(box: Box) -> np.ndarray:
             square = [at, at + p, at + p + q, at + q][:: int(side)]
             faces += [[square[0], square[1], square[2]], [square[0], square[2], square[3]]]
     return np.array(faces)
+
+
+def _circle(normal: np.ndarray) -> np.ndarray:
+    """The unit circle about a normal, counter-clockwise seen from its tip; the last corner is the first."""
+    n = np.array(unit(tame(normal)))
+    u = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
+    u /= np.linalg.norm(u)
+    phi = np.linspace(0.0, 2 * math.pi, ROUND + 1)[:, None]
+    corners = np.cos(phi) * u + np.sin(phi) * np.cross(n, u)
+    corners[-1] = corners[0]
+    return corners
+
+
+def _disc(disc: Disc) -> np.ndarray:
+    """A fan about its centre."""
+    rim = np.array(disc.center) + disc.radius * _circle(np.array(disc.normal))
+    return np.stack([np.broadcast_to(disc.center, rim[1:].shape), rim[:-1], rim[1:]], axis=1)
+
+
+def _cone(cone: Cone) -> tuple[np.ndarray, np.ndarray]:
+    """A strip between its two circles, with the normals of the cone; a tip takes one triangle of each pair."""
+    narrow, wide = cone.ends()
+    axis = cone.axis()
+    height, growth = math.hypot(*axis), abs(cone.base_radius - cone.apex_radius)
+    circle = _circle(np.array(axis))
+    r = min(cone.base_radius, cone.apex_radius)
+    low, high = np.array(narrow) + r * circle, np.array(wide) + (r + growth) * circle
+    n = (height * circle - growth * np.array(unit(tame(axis)))) / math.hypot(height, growth)
+    corners = np.stack([low[:-1], high[1:], high[:-1]], axis=1)
+    normals = np.stack([n[:-1], n[1:], n[:-1]], axis=1)
+    if r > 0.0:
+        corners = np.concatenate([corners, np.stack([low[:-1], low[1:], high[1:]], axis=1)])
+        normals = np.concatenate([normals, np.stack([n[:-1], n[1:], n[1:]], axis=1)])
+    return corners, normals
 
 
 def _polygon(corners: np.ndarray) -> np.ndarray:

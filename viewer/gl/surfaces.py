@@ -11,6 +11,7 @@ from typing import Any
 import moderngl
 import numpy as np
 
+from tracer.shapes.disc import Disc
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
@@ -179,7 +180,7 @@ class Surfaces:
             if self._is_plain_ball(item.shape):
                 continue
             corners, normals = triangles(item.shape, self.frame)
-            wall = isinstance(item.shape, Polygon | Triangle) or item.shape.contains(self.camera)
+            wall = isinstance(item.shape, Polygon | Triangle | Disc) or item.shape.contains(self.camera)
             glass = item.material.transmit > 0.0
             endless = isinstance(item.shape, Plane)
             if wall and not glass and not endless:
