@@ -44,7 +44,7 @@ def radicand(s1: float, n1: float, n2: float) -> float:
 def transmission(v: Vector, n: Vector, n1: float, n2: float, c1: float, c2: float) -> Vector:
     """t = eta v + (eta c1 - c2) n for a unit v, the second bracket as (n1^2 - n2^2) / (n2 (n1 c1 + n2 c2))."""
     bend = (n1 - n2) * (n1 + n2) / (n2 * (n1 * c1 + n2 * c2))
-    return nearly_unit(add(scale(n1 / n2, v), scale(bend, n)))
+    return unit(add(scale(n1 / n2, v), scale(bend, n)))
 
 
 @compiled

@@ -13,11 +13,14 @@ import numpy as np
 from tracer.hits import SMALLEST, closest, distance, entry, transmit
 from tracer.jit import compiled, routine, stay_apart
 from tracer.rays import Ray
-from tracer.vector import Vector, scale
+from tracer.vector import Vector, length, scale, subtract, unit, vector
 
 # A transparent surface crossed on the way, and the room for so many before the slower way is taken.
 CROSSING = np.dtype([("t", np.float64), ("surface", np.int64)])
 MOST_CROSSINGS = 32
+
+# Between these lengths squares neither vanish nor overflow.
+SHORTEST, LONGEST = 1e-140, 1e140
 
 OPAQUE, TOO_MANY = -1, -2  # instead of a number of crossings
 
@@ -27,9 +30,22 @@ def towards_light(light: Any, point: Vector) -> tuple[Vector, float]:
     """(unit direction, distance) from a point to a light; a light at infinity is infinitely far."""
     if light.distant:
         return ((light.towards[0], light.towards[1], light.towards[2]), math.inf)
-    x, y, z = light.position[0] - point[0], light.position[1] - point[1], light.position[2] - point[2]
-    far = math.sqrt(x * x + y * y + z * z)
-    return (scale(1.0 / far, (x, y, z)), far)
+    way = subtract(vector(light.position), point)
+    far = length(way)
+    if far < SHORTEST or far > LONGEST:
+        return scaled_way(way)
+    return (scale(1.0 / far, way), far)
+
+
+@routine
+def scaled_way(way: Vector) -> tuple[Vector, float]:
+    """(unit direction, length) of a vector whose squares are out of range; nowhere where the light is in the point."""
+    stay_apart()
+    size = max(abs(way[0]), max(abs(way[1]), abs(way[2])))
+    if size == 0.0:
+        return (way, 0.0)
+    way = (way[0] / size, way[1] / size, way[2] / size)
+    return (unit(way), size * length(way))
 
 
 @compiled

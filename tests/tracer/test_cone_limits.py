@@ -76,7 +76,7 @@ def test_called_from_python_the_formulas_give_the_bits_of_the_compiled_ones() ->
             own = (
                 formulas.again(None, surface, ray)
                 if row["depth"]
-                else formulas.intersect(None, surface, ray, 0.0, math.inf)
+                else formulas.intersect(None, surface, ray, 0.0, math.inf, True)
             )
             assert own == row["t"] or (own == math.inf and row["end"] == BACKGROUND)
             if own < math.inf:

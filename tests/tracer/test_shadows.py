@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import DARK, ball, box, ends, kinds, plane, sheet, world_of
+from tests.scenes import DARK, MATTE, ball, box, ends, kinds, plane, sheet, world_of
 from tracer.scene import Light, Material, Object
 from tracer.shadows import MOST_CROSSINGS
 from tracer.shapes.mesh import Geometry, Mesh
@@ -200,3 +200,27 @@ def test_nothing_behind_the_light_shades() -> None:
     world = world_of(plane((0, 0, 0), (0, 1, 0)), ball((0, 9, 0), 1), lights=[lamp])
     tree = tracer.trace(world, ray=((0, 0.5, 0), (0, -1, 0)), depth=0)
     assert ends(tree) == ["surface", "lit"]
+
+
+@pytest.mark.parametrize("height", [1e-300, 1e-170, 1e-160, 1e-154, 1e-140, 1.0, 1e140, 1e149])
+def test_light_at_any_distance_shines_as_bright(height: float) -> None:
+    """Its squares may be out of range: the direction is a unit vector all the same."""
+    world = world_of(plane((0, 0, 0), (0, 1, 0), MATTE), lights=[Light("lamp", position=(0.0, height, 0.0))])
+    tree = tracer.trace(world, ray=((0, 1, 0), (0, -1, 0)), depth=0)
+    assert tree.nodes["direction"][1].tolist() == [0.0, 1.0, 0.0]
+    assert tree.nodes["t"][1] == height
+    reference = world_of(plane((0, 0, 0), (0, 1, 0), MATTE), lights=[Light("lamp", position=(0.0, 3.0, 0.0))])
+    expected = tracer.trace(reference, ray=((0, 1, 0), (0, -1, 0)), depth=0)
+    assert tree.radiance.tolist() == expected.radiance.tolist()
+    aslant = tracer.trace(world, ray=((height, 1, 0), (0, -1, 0)), depth=0)
+    assert aslant.nodes["direction"][1].tolist() == pytest.approx(
+        [-math.sqrt(0.5), math.sqrt(0.5), 0], abs=4 * 2.0**-53
+    )
+
+
+def test_light_in_the_very_point_it_should_light_adds_nothing() -> None:
+    world = world_of(plane((0, 0, 0), (0, 1, 0), MATTE), lights=[Light("lamp", position=(0.0, 0.0, 0.0))])
+    tree = tracer.trace(world, ray=((0, 1, 0), (0, -1, 0)), depth=0)
+    assert np.isfinite(tree.radiance).all()
+    assert tree.nodes["t"][1] == 0.0
+    assert tree.end(1) == "blocked"
