@@ -5,52 +5,56 @@ the angle. On total internal reflection one ray gets both weights; where the ind
 """
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from tracer.jit import compiled, routine
 from tracer.limits import WHITTED, Limits
-from tracer.nodes import DEPTH, INVALID, NODES, REFLECTION, REFRACTION, SURFACE, TIR, WEIGHT
+from tracer.nodes import DEPTH, INVALID, NODES, NONE, REFLECTION, REFRACTION, SURFACE, TIR, WEIGHT
 from tracer.optics import cosine, fresnel_shares, mirrored, radicand, sine, transmission
 from tracer.rows import start_row, way_length
 from tracer.vector import Vector, largest, multiply, store, vector
 
 
+class Split(NamedTuple):
+    """The rays that a hit sends out; a factor of 0 stands for none."""
+
+    kind: int  # of the reflected ray: total internal reflection is one, too
+    reflected: float  # its factor
+    refracted: float  # the refracted ray's
+    through: Vector  # the refracted ray's direction
+
+
 @compiled
-def spawn(world: Any, limits: Limits, space: Any, i: int, count: int, planned: int) -> tuple[int, int, float]:
-    """(rows, rows planned, weight cut) after the reflected and the refracted ray of row i, where it sends them."""
-    row = space.table[i]
-    if row.surface < 0:
-        return (count, planned, 0.0)
+def split(world: Any, limits: Limits, row: Any) -> Split:
+    """What becomes of a ray at its hit."""
     material = world.materials[world.objects[row.object].material]
     kr, kt = material.reflect, material.transmit
-    d, n = vector(row.direction), vector(row.normal)
-    reflected, refracted, kind = kr, 0.0, REFLECTION
-    through = d
-    if kt > 0.0:
-        thin = world.objects[row.object].solid < 0
-        if row.n1 == row.n2 and not thin:
-            reflected, refracted = 0.0, kt
-        elif row.radicand <= 0.0 and not thin:
-            reflected, kind = kr + kt, TIR
-        else:
-            reflected, refracted, through = bend(limits, row, material, thin)
-    if reflected == 0.0 and refracted == 0.0:
+    d = vector(row.direction)
+    if kt == 0.0:
+        return Split(REFLECTION, kr, 0.0, d)
+    thin = world.objects[row.object].solid < 0
+    if row.n1 == row.n2 and not thin:
+        return Split(REFLECTION, 0.0, kt, d)
+    if row.radicand <= 0.0 and not thin:
+        return Split(TIR, kr + kt, 0.0, d)
+    reflected, refracted, through = bend(limits, row, material, thin)
+    return Split(REFLECTION, reflected, refracted, through)
+
+
+@compiled
+def spawn(world: Any, limits: Limits, space: Any, i: int, count: int, planned: int) -> tuple[int, int]:
+    """(rows, rows planned) after the rays that row i sends out: each a row, or in row i's `end` why it is cut."""
+    row = space.table[i]
+    if row.surface < 0:
+        return (count, planned)
+    rays = split(world, limits, row)
+    if rays.reflected == 0.0 and rays.refracted == 0.0:
         row.end = SURFACE
-        return (count, planned, 0.0)
-    row.first_child = count
-    cut = 0.0
-    if reflected > 0.0:
-        count, planned, lost = send(
-            world, limits, space, i, count, planned, kind, mirrored(d, n), reflected, row.hit_side
-        )
-        cut += lost
-    if refracted > 0.0:
-        count, planned, lost = send(
-            world, limits, space, i, count, planned, REFRACTION, through, refracted, -row.hit_side
-        )
-        cut += lost
-    row.children = count - row.first_child
-    return (count, planned, cut)
+    if rays.reflected > 0.0:
+        count, planned = send(world, limits, space, i, rays, False, count, planned)
+    if rays.refracted > 0.0:
+        count, planned = send(world, limits, space, i, rays, True, count, planned)
+    return (count, planned)
 
 
 @compiled
@@ -75,42 +79,56 @@ def bend(limits: Limits, row: Any, material: Any, thin: bool) -> tuple[float, fl
 
 @routine
 def send(
-    world: Any,
-    limits: Limits,
-    space: Any,
-    i: int,
-    count: int,
-    planned: int,
-    kind: int,
-    direction: Vector,
-    k: float,
-    side: float,
-) -> tuple[int, int, float]:
-    """(rows, rows planned, weight cut): one child of row i, or in its end the reason why that is not followed."""
+    world: Any, limits: Limits, space: Any, i: int, rays: Split, refracted: bool, count: int, planned: int
+) -> tuple[int, int]:
+    """(rows, rows planned): one of the rays that row i sends out, or in its `end` and `cut` that it is not followed."""
+    parent = space.table[i]
+    heaviest = largest(vector(parent.weight)) * (rays.refracted if refracted else rays.reflected)
+    room = 1 + len(world.lights)
+    reason = cut_at_once(limits, parent, rays, refracted, heaviest)
+    if reason == NONE and planned + room > limits.max_nodes:
+        reason = NODES
+    if reason != NONE:
+        parent.end = reason
+        parent.cut += heaviest
+        return (count, planned)
+    start_branch(limits, space, i, rays, refracted, count)
+    return (count + 1, planned + room)
+
+
+@compiled
+def cut_at_once(limits: Limits, parent: Any, rays: Split, refracted: bool, heaviest: float) -> int:
+    """Why a ray is not followed, whatever else is: its end; -1 where it may be."""
+    through = rays.through
+    if refracted and not math.isfinite(through[0] + through[1] + through[2]):
+        return INVALID
+    if parent.depth >= limits.depth:
+        return DEPTH
+    if heaviest < limits.min_weight or heaviest == 0.0:
+        return WEIGHT
+    return NONE
+
+
+@compiled
+def start_branch(limits: Limits, space: Any, i: int, rays: Split, refracted: bool, count: int) -> None:
+    """Row `count`: one of the rays that row i sends out, as it is before it is traced."""
     table, solids = space.table, space.solids
     parent = table[i]
+    d, n = vector(parent.direction), vector(parent.normal)
+    k = rays.refracted if refracted else rays.reflected
     factor = (k, k, k)
-    weight = multiply(vector(parent.weight), factor)
-    heaviest = largest(weight)
-    room = 1 + len(world.lights)
-    if not math.isfinite(direction[0] + direction[1] + direction[2]):
-        parent.end = INVALID
-    elif parent.depth >= limits.depth:
-        parent.end = DEPTH
-    elif heaviest < limits.min_weight:
-        parent.end = WEIGHT
-    elif planned + room > limits.max_nodes:
-        parent.end = NODES
+    kind = REFRACTION if refracted else rays.kind
+    row = start_row(limits, table, count, i, kind, parent.depth + 1, factor, multiply(vector(parent.weight), factor))
+    store(row.origin, vector(parent.point))
+    store(row.direction, rays.through if refracted else mirrored(d, n))
+    row.start = parent.surface
+    row.side = -parent.hit_side if refracted else parent.hit_side
+    row.reach = way_length(parent)
+    own = 1 if refracted else 0
+    for k_word in range(solids.shape[2]):
+        solids[count, 0, k_word] = solids[i, own, k_word]
+        solids[count, 1, k_word] = solids[i, own, k_word]
+    if parent.child < 0:
+        parent.child = count
     else:
-        row = start_row(limits, table, count, i, kind, parent.depth + 1, factor, weight)
-        store(row.origin, vector(parent.point))
-        store(row.direction, direction)
-        row.start = parent.surface
-        row.side = side
-        row.reach = way_length(parent)
-        own = 1 if kind == REFRACTION else 0
-        for k_word in range(solids.shape[2]):
-            solids[count, 0, k_word] = solids[i, own, k_word]
-            solids[count, 1, k_word] = solids[i, own, k_word]
-        return (count + 1, planned + room, 0.0)
-    return (count, planned, heaviest)
+        table[parent.child].sibling = count

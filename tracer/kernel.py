@@ -10,11 +10,12 @@ from typing import Any
 
 from tracer.branch import spawn
 from tracer.interface import meet_interface
-from tracer.jit import compiled, routine
+from tracer.jit import compiled, routine, stay_apart
 from tracer.limits import Limits
 from tracer.media import index_of, medium
 from tracer.nodes import BACKGROUND, SHADOW
 from tracer.optics import cosine, mirrored, radicand, sine, transmission
+from tracer.pairs import plus
 from tracer.rays import make_ray
 from tracer.rows import record_shadow, record_unlit, way_length
 from tracer.shading import ambient, phong, surface_color
@@ -24,19 +25,18 @@ from tracer.vector import Vector, add, dot, multiply, scale, store, vector
 
 
 @compiled
-def trace_tree(world: Any, limits: Limits, space: Any) -> tuple[int, float]:
-    """(rows, residual) of the tree whose camera ray stands in row 0; (-1, 0) where the table is too short for it.
+def trace_tree(world: Any, limits: Limits, space: Any) -> int:
+    """Rows of the tree whose camera ray stands in row 0; -1 where the table is too short for it.
 
     `space.solids` has for each row the set of solids before and behind its hit; row 0's is given too.
     """
     table = space.table
     lights = len(world.lights)
     first, end = 0, 1
-    residual = 0.0
     planned = 1 + lights  # rows spoken for: a ray comes with room for its shadow rays
     while first < end:
         if end + (end - first) * (lights + 2) > len(table):
-            return (-1, 0.0)
+            return -1
         for i in range(first, end):
             trace_ray(world, space, i)
         count = end
@@ -44,14 +44,46 @@ def trace_tree(world: Any, limits: Limits, space: Any) -> tuple[int, float]:
             count = gather_light(world, limits, space, i, count)
         next_first = count
         for i in range(first, end):
-            count, planned, cut = spawn(world, limits, space, i, count, planned)
-            residual += cut
+            count, planned = spawn(world, limits, space, i, count, planned)
+        if end == first + 1 and not limits.records and passes_on(table, first):
+            count = move_up(space, first, end, count)
+            next_first = first
         first, end = next_first, count
-    sum_up(space, end)
-    return (end, residual)
+    sum_up(table, end)
+    return end
 
 
 @compiled
+def passes_on(table: Any, i: int) -> bool:
+    """Whether a ray adds nothing to what its only child brings, and takes nothing from it."""
+    row = table[i]
+    if row.child < 0 or row.cut > 0.0 or table[row.child].sibling >= 0:
+        return False
+    dark = row.local[0] == 0.0 and row.local[1] == 0.0 and row.local[2] == 0.0
+    return dark and table[row.child].factor[0] == 1.0
+
+
+@routine
+def move_up(space: Any, i: int, shadows: int, count: int) -> int:
+    """Put row i's only child, the last row, in its place: a million mirrors in a row take no more room than one.
+
+    The rows it takes with it are counted here. The number of rows that are left.
+    """
+    stay_apart()
+    table, solids = space.table, space.solids
+    for k in range(i, count - 1):
+        space.rays[table[k].kind] += 1
+    row, child = table[i], table[count - 1]
+    child.sibling = row.sibling
+    store(child.factor, vector(row.factor))
+    table[i] = child
+    for word in range(solids.shape[2]):
+        solids[i, 0, word] = solids[count - 1, 0, word]
+        solids[i, 1, word] = solids[count - 1, 1, word]
+    return i + 1
+
+
+@routine
 def trace_ray(world: Any, space: Any, i: int) -> None:
     """Find what ray i meets and write it into its row."""
     row = space.table[i]
@@ -100,7 +132,7 @@ def is_usable(d: Vector, n: Vector, shading_n: Vector, n1: float, n2: float) -> 
     return dot(transmission(d, shading_n, n1, n2, cosine(d, shading_n), math.sqrt(root)), n) < 0.0
 
 
-@compiled
+@routine
 def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> int:
     """Row i's local term, light by light. What cannot add to it is followed only where every light gets its row."""
     table = space.table
@@ -138,13 +170,24 @@ def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> 
 
 
 @compiled
-def sum_up(space: Any, count: int) -> None:
+def sum_up(table: Any, count: int) -> None:
     """Colour flows back: radiance = local + sum of factor * radiance over the children, in row order."""
-    table = space.table
     for i in range(count - 1, -1, -1):
         row = table[i]
         if row.kind != SHADOW:
             total = vector(row.local)
-            for k in range(row.first_child, row.first_child + row.children):
+            k = row.child
+            while k >= 0:
                 total = add(total, multiply(vector(table[k].factor), vector(table[k].radiance)))
+                k = table[k].sibling
             store(row.radiance, total)
+
+
+@compiled
+def residual_of(table: Any, count: int) -> float:
+    """The sum of the weights that were cut, rounded once."""
+    total = (0.0, 0.0)
+    for i in range(count):
+        if table[i].kind != SHADOW and table[i].cut > 0.0:
+            total = plus(total, (table[i].cut, 0.0))
+    return total[0] + total[1]

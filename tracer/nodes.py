@@ -45,8 +45,9 @@ NODE = np.dtype(
         ("side", np.float64),  # of its start's normal, on which it leaves: +1, -1
         ("hit_side", np.float64),  # of the hit surface's normal, from which it comes
         ("face", np.float64, 3),  # the hit face's own normal, on the side the ray comes from
-        ("first_child", np.int64),
-        ("children", np.int32),
+        ("cut", np.float64),  # weight of the rays it would send out that were cut: their largest components' sum
+        ("child", np.int64),  # the first ray it sends out, -1 for none
+        ("sibling", np.int64),  # the next that its parent sends out
     ],
     align=True,
 )

@@ -46,8 +46,17 @@ def _head(tree: RayTree) -> list[str]:
     title = tree.scene.title or (tree.scene.path.name if tree.scene.path else "scene")
     rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
     head = [f"{title}: {where}, depth {tree.depth}, {tree.model}, {rays}"]
-    cut = f"; rays that were cut carry {number(tree.residual)} of the weight" if tree.residual else "; no ray was cut"
-    return [*head, f"colour {triple(tree.radiance)} (linear r g b){cut}"]
+    return [*head, f"colour {triple(tree.radiance)} (linear r g b); {missing(tree)}"]
+
+
+def missing(tree: RayTree) -> str:
+    """What the rays that were cut weigh, and how much light they can have brought at most."""
+    if tree.residual == 0.0:
+        return "no ray was cut"
+    carry = f"rays that were cut carry {number(tree.residual)} of the weight"
+    if math.isinf(tree.bound):
+        return f"{carry}, and nothing bounds the light they miss"
+    return f"{carry}: at most {number(tree.bound)} of light is missing"
 
 
 def _stems(tree: RayTree) -> dict[int, str]:

@@ -15,6 +15,7 @@ from queue import Empty, SimpleQueue
 
 import numpy as np
 
+from tracer.bound import brightest
 from tracer.bvh import FLAT
 from tracer.camera import View
 from tracer.jit import is_compiled
@@ -49,7 +50,9 @@ class Image:
     threads: int
     size: tuple[int, int]
     samples: int
-    depth: int
+    depth: int | None  # None: no limit but the tolerance
+    tolerance: float | None
+    bound: float  # no component of a pixel lacks more than this; infinite where nothing bounds it
     left_out: list[str]
 
     def __repr__(self) -> str:
@@ -163,6 +166,7 @@ def render(
     threads: int | None = None,
     *,
     min_weight: float = 0.0,
+    tolerance: float | None = None,
     max_nodes: int = MAX_NODES,
     model: str | None = None,
     progress: Progress = lambda share: None,
@@ -171,14 +175,15 @@ def render(
     """The scene's image. Size, depth and model are the scene's by default, threads as many as there are processors.
 
     One sample is the pixel's centre; more are the mean of the sampler's first points. `progress` gets the finished
-    share, and where `cancelled` turns true, Stopped is raised within a tile's time.
+    share, and where `cancelled` turns true, Stopped is raised within a tile's time. With a `tolerance` the rays that a
+    pixel lacks weigh no more than that in sum; the depth counts only if it is given.
     """
     if samples < 1:
         raise ValueError(f"samples must be >= 1, got {samples}")
     threads = threads or processors()
     compiling = warm()
     view = world.view(checked_size(size))
-    limits = make_limits(world, depth, min_weight, max_nodes, model, records=False)
+    limits = make_limits(world, depth, min_weight, tolerance, max_nodes, model, records=False)
     job = Job(world, view, limits, CENTER if samples == 1 else Samples(0, samples))
     began = time.perf_counter()
     with ThreadPoolExecutor(threads) as executor:
@@ -187,18 +192,21 @@ def render(
         )
     tracing = time.perf_counter() - began
     figures = list(job.residuals.values())
+    largest = float(max(figure[0] for figure in figures))
     return Image(
         pixels=job.pixels,
         seconds={"compile": compiling, "trace": tracing},
         rays={kind: int(n) for kind, n in zip(KINDS, job.rays, strict=True)},
         residual={
-            "max": float(max(figure[0] for figure in figures)),
+            "max": largest,
             "mean": math.fsum(figure[1] for figure in figures) / (view.width * view.height),
         },
         threads=threads,
         size=(view.width, view.height),
         samples=samples,
-        depth=limits.depth,
+        depth=limits.depth if depth is not None or tolerance is None else None,
+        tolerance=tolerance,
+        bound=largest * brightest(world.scene) if largest > 0.0 else 0.0,
         left_out=world.left_out,
     )
 

@@ -23,9 +23,10 @@ def start_row(
     store(row.factor, factor)
     store(row.weight, weight)
     row.surface = NONE
-    row.children = 0
-    row.first_child = NONE
+    row.child = NONE
+    row.sibling = NONE
     row.end = NONE
+    row.cut = 0.0
     if limits.records:
         nowhere = (math.nan, math.nan, math.nan)
         row.id = i

@@ -112,15 +112,17 @@ def gather(world: Any, s: int, ray: Ray, end: float, glass_blocks: bool, crossed
 def gather_glass(world: Any, s: int, ray: Ray, end: float, crossed: Any, count: int) -> int:
     """Note where the transparent surface s is crossed: a ball may be crossed twice."""
     stay_apart()
-    t = distance(world, s, ray, 0.0, -1, SMALLEST, end, True)
-    while t < end:
+    t, above = 0.0, SMALLEST
+    while True:
+        t = distance(world, s, ray, t, s, above, end, True)
+        if t >= end:
+            return count
         if count == TOO_MANY or count == len(crossed):
             return TOO_MANY
         crossed[count].t = t
         crossed[count].surface = s
         count += 1
-        t = distance(world, s, ray, t, s, np.nextafter(t, math.inf), end, True)
-    return count
+        above = np.nextafter(t, math.inf)
 
 
 @routine

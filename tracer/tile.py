@@ -11,8 +11,9 @@ import numpy as np
 from tracer.bundle import Bundle
 from tracer.bvh import DEEPEST, WAITING
 from tracer.camera import View, pixel_direction
+from tracer.certified import OPEN, trace_heaviest_first
 from tracer.jit import compiled, kernel
-from tracer.kernel import trace_tree
+from tracer.kernel import residual_of, trace_tree
 from tracer.limits import Limits
 from tracer.nodes import CAMERA, KINDS, NODE
 from tracer.rows import start_row
@@ -51,6 +52,7 @@ class Space(NamedTuple):
 
     table: np.ndarray
     solids: np.ndarray  # (rows, 2, words)
+    open: np.ndarray  # rays that wait to be followed, the heaviest first
     stack: np.ndarray  # of boxes still to be entered
     crossed: np.ndarray  # glass on the way to a light
     rays: np.ndarray  # traced so far, by kind
@@ -65,6 +67,7 @@ class Workspace:
         self.arrays = Space(
             np.zeros(rows, NODE),
             np.zeros((rows, 2, words), np.int64),
+            np.zeros(2 * rows, OPEN),
             np.zeros(DEEPEST, WAITING),
             np.zeros(MOST_CROSSINGS, CROSSING),
             np.zeros(len(KINDS), np.int64),
@@ -75,7 +78,9 @@ class Workspace:
 
     def grow(self) -> None:
         rows, words = 4 * len(self.arrays.table), self.arrays.solids.shape[2]
-        self.arrays = self.arrays._replace(table=np.zeros(rows, NODE), solids=np.zeros((rows, 2, words), np.int64))
+        self.arrays = self.arrays._replace(
+            table=np.zeros(rows, NODE), solids=np.zeros((rows, 2, words), np.int64), open=np.zeros(2 * rows, OPEN)
+        )
         self.bundle = Bundle(self.arrays, writable=True, ragged=("solids",))
 
 
@@ -136,9 +141,13 @@ def trace_pixel(
         for word in range(solids.shape[2]):
             solids[0, 0, word] = eye_solids[word]
             solids[0, 1, word] = eye_solids[word]
-        count, residual = trace_tree(world, limits, space)
+        if limits.tolerance >= 0.0:
+            count = trace_heaviest_first(world, limits, space)
+        else:
+            count = trace_tree(world, limits, space)
         if count < 0:
             return (total, -1.0)
+        residual = residual_of(table, count)
         for i in range(count):
             space.rays[table[i].kind] += 1
         space.tree[0] = count

@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.lib.recfunctions import repack_fields
 
+from tracer.bound import Ledger, brightest, ledger
 from tracer.camera import View
-from tracer.limits import MODELS, Limits
+from tracer.limits import ANY_DEPTH, LEVEL_BY_LEVEL, MODELS, Limits
 from tracer.media import WORD
 from tracer.nodes import BLOCKED, ENDS, KINDS, PUBLIC, SHADOW, SURFACE
 from tracer.outline import outline
@@ -39,11 +40,22 @@ class RayTree:
     model: str
     pixel: tuple[int, int] | None  # None: a ray given by hand
     size: tuple[int, int]
+    tolerance: float | None = None  # what the residual was to come down to; the rows are then in order of tracing
 
     @property
     def radiance(self) -> np.ndarray:
         """What the pixel shows, linear RGB."""
         return self.nodes["radiance"][0]
+
+    @cached_property
+    def bound(self) -> float:
+        """What is missing from `radiance` is at most this in each component; infinite where nothing bounds it."""
+        return self.residual * brightest(self.scene) if self.residual > 0.0 else 0.0
+
+    @cached_property
+    def ledger(self) -> Ledger:
+        """Where the weight of 1 went: leaves, cut, absorbed."""
+        return ledger(self)
 
     def __len__(self) -> int:
         return len(self.nodes)
@@ -112,6 +124,7 @@ class RayTree:
             "model": self.model,
             "radiance": _plain(self.radiance),
             "residual": _plain(self.residual),
+            "bound": _plain(self.bound),
             "nodes": [self._node(i) for i in range(len(self))],
         }
 
@@ -179,19 +192,22 @@ def trace(
     size: tuple[int, int] | None = None,
     sample: int | None = None,
     min_weight: float = 0.0,
+    tolerance: float | None = None,
     max_nodes: int = MAX_NODES,
     model: str | None = None,
 ) -> RayTree:
     """The tree behind a pixel of the image (counted from the top left), or of a ray (origin, direction).
 
     `size` (width, height) is the scene's by default, `depth` and `model` too; `sample` is the number of one point of
-    the pixel's sampler, its centre by default. ValueError for a pixel outside the image or a ray without a direction.
+    the pixel's sampler, its centre by default. With a `tolerance` the heaviest rays are followed first, to any depth
+    but one that is given, until those left weigh no more than that in sum, or `max_nodes` rays have been traced.
+    ValueError for a pixel outside the image or a ray without a direction.
     """
     if (pixel is None) == (ray is None):
         raise ValueError("either a pixel or a ray is traced: give one of them")
     scene = world.scene
     size = checked_size(size) or (scene.image.width, scene.image.height)
-    limits = make_limits(world, depth, min_weight, max_nodes, model, records=True)
+    limits = make_limits(world, depth, min_weight, tolerance, max_nodes, model, records=True)
     if pixel is not None:
         x, y = (operator.index(value) for value in pixel)
         if not (0 <= x < size[0] and 0 <= y < size[1]):
@@ -211,7 +227,8 @@ def trace(
     _fill_angles(nodes, scene)
     nodes.flags.writeable = False
     residual = float(space.tree[1])
-    return RayTree(nodes, residual, scene, limits.depth, MODELS[limits.model], pixel and (x, y), size)
+    reached = limits.depth if depth is not None or tolerance is None else int(nodes["depth"].max())
+    return RayTree(nodes, residual, scene, reached, MODELS[limits.model], pixel and (x, y), size, tolerance)
 
 
 def checked_size(size: tuple[int, int] | None) -> tuple[int, int] | None:
@@ -226,19 +243,29 @@ def checked_size(size: tuple[int, int] | None) -> tuple[int, int] | None:
 
 def make_limits(
     world: World,
-    depth: int | None,
-    min_weight: float,
-    max_nodes: int,
-    model: str | None,
+    depth: int | None = None,
+    min_weight: float = 0.0,
+    tolerance: float | None = None,
+    max_nodes: int = MAX_NODES,
+    model: str | None = None,
+    *,
     records: bool,
 ) -> Limits:
     """The kernel's limits, with the scene's own values where none are given."""
     tracing = world.scene.tracing
-    depth = tracing.depth if depth is None else depth
-    if depth < 0:
-        raise ValueError(f"depth must be >= 0, got {depth}")
+    if depth is None:
+        depth = tracing.depth if tolerance is None else ANY_DEPTH
+    if not 0 <= depth <= ANY_DEPTH:
+        raise ValueError(f"depth must be 0 .. {ANY_DEPTH}, got {depth}")
+    if not min_weight >= 0.0:
+        raise ValueError(f"min_weight must be >= 0, got {min_weight}")
+    if tolerance is not None and not tolerance >= 0.0:
+        raise ValueError(f"tolerance must be >= 0, got {tolerance}")
+    if max_nodes < 1:
+        raise ValueError(f"max_nodes must be >= 1, got {max_nodes}")
+    least = LEVEL_BY_LEVEL if tolerance is None else float(tolerance)
     code = MODELS.index(model or tracing.model)
-    return Limits(depth, float(min_weight), max_nodes, code, tracing.shadows == "block", records)
+    return Limits(depth, float(min_weight), max_nodes, least, code, tracing.shadows == "block", records)
 
 
 def words(world: World) -> int:

@@ -105,6 +105,12 @@ def _add_limits(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--min-weight", type=weight, default=0.0, metavar="W", help="do not follow rays that weigh less"
     )
+    parser.add_argument(
+        "--tolerance",
+        type=weight,
+        metavar="T",
+        help="follow the heaviest rays first, to any depth, until those left weigh no more than T in sum",
+    )
 
 
 def _joined(arguments: list[str]) -> list[str]:

@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import math
 import sys
 import time
 from argparse import Namespace
@@ -40,6 +41,7 @@ def trace(options: Namespace) -> int:
             depth=options.depth,
             size=options.size,
             min_weight=options.min_weight,
+            tolerance=options.tolerance,
             model=options.model,
         )
     text = as_text(tree, options.format)
@@ -73,6 +75,7 @@ def render(options: Namespace) -> int:
                 options.depth,
                 options.threads,
                 min_weight=options.min_weight,
+                tolerance=options.tolerance,
                 model=options.model,
                 progress=progress,
             )
@@ -86,7 +89,8 @@ def render(options: Namespace) -> int:
             "size": list(image.size),
             "samples": image.samples,
             "depth": image.depth,
-            "residual": image.residual,
+            "tolerance": image.tolerance,
+            "residual": {**image.residual, "bound": image.bound if math.isfinite(image.bound) else None},
             "left_out": image.left_out,
         }
         write_atomically(options.stats, (json.dumps(stats, indent=1) + "\n").encode("utf-8"))

@@ -248,7 +248,7 @@ class Session:
 
     def _render(self) -> None:
         assert self.world
-        limits = make_limits(self.world, self.depth, 0.0, 10**6, self.model, records=False)
+        limits = make_limits(self.world, self.depth, model=self.model, records=False)
         self.image.show(self.world, limits, self.size)
 
     # --- how it is looked at ------------------------------------------------------------------------------------------

@@ -84,7 +84,7 @@ def test_threads_change_no_bit(world: tracer.World, threads: int) -> None:
 @pytest.mark.parametrize("steps", [(1,), COARSE_TO_FINE])
 def test_order_of_tiles_changes_no_bit(world: tracer.World, steps: tuple[int, ...], size: tuple[int, int]) -> None:
     reference = tracer.render(world, size, threads=1).pixels
-    job = Job(world, world.view(size), make_limits(world, None, 0.0, 10**6, None, records=False))
+    job = Job(world, world.view(size), make_limits(world, records=False))
     order = random.Random(7)
     in_any_order = passes(*size, steps)
     for areas in in_any_order:

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.jit import compiled
+from tracer.jit import compiled, routine, stay_apart
 from tracer.rays import Ray
 from tracer.shapes.disc import Disc
 from tracer.vector import Vector, add, cross, dot, length, negate, scale, subtract, tame, unit, vector
@@ -100,8 +100,9 @@ def is_between(surface: Any, height: float) -> bool:
     return 0.0 <= height <= surface.c[2]
 
 
-@compiled
+@routine
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
+    stay_apart()
     height, climb, f, d, rho, rise = seen_by(surface, ray)
     bend = length(subtract(scale(rho, d), scale(rise, f)))
     beside = dot(vector(surface.b), cross(f, d))  # f and d have no part along the axis, their product has no other

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.jit import compiled
+from tracer.jit import routine, stay_apart
 from tracer.pairs import pair_vector
 from tracer.rays import Ray
 from tracer.shapes import planar
@@ -39,8 +39,9 @@ class Disc:
         return False
 
 
-@compiled
+@routine
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
+    stay_apart()
     if not may_cross(surface, ray, ceiling):
         return math.inf
     t = plane_distance(world, surface, ray, floor, ceiling, True)
