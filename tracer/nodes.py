@@ -38,6 +38,8 @@ NODE = np.dtype(
         ("local", np.float64, 3),
         ("radiance", np.float64, 3),  # local + sum of factor * radiance over the children but shadow rays
         ("end", np.int32),
+        ("error", np.float64),  # how far rounding may have moved `point`, estimated to first order; a length
+        ("turn", np.float64),  # and how far it may have turned `direction`; radians
         # From here on for the kernel alone:
         ("start", np.int32),  # the surface the ray leaves
         ("reach", np.float64),  # scale of the rounding errors in its origin

@@ -41,6 +41,8 @@ def start_row(
         row.theta1 = math.nan
         row.theta2 = math.nan
         row.radicand = math.nan
+        row.error = math.nan
+        row.turn = math.nan
     return row
 
 
@@ -113,6 +115,7 @@ def write_shadow(
     store(row.local, share)
     store(row.radiance, share)
     row.end = end
+    row.start, row.side, row.reach, row.surface = ray.start, ray.side, ray.reach, met
     if met >= 0:
         row.object = world.surfaces[met].object
     if t < math.inf:

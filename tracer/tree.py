@@ -17,6 +17,7 @@ from numpy.lib.recfunctions import repack_fields
 
 from tracer.bound import Ledger, brightest, ledger
 from tracer.camera import View
+from tracer.digits import errors_of
 from tracer.limits import ANY_DEPTH, LEVEL_BY_LEVEL, MODELS, Limits
 from tracer.media import WORD
 from tracer.nodes import BLOCKED, ENDS, KINDS, PUBLIC, SHADOW, SURFACE
@@ -223,7 +224,9 @@ def trace(
     area = Area(x, y, x + 1, y + 1, 1, 0)
     run(world.arrays, view, limits, samples, area, solids_at(world, view.eye), pixels, workspace)
     space = workspace.arrays
-    nodes = repack_fields(space.table[: int(space.tree[0])][list(PUBLIC)])
+    count = int(space.tree[0])
+    errors_of(world.arrays, space.table.view(np.recarray), count)
+    nodes = repack_fields(space.table[:count][list(PUBLIC)])
     _fill_angles(nodes, scene)
     nodes.flags.writeable = False
     residual = float(space.tree[1])

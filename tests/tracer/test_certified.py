@@ -55,7 +55,7 @@ def test_pile_of_plates_is_bounded_at_every_stop(count: int, n: float) -> None:
         assert len(tree) <= max_nodes
         assert exact - tree.radiance[0] <= tree.bound + 8 * U
         assert tree.radiance[0] <= exact + 8 * U
-        assert tree.bound == tree.residual <= last * (1 + 4 * U)  # R + T is 1 but for rounding
+        assert tree.bound == tree.residual <= last * (1 + 8 * U)  # R + T is 1 but for rounding
         last = tree.residual
 
 

@@ -195,7 +195,7 @@ def test_scaling_a_scene_by_a_power_of_two_scales_its_tree_and_nothing_else() ->
         tree = tree_at(k)
         assert len(tree) == len(reference)
         for field in reference.nodes.dtype.names or ():
-            factor = 2.0**k if field in ("origin", "point", "t") else 1
+            factor = 2.0**k if field in ("origin", "point", "t", "error") else 1
             expected = reference.nodes[field] * factor if factor != 1 else reference.nodes[field]
             np.testing.assert_array_equal(tree.nodes[field], expected, err_msg=f"{field} at 2^{k}")
 

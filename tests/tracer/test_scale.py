@@ -17,7 +17,7 @@ from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
 from tracer.vector import Vector, scale
 
-LENGTHS = ("origin", "point", "t")
+LENGTHS = ("origin", "point", "t", "error")
 
 
 @pytest.mark.parametrize("k", [-200, -20, 1, 37, 200])

@@ -17,7 +17,8 @@ from viewer.figures.dot import write_dot
 
 FIELDS = [
     "id", "parent", "kind", "depth", "origin", "direction", "t", "point", "normal", "object", "light", "n1", "n2",
-    "theta1", "theta2", "factor", "weight", "radicand", "local", "radiance", "end", "path",
+    "theta1", "theta2", "factor", "weight", "radicand", "local", "radiance", "end", "error", "turn",
+    "path",
 ]  # fmt: skip
 
 
@@ -28,7 +29,18 @@ def tree(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> tra
 
 def test_json_has_every_field_and_reads_back_to_the_same_bits(tree: tracer.RayTree) -> None:
     document = json.loads(tree.to_json(), parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))
-    assert list(document) == ["format", "scene", "pixel", "size", "depth", "model", "radiance", "residual", "nodes"]
+    assert list(document) == [
+        "format",
+        "scene",
+        "pixel",
+        "size",
+        "depth",
+        "model",
+        "radiance",
+        "residual",
+        "bound",
+        "nodes",
+    ]
     assert document["format"] == "raytree-tree/1"
     assert (document["pixel"], document["size"]) == ([380, 310], [800, 600])
     assert document["radiance"] == tree.radiance.tolist()
@@ -42,7 +54,7 @@ def test_json_has_every_field_and_reads_back_to_the_same_bits(tree: tracer.RayTr
         assert node["end"] in (None, *ENDS)
         for name in ("origin", "direction", "factor", "weight", "local", "radiance"):
             assert node[name] == row[name].tolist()
-        for name in ("t", "n1", "n2", "radicand"):
+        for name in ("t", "n1", "n2", "radicand", "error", "turn"):
             assert node[name] == (None if math.isnan(row[name]) else row[name])
         for name in ("point", "normal"):
             assert node[name] == (None if np.isnan(row[name]).any() else row[name].tolist())

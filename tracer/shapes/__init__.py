@@ -6,6 +6,7 @@ the shape was packed into:
         what lies beyond the ceiling is left out. Where it need not be exact any number within the limits will do
     again(world, surface, ray)              the same for a ray that starts on this very surface
     locate(world, surface, ray, t)          the hit point, the outward normal, the normal to shade with
+    turning(world, surface, p, v)           how the normal to shade with turns where the hit point p moves by a small v
 """
 
 import math
@@ -22,7 +23,7 @@ SHAPES: tuple[ModuleType, ...] = (sphere, plane, polygon, triangle, box, cone, d
 
 CODES = {module.NAME: code for code, module in enumerate(SHAPES)}
 
-# Numba compiles a choice between known functions, not a table of functions: so each of the three is folded from the
+# Numba compiles a choice between known functions, not a table of functions: so each of the four is folded from the
 # last shape to the first into `if this shape: its own, else: the rest`, which the compiler turns into one jump.
 
 
@@ -63,6 +64,16 @@ def _link_locate(code: int, own: Any, rest: Any) -> Any:
     return choose
 
 
+def _link_turning(code: int, own: Any, rest: Any) -> Any:
+    @compiled
+    def choose(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
+        if surface.form == code:
+            return own(world, surface, p, v)
+        return rest(world, surface, p, v)
+
+    return choose
+
+
 @compiled
 def _no_intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     return math.inf
@@ -79,6 +90,12 @@ def _no_locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Ve
     return (nowhere, nowhere, nowhere)
 
 
+@compiled
+def _no_turning(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
+    return (0.0, 0.0, 0.0)
+
+
 intersect = _fold("intersect", _no_intersect, _link_intersect)
 again = _fold("again", _no_again, _link_again)
 locate = _fold("locate", _no_locate, _link_locate)
+turning = _fold("turning", _no_turning, _link_turning)

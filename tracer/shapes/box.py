@@ -13,6 +13,7 @@ import numpy as np
 from tracer import fields
 from tracer.jit import compiled
 from tracer.rays import Ray
+from tracer.shapes import planar
 from tracer.vector import Vector, add, scale
 
 NAME = "box"
@@ -92,3 +93,6 @@ def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector
                     return ((p[0], plane, p[2]), (0.0, n, 0.0), (0.0, n, 0.0))
                 return ((p[0], p[1], plane), (0.0, 0.0, n), (0.0, 0.0, n))
     return (p, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+turning = planar.flat

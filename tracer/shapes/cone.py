@@ -156,3 +156,15 @@ def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector
     n = subtract(scale(cosine / size, across), scale(sine, axis))
     off = cosine * (size - surface.r) - sine * height
     return (subtract(p, scale(off, n)), n, n)
+
+
+@compiled
+def turning(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
+    """About the axis only: along the side the normal stays."""
+    axis = vector(surface.b)
+    _, across = split(axis, subtract(p, vector(surface.a)))
+    size = length(across)
+    if size == 0.0:
+        return (math.inf, math.inf, math.inf)  # at the tip it may be anything
+    around = scale(1.0 / size, cross(axis, across))
+    return scale(surface.c[0] / size * dot(around, v), around)

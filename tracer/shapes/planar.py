@@ -201,6 +201,12 @@ def newell(corners: np.ndarray) -> PairVector:
     return area
 
 
+@compiled
+def flat(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
+    """The normal of a flat face is the same everywhere."""
+    return (0.0, 0.0, 0.0)
+
+
 def unit_normal(corners: np.ndarray) -> np.ndarray:
     """`newell` with length 1; 0 for no area."""
     area = np.array([high for high, _ in newell(corners)])

@@ -44,3 +44,4 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
 
 again = planar.never
 locate = planar.locate
+turning = planar.flat

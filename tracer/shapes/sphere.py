@@ -206,3 +206,9 @@ def locate_with_care(surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, 
     back = t <= -dot(subtract(ray.origin, center), d) and ray.side >= 0.0
     n = unit(add(beside, scale(-half_chord if back else half_chord, d)))
     return (add(center, scale(r, n)), n, n)
+
+
+@compiled
+def turning(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
+    n = unit(subtract(p, vector(surface.a)))
+    return scale(1.0 / surface.r, subtract(v, scale(dot(n, v), n)))

@@ -17,7 +17,7 @@ from tracer.pairs import exact_difference, pair_cross
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
 from tracer.shapes.planar import is_beside, may_cross, outline_slack, pack_normal, plane_distance, unit_normal
-from tracer.vector import Vector, add, cross, dot, scale, subtract, unit, vector
+from tracer.vector import Vector, add, cross, dot, length, scale, subtract, unit, vector
 
 NAME = "triangle"
 
@@ -79,12 +79,36 @@ def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector
     p, n, _ = planar.locate(world, surface, ray, t)
     if surface.smooth < 0:
         return (p, n, n)
-    a, b, c = vector(surface.a), vector(surface.b), vector(surface.c)
-    # Each corner weighs as the triangle between the hit and the edge opposite to it.
-    pa, pb, pc = subtract(a, p), subtract(b, p), subtract(c, p)
-    u, v, w = dot(cross(pb, pc), n), dot(cross(pc, pa), n), dot(cross(pa, pb), n)
-    corners = world.smooth[surface.smooth]
-    mixed = add(add(scale(u, vector(corners[0])), scale(v, vector(corners[1]))), scale(w, vector(corners[2])))
+    mixed = mixed_normal(world, surface, p)
     if dot(mixed, n) > 0.0:
         return (p, n, unit(mixed))
     return (p, n, n)
+
+
+@compiled
+def mixed_normal(world: Any, surface: Any, p: Vector) -> Vector:
+    """The corners' normals, each weighed as the triangle between p and the edge opposite to it; of any length."""
+    n, a, b, c = vector(surface.normal), vector(surface.a), vector(surface.b), vector(surface.c)
+    pa, pb, pc = subtract(a, p), subtract(b, p), subtract(c, p)
+    u, v, w = dot(cross(pb, pc), n), dot(cross(pc, pa), n), dot(cross(pa, pb), n)
+    corners = world.smooth[surface.smooth]
+    return add(add(scale(u, vector(corners[0])), scale(v, vector(corners[1]))), scale(w, vector(corners[2])))
+
+
+@compiled
+def turning(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
+    """The mixture is linear in p: how it changes with v, but for what only changes its length."""
+    if surface.smooth < 0:
+        return (0.0, 0.0, 0.0)
+    mixed = mixed_normal(world, surface, p)
+    size = length(mixed)
+    if size == 0.0:
+        return (0.0, 0.0, 0.0)
+    a, b, c = vector(surface.a), vector(surface.b), vector(surface.c)
+    n, corners = vector(surface.normal), world.smooth[surface.smooth]
+    u, w = dot(cross(subtract(c, b), v), n), dot(cross(subtract(b, a), v), n)
+    change = scale(u, vector(corners[0]))
+    change = add(change, scale(dot(cross(subtract(a, c), v), n), vector(corners[1])))
+    change = add(change, scale(w, vector(corners[2])))
+    along = scale(1.0 / size, mixed)
+    return scale(1.0 / size, subtract(change, scale(dot(change, along), along)))

@@ -1,0 +1,112 @@
+"""The error that every node reports of itself, against the same tree with 50 digits."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import tracer
+from tests.judge import exact_tree, off
+from tests.scenes import MIRROR, ball, box, plane, world_of
+from tests.tracer.test_certified import random_world
+from tracer.nodes import SHADOW
+from tracer.scene import Light, Material
+
+U = 2.0**-53
+
+
+def two_balls() -> tracer.RayTree:
+    """A ray along the line between two mirrors: any error grows 3.73 times a bounce."""
+    a, b = np.zeros(3), np.array([1.3, 2.1, 1.7])
+    world = world_of(ball(tuple(a), 1.0, MIRROR, "a"), ball(tuple(b), 1.0, MIRROR, "b"))
+    return tracer.trace(world, ray=(tuple(0.5 * (a + b)), tuple(b - a)), depth=60)
+
+
+def check(tree: tracer.RayTree) -> None:
+    exact = exact_tree(tree)
+    for i in np.flatnonzero(np.isfinite(tree.nodes["t"]) & (tree.nodes["kind"] != SHADOW)):
+        row = tree.nodes[i]
+        if row["error"] < 1e-3 * row["t"]:  # beyond, first order says no more than that the digits are gone
+            assert off(row["point"], exact[i].point) <= row["error"]
+        if row["turn"] < 1e-3:
+            assert off(row["direction"], exact[i].direction) <= row["turn"]
+
+
+@settings(max_examples=120, deadline=None, derandomize=True)
+@given(st.integers(0, 10**9), st.integers(0, 6))
+def test_no_point_is_farther_off_than_its_node_says(seed: int, depth: int) -> None:
+    random = np.random.default_rng(seed)
+    ray = (tuple(random.uniform(-4, 4, 3)), tuple(random.normal(size=3)))
+    check(tracer.trace(random_world(seed), ray=ray, depth=depth, max_nodes=200))
+
+
+def test_shipped_scenes(world: tracer.World) -> None:
+    width, height = world.scene.image.width, world.scene.image.height
+    for x, y in ((width // 2, height // 2), (width // 3, height // 2), (2 * width // 3, 2 * height // 3)):
+        tree = tracer.trace(world, (x, y), depth=4)
+        assert (tree.nodes["error"][np.isfinite(tree.nodes["t"])] > 0.0).all()
+        assert np.nanmax(tree.nodes["error"]) < 1e-9
+
+
+def test_unstable_bounce_knows_when_its_digits_are_gone() -> None:
+    """True errors: about 1e-16 times 3.73 a bounce; the ray leaves when nothing of it is left, after 28 of them."""
+    tree = two_balls()
+    exact, error = exact_tree(tree), tree.nodes["error"]
+    hits = np.flatnonzero(np.isfinite(tree.nodes["t"]))
+    assert 27 <= len(hits) <= 31
+    for i in hits[:22]:
+        assert off(tree.nodes["point"][i], exact[i].point) <= error[i]
+    gone = int(np.flatnonzero(error[hits] > 1.0)[0])
+    assert 24 <= gone < 29
+    assert error[10] == pytest.approx(error[9] * (2 + math.sqrt(3)), rel=0.2, abs=0.0)
+
+
+def test_a_hollow_mirror_keeps_its_digits() -> None:
+    """Round and round in a hollow ball errors grow with the square of the bounces, not by a factor each."""
+    shell = world_of(ball((0, 0, 0), 1.0, MIRROR))
+    a = math.radians(50)
+    tree = tracer.trace(shell, ray=((0.9, 0.0, 0.0), (-math.cos(a), math.sin(a), 0.0)), depth=10_000)
+    error = tree.nodes["error"]
+    for n in (10, 100, 1000, 10_000):
+        assert 2 * U * n <= error[n] <= 50 * U * n * n
+
+
+def test_error_is_a_length_of_the_scene() -> None:
+    """At any size of the scene, far beyond where squares of errors vanish: the error times the size, bit for bit."""
+
+    def errors(k: int) -> tuple[list[float], list[float]]:
+        s = 2.0**k
+        glass = Material("glass", reflect=0.1, transmit=0.9, ior=1.5)
+        lamp = Light("lamp", position=(2 * s, 5 * s, 3 * s))
+        world = world_of(ball((0, s, 0), s, glass), plane((0, 0, 0), (0, 1, 0), MIRROR), lights=[lamp])
+        nodes = tracer.trace(world, ray=((0.2 * s, 1.3 * s, 4 * s), (-0.1, -0.2, -1)), depth=5).nodes
+        return (nodes["error"] / s).tolist(), nodes["turn"].tolist()
+
+    for k in (-400, -200, 200, 400):
+        for found, expected in zip(errors(k), errors(0), strict=True):
+            np.testing.assert_array_equal(found, expected)
+
+
+def test_near_the_critical_angle_the_direction_is_less_sure() -> None:
+    """1/c2 of the rounding: the refracted ray lies along the surface, and a little more of angle is much of it."""
+    water = world_of(plane((0, 0, 0), (0, 1, 0), Material("water", transmit=1.0, ior=4 / 3)))
+    critical = math.asin(0.75)
+    turns = []
+    for aside in (1e-2, 1e-6, 1e-10):
+        a = critical - aside
+        tree = tracer.trace(water, ray=((0, -1, 0), (math.sin(a), math.cos(a), 0)), depth=1)
+        check(tree)
+        turns.append(tree.nodes["turn"][1])
+    assert turns[0] < turns[1] < turns[2]
+    assert turns[2] == pytest.approx(turns[1] * 1e2, rel=0.1, abs=0.0)
+
+
+def test_shadow_rays_inherit_what_their_start_is_off() -> None:
+    lamp = Light("lamp", position=(0.0, 5.0, 0.0))
+    floor = plane((0, 0, 0), (0, 1, 0), Material("floor", diffuse=1.0))
+    world = world_of(floor, box((-1, 2, -1), (1, 2.5, 1), Material("lid", diffuse=1.0), "lid"), lights=[lamp])
+    tree = tracer.trace(world, ray=((0.3, 1, 0), (0.1, -1, 0.1)), depth=0)
+    assert tree.end(1) == "blocked"
+    assert 0.0 < tree.nodes["error"][1] < 16 * tree.nodes["error"][0]
