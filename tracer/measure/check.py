@@ -1,0 +1,65 @@
+"""All cases of `raytree check`, group by group, and how they come out."""
+
+from collections.abc import Callable, Sequence
+from decimal import Decimal
+from fractions import Fraction
+from types import ModuleType
+from typing import Any
+
+from tracer.measure import spheres
+from tracer.measure.case import Case, Result, run
+
+GROUPS: tuple[ModuleType, ...] = (spheres,)
+
+CASES: tuple[Case, ...] = tuple(case for group in GROUPS for case in group.CASES)
+
+
+def run_all(cases: Sequence[Case] = CASES, done: Callable[[Result], None] = lambda result: None) -> list[Result]:
+    """Every case's result; `done` is told of each as it comes."""
+    results = []
+    for case in cases:
+        results.append(run(case))
+        done(results[-1])
+    return results
+
+
+def to_dict(results: Sequence[Result]) -> dict[str, Any]:
+    """As JSON has it: of each case the reading that comes nearest to what is allowed, and all of them below."""
+    return {"cases": [_case(result) for result in results]}
+
+
+def _case(result: Result) -> dict[str, Any]:
+    worst = result.worst
+    return {
+        "id": result.case.id,
+        "ok": result.ok,
+        "exact": plain(worst.exact),
+        "got": plain(worst.got),
+        "error": finite(worst.error),
+        "tolerance": worst.allowed,
+        "title": result.case.title,
+        "readings": [
+            {
+                "setting": reading.setting,
+                "exact": plain(reading.exact),
+                "got": plain(reading.got),
+                "textbook": plain(reading.textbook),
+                "error": finite(reading.error),
+                "unit": reading.unit,
+                "tolerance": reading.allowed,
+                "ok": reading.ok,
+            }
+            for reading in result.readings
+        ],
+    }
+
+
+def plain(value: Any) -> Any:
+    """A number or a word for JSON, which has no infinity."""
+    if isinstance(value, Decimal | Fraction):
+        return float(value)
+    return finite(value) if isinstance(value, float) else value
+
+
+def finite(value: float) -> float | None:
+    return value if abs(value) < float("inf") else None

@@ -1,0 +1,104 @@
+"""The formulas as textbooks have them, to show beside ours what they lose: plain Python, one formula a function.
+
+Nothing else uses this file. Each function is the usual way: the quadratic by (-b - sqrt(b^2 - 4ac)) / 2a, refraction by
+1 - eta^2 (1 - c1^2), angles by acos, what is let through as 1 - R, and a smallest distance below which no hit counts.
+"""
+
+import math
+from collections.abc import Sequence
+
+Vector = Sequence[float]
+
+TMIN = 1e-4  # the usual smallest distance, and the usual offset along the normal
+
+
+def dot(a: Vector, b: Vector) -> float:
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def unit(a: Vector) -> Vector:
+    size = math.sqrt(dot(a, a))
+    return [x / size for x in a]
+
+
+def at(origin: Vector, direction: Vector, t: float) -> Vector:
+    return [o + t * d for o, d in zip(origin, direction, strict=True)]
+
+
+def sphere(origin: Vector, direction: Vector, center: Vector, radius: float, tmin: float = TMIN) -> float:
+    """Distance to a sphere; infinite for none."""
+    f = [o - c for o, c in zip(origin, center, strict=True)]
+    a, b, c = dot(direction, direction), 2.0 * dot(f, direction), dot(f, f) - radius * radius
+    discriminant = b * b - 4.0 * a * c
+    if not discriminant >= 0.0 or a == 0.0:
+        return math.inf
+    for t in ((-b - math.sqrt(discriminant)) / (2.0 * a), (-b + math.sqrt(discriminant)) / (2.0 * a)):
+        if t > tmin:
+            return t
+    return math.inf
+
+
+def plane(origin: Vector, direction: Vector, point: Vector, normal: Vector, tmin: float = TMIN) -> float:
+    """Distance to a plane; infinite for none."""
+    speed = dot(normal, direction)
+    if speed == 0.0:
+        return math.inf
+    t = dot(normal, [p - o for p, o in zip(point, origin, strict=True)]) / speed
+    return t if t > tmin else math.inf
+
+
+def triangle(origin: Vector, direction: Vector, corners: Sequence[Vector], least: float = 1e-8) -> float:
+    """Distance to a triangle by Moeller and Trumbore, with their threshold for the determinant; infinite for none."""
+    a, b, c = corners
+    e1, e2 = [y - x for x, y in zip(a, b, strict=True)], [y - x for x, y in zip(a, c, strict=True)]
+    p = cross(direction, e2)
+    determinant = dot(e1, p)
+    if abs(determinant) < least or determinant == 0.0:
+        return math.inf
+    s = [o - x for o, x in zip(origin, a, strict=True)]
+    q = cross(s, e1)
+    u, v = dot(s, p) / determinant, dot(direction, q) / determinant
+    if u < 0.0 or v < 0.0 or u + v > 1.0:
+        return math.inf
+    t = dot(e2, q) / determinant
+    return t if t > TMIN else math.inf
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def reflect(v: Vector, n: Vector) -> Vector:
+    k = 2.0 * dot(n, v)
+    return [x - k * y for x, y in zip(v, n, strict=True)]
+
+
+def refract(v: Vector, n: Vector, n1: float, n2: float) -> Vector | None:
+    """None on total internal reflection."""
+    eta, c1 = n1 / n2, -dot(n, v)
+    root = 1.0 - eta * eta * (1.0 - c1 * c1)
+    if root < 0.0:
+        return None
+    k = eta * c1 - math.sqrt(root)
+    return [eta * x + k * y for x, y in zip(v, n, strict=True)]
+
+
+def fresnel(c1: float, n1: float, n2: float) -> float:
+    """R, unpolarised; the share let through is then taken as 1 - R."""
+    root = 1.0 - (n1 / n2) ** 2 * (1.0 - c1 * c1)
+    if root < 0.0:
+        return 1.0
+    c2 = math.sqrt(root)
+    rs = (n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2)
+    rp = (n2 * c1 - n1 * c2) / (n2 * c1 + n1 * c2)
+    return 0.5 * (rs * rs + rp * rp)
+
+
+def angle(a: Vector, b: Vector) -> float:
+    return math.acos(max(-1.0, min(1.0, dot(a, b))))
+
+
+def offset(point: Vector, normal: Vector, direction: Vector) -> Vector:
+    """A hit moved off its surface, to the side the next ray goes: the other usual way not to meet it again."""
+    side = 1.0 if dot(normal, direction) > 0.0 else -1.0
+    return [p + side * TMIN * n for p, n in zip(point, normal, strict=True)]
