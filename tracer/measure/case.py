@@ -8,7 +8,7 @@ with 50 decimal digits or are whole numbers, fractions and words.
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from decimal import Context, Decimal
+from decimal import Context, Decimal, localcontext
 from fractions import Fraction
 
 U = 2.0**-53
@@ -74,7 +74,8 @@ class Result:
 
 
 def run(case: Case) -> Result:
-    return Result(case, tuple(case.read()))
+    with localcontext(DIGITS):
+        return Result(case, tuple(case.read()))
 
 
 def off(value: Got, exact: Exact) -> float:
@@ -83,7 +84,7 @@ def off(value: Got, exact: Exact) -> float:
         return 0.0 if value == exact else math.inf
     if not math.isfinite(value):
         return math.inf
-    return float(abs(decimal(value) - decimal(exact)))
+    return float(abs(DIGITS.subtract(decimal(value), decimal(exact))))
 
 
 def decimal(value: Exact | float) -> Decimal:
