@@ -9,7 +9,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import NoReturn
 
-COMMANDS = ("view", "trace", "render", "plan", "lessons")
+COMMANDS = ("view", "trace", "render", "plan", "check", "lessons")
 FORMATS = ("text", "json", "csv", "dot")
 
 # Options whose value may begin with a minus sign, which argparse would take for another option.
@@ -83,6 +83,11 @@ def make_parser() -> Parser:
 
     plan = commands.add_parser("plan", help="what a scene needs of the tracer, and what is left out")
     plan.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+
+    check = commands.add_parser("check", help="numbers against exact answers: cases where textbook formulas fail")
+    check.add_argument("cases", nargs="*", metavar="CASE", help="names like A1, or groups like A; all by default")
+    check.add_argument("--explain", action="store_true", help="what goes wrong in the textbook's way, every setting")
+    check.add_argument("--json", action="store_true", help="for programs: one document")
 
     commands.add_parser("lessons", help="the lessons, one a line")
     return parser

@@ -108,6 +108,14 @@ def plan(options: Namespace) -> int:
     return 0
 
 
+def check(options: Namespace) -> int:
+    from viewer import checktable
+
+    cases = checktable.chosen(options.cases)
+    compile_once()
+    return checktable.check(cases, options.explain, options.json, put)
+
+
 def view(options: Namespace) -> int:
     from viewer.show import show
 

@@ -1,0 +1,119 @@
+"""`raytree check` as a person reads it: a line a case, its exact answer, the textbook's and ours."""
+
+import difflib
+import json
+import sys
+import textwrap
+import time
+from collections.abc import Callable, Sequence
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+from tracer.measure.case import Case, Reading, Result
+from tracer.measure.check import CASES, run_all, to_dict
+from viewer.files import Unusable
+
+WIDTH = 100  # of running text
+HEADINGS = ("case", "what it is", "exact answer", "the textbook's", "error", "ours", "error", "")
+ABOUT = (
+    "Each line is a case at its hardest setting. The textbook's error is relative; ours is counted in units of\n"
+    "rounding: 2^-53 of the answer times the case's condition number, with what is allowed behind it.\n"
+)
+
+
+def chosen(names: Sequence[str]) -> list[Case]:
+    """The cases of these names or groups (a name's first letter), all for none. Unusable for a name there is not."""
+    if not names:
+        return list(CASES)
+    found: list[Case] = []
+    for name in names:
+        these = [case for case in CASES if name.upper() in (case.id, case.id[0])]
+        if not these:
+            known = [case.id for case in CASES]
+            close = difflib.get_close_matches(name.upper(), known, 1)
+            hint = f"did you mean {close[0]}?" if close else f"the cases are {', '.join(known)}"
+            raise Unusable(f'raytree check: no case "{name}": {hint}')
+        found += [case for case in these if case not in found]
+    return found
+
+
+def check(cases: Sequence[Case], explain: bool, as_json: bool, put: Callable[[str], None]) -> int:
+    """Run the cases and print them; 1 where one falls short."""
+    began = time.perf_counter()
+    watched = sys.stderr.isatty() and not as_json
+
+    def tell(result: Result) -> None:
+        if watched:
+            sys.stderr.write(f"\r\x1b[K{result.case.id} ...")
+            sys.stderr.flush()
+
+    results = run_all(cases, tell)
+    if watched:
+        sys.stderr.write("\r\x1b[K")
+    if as_json:
+        put(json.dumps(to_dict(results), indent=1, allow_nan=False, ensure_ascii=False) + "\n")
+    elif explain:
+        put("\n".join(explained(result) for result in results))
+    else:
+        put(table(results) + "\n" + verdict(results, time.perf_counter() - began) + "\n")
+    return 0 if all(result.ok for result in results) else 1
+
+
+def table(results: Sequence[Result]) -> str:
+    rows = [HEADINGS]
+    for result in results:
+        worst = result.worst
+        rows.append((result.case.id, f"{result.case.title} ({worst.setting})", *cells(worst)))
+    return ABOUT + "\n" + aligned(rows)
+
+
+def explained(result: Result) -> str:
+    """One case in full: what it is, what goes wrong, every setting."""
+    case = result.case
+    rows = [("", "setting", *HEADINGS[2:]), *(("", reading.setting, *cells(reading)) for reading in result.readings)]
+    return f"{case.id}  {case.title}\n\n{textwrap.fill(case.wrong, WIDTH)}\n\n{aligned(rows)}"
+
+
+def verdict(results: Sequence[Result], seconds: float) -> str:
+    short = [result.case.id for result in results if not result.ok]
+    count = f"{len(results)} case{'s' if len(results) != 1 else ''} in {seconds:.1f} s"
+    return f"{count}: " + (f"{', '.join(short)} fell short" if short else "all within what is allowed")
+
+
+def cells(reading: Reading) -> tuple[str, ...]:
+    usual = reading.textbook_error
+    lost = "" if usual is None else ("wrong" if usual == float("inf") else f"{usual:.1e}")
+    if usual == 0.0:
+        lost = "0"
+    return (
+        shown(reading.exact),
+        "" if reading.textbook is None else shown(reading.textbook),
+        lost,
+        shown(reading.got),
+        counted(reading),
+        "ok" if reading.ok else "FALLS SHORT",
+    )
+
+
+def counted(reading: Reading) -> str:
+    """The error in units, with what is allowed; words are right or wrong."""
+    if isinstance(reading.exact, str) or reading.unit == 0.0:
+        return "right" if reading.ok else "wrong"
+    return f"{reading.error:.2g} of {reading.allowed:g}"
+
+
+def shown(value: Any) -> str:
+    """A number with a dozen digits, a word as it is."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, Fraction) and value.denominator < 1000:
+        return str(value)
+    return f"{float(value) if isinstance(value, Decimal | Fraction) else value:.12g}"
+
+
+def aligned(rows: Sequence[Sequence[str]]) -> str:
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return "".join("  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).strip() + "\n" for row in rows)
