@@ -3,7 +3,7 @@
 uniform float opacity;
 uniform vec4 seam;     // w = 1: this colour for all, for the halo
 in vec4 ink;
-in vec2 beside;
+noperspective in vec2 beside;
 flat in float half_width;
 flat in float span;
 flat in vec2 pattern;

@@ -1,5 +1,6 @@
 // Rays as strips of constant width in pixels. In, a line a strip: two ends in the world, colour, width, dash, fading.
-// A line that starts behind the eye is cut at the near plane before anything is divided by its depth.
+// A line is first cut to a few pictures' width about the picture, before anything is divided by its depth: what starts
+// behind the eye would otherwise be millions of pixels long, and its dashes nothing but rounding.
 #version 330
 uniform mat4 world_to_clip;
 uniform vec2 size;     // of the picture, in pixels
@@ -12,21 +13,33 @@ in float width;
 in vec2 dash;
 in float fading;       // 1: fades towards its end
 out vec4 ink;
-out vec2 beside;       // logical pixels: along from the start, across from the middle
+noperspective out vec2 beside;       // logical pixels: along from the start, across from the middle
 flat out float half_width;
 flat out float span;
 flat out vec2 pattern;
 flat out float fades;
 
 const float NEAR = 1e-4;
+const float AROUND = 4.0;  // half widths of the picture
+
+// Keep of the line from a to b, from x to y as shares of it, what lies on the side where a linear form is above 0.
+void keep(float at_a, float at_b, inout vec2 part) {
+    if (at_a < 0.0 && at_b < 0.0) part = vec2(1.0, 0.0);
+    else if (at_a < 0.0) part.x = max(part.x, at_a / (at_a - at_b));
+    else if (at_b < 0.0) part.y = min(part.y, at_a / (at_a - at_b));
+}
 
 void main() {
-    vec4 a = world_to_clip * vec4(from, 1.0);
-    vec4 b = world_to_clip * vec4(to, 1.0);
-    // Along the cut line the share of its length stays known, so that dashes do not run when the view moves.
-    if (a.w < NEAR && b.w < NEAR) { gl_Position = vec4(0.0, 0.0, 2.0, 1.0); return; }
-    if (a.w < NEAR) a = mix(a, b, (NEAR - a.w) / (b.w - a.w));
-    if (b.w < NEAR) b = mix(b, a, (NEAR - b.w) / (a.w - b.w));
+    vec4 whole_a = world_to_clip * vec4(from, 1.0);
+    vec4 whole_b = world_to_clip * vec4(to, 1.0);
+    vec2 part = vec2(0.0, 1.0);
+    keep(whole_a.w - NEAR, whole_b.w - NEAR, part);
+    keep(AROUND * whole_a.w - whole_a.x, AROUND * whole_b.w - whole_b.x, part);
+    keep(AROUND * whole_a.w + whole_a.x, AROUND * whole_b.w + whole_b.x, part);
+    keep(AROUND * whole_a.w - whole_a.y, AROUND * whole_b.w - whole_b.y, part);
+    keep(AROUND * whole_a.w + whole_a.y, AROUND * whole_b.w + whole_b.y, part);
+    if (part.x >= part.y) { gl_Position = vec4(0.0, 0.0, 2.0, 1.0); return; }
+    vec4 a = mix(whole_a, whole_b, part.x), b = mix(whole_a, whole_b, part.y);
     vec2 p = 0.5 * size * a.xy / a.w / scale;
     vec2 q = 0.5 * size * b.xy / b.w / scale;
     vec2 along = q - p;

@@ -46,7 +46,11 @@ def _head(tree: RayTree) -> list[str]:
     title = tree.scene.title or (tree.scene.path.name if tree.scene.path else "scene")
     rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
     head = [f"{title}: {where}, depth {tree.depth}, {tree.model}, {rays}"]
-    return [*head, f"colour {triple(tree.radiance)} (linear r g b); {missing(tree)}"]
+    head.append(f"colour {triple(tree.radiance)} (linear r g b); {missing(tree)}")
+    lost = [i for i in range(len(tree)) if tree.object_name(i) and tree.nodes["error"][i] > 0.0 and tree.digits(i) == 0]
+    if lost:
+        head.append(f"from ray {lost[0]} on rounding has left no digit of where rays go: what follows may be otherwise")
+    return head
 
 
 def missing(tree: RayTree) -> str:
@@ -82,7 +86,7 @@ def _row(tree: RayTree, i: int, stem: str) -> tuple[str, ...]:
     return (
         f"{stem}{i} {kind}",
         met or ("background" if tree.end(i) == "background" else ""),
-        number(row["t"]),
+        number(row["t"], row["error"]),
         "" if shadow else _pair(number(row["n1"]), number(row["n2"])),
         "" if shadow else _pair(degrees(row["theta1"]), degrees(row["theta2"])),
         triple(row["weight"], same=True),
@@ -100,9 +104,12 @@ def _pair(first: str, second: str) -> str:
     return f"{first} → {second}" if first and second else first
 
 
-def number(x: float) -> str:
-    """Five digits; nothing for what is absent."""
-    return "" if math.isnan(x) else f"{x:.5g}"
+def number(x: float, error: float = 0.0) -> str:
+    """Five digits, or as many as the error has left: "?" for none; nothing for what is absent."""
+    if math.isnan(x):
+        return ""
+    digits = 5 if not error > 0.0 else min(5, math.floor(math.log10(abs(x) / error))) if abs(x) > error else 0
+    return f"{x:.{digits}g}" if digits > 0 or x == 0.0 else "?"
 
 
 def degrees(radians: float) -> str:

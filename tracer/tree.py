@@ -95,6 +95,14 @@ class RayTree:
             return False
         return bool(row["t"] == 0.0 or self.nodes["normal"][row["parent"]] @ row["direction"] <= 0.0)
 
+    def digits(self, i: int) -> int:
+        """How many decimal digits of the hit's place are sure; 0 where rounding has left none, 15 at most."""
+        row = self.nodes[i]
+        size = max(row["t"], np.abs(row["point"]).max())
+        if not size > row["error"]:
+            return 0
+        return min(15, int(math.log10(size / row["error"])))
+
     def light_name(self, i: int) -> str | None:
         j = self.nodes["light"][i]
         return (self.scene.lights[j].name or f"light {j}") if j >= 0 else None

@@ -17,8 +17,8 @@ from viewer.files import Unusable
 WIDTH = 100  # of running text
 HEADINGS = ("case", "what it is", "exact answer", "the textbook's", "error", "ours", "error", "")
 ABOUT = (
-    "Each line is a case at its hardest setting. The textbook's error is relative; ours is counted in units of\n"
-    "rounding: 2^-53 of the answer times the case's condition number, with what is allowed behind it.\n"
+    "Each line is a case at the setting hardest on the textbook's formula. Its error is relative; ours is counted in\n"
+    "units of rounding, 2^-53 of the answer times the case's condition number, with what is allowed behind it.\n"
 )
 
 
@@ -61,10 +61,10 @@ def check(cases: Sequence[Case], explain: bool, as_json: bool, put: Callable[[st
 
 
 def table(results: Sequence[Result]) -> str:
-    rows = [HEADINGS]
+    rows: list[tuple[str, ...]] = [HEADINGS]
     for result in results:
-        worst = result.worst
-        rows.append((result.case.id, f"{result.case.title} ({worst.setting})", *cells(worst)))
+        reading = result.telling
+        rows.append((result.case.id, f"{result.case.title} ({reading.setting})", *cells(reading)))
     return ABOUT + "\n" + aligned(rows)
 
 

@@ -19,7 +19,7 @@ from tracer.tree import RayTree
 from tracer.vector import vector
 from tracer.world import World
 from viewer.theme import STYLES
-from viewer.wording import angle, pair, same, shown, triple
+from viewer.wording import angle, pair, place, same, shown, triple
 
 
 @dataclass(frozen=True)
@@ -58,6 +58,8 @@ def headline(tree: RayTree, i: int) -> tuple[str, str]:
         return f"{name} {i}", f"from {from_object} to {tree.light_name(i)}: {_shadow_fate(tree, i)}"
     met = tree.object_name(i)
     fate = f"meets {met}" if met else "meets nothing"
+    if met and tree.digits(i) == 0:
+        fate = f"{fate}, or so it seems: rounding has left no digit of where"
     why = WHY[tree.end(i)]
     return f"{name} {i}", f"{fate}; {why}" if why else fate
 
@@ -80,12 +82,15 @@ def numbers(tree: RayTree, i: int) -> Section:
     section.add("kind", KIND_NAMES[tree.kind(i)].lower() + (f", sent by ray {parent}" if parent >= 0 else ""))
     section.add("depth", str(int(row["depth"])))
     section.add("object", tree.object_name(i) or "none")
-    section.add("distance t", shown(row["t"]))
-    section.add("point", triple(row["point"]))
+    error, turn = float(row["error"]), turned(tree, i)
+    section.add("distance t", shown(row["t"], error=error))
+    section.add("point", place(row["point"], error))
+    if not math.isnan(error):
+        section.add("rounding may move it by", f"{error:.1g}".replace("-", "−"))
     if not shadow:
-        section.add("normal n", triple(row["normal"]))
+        section.add("normal n", place(row["normal"], turn))
         section.add("n₁ → n₂", pair(shown(row["n1"]), shown(row["n2"])))
-        section.add("θ₁ → θ₂", pair(angle(row["theta1"]), angle(row["theta2"])))
+        section.add("θ₁ → θ₂", pair(angle(row["theta1"], turn), angle(row["theta2"], turn)))
         if not math.isnan(row["radicand"]):
             section.add("1 − η²(1 − c₁²)", shown(row["radicand"]))
     section.add("factor", same(row["factor"]))
@@ -94,6 +99,11 @@ def numbers(tree: RayTree, i: int) -> Section:
     section.add("ends", WHY[tree.end(i)] or "its children go on")
     section.add("path", tree.path(i))
     return section
+
+
+def turned(tree: RayTree, i: int) -> float:
+    """How far rounding may have turned the directions at hit i: the ray's own and those it sends on."""
+    return float(max(tree.nodes["turn"][k] for k in (i, *tree.children[i])))
 
 
 def explain(tree: RayTree, world: World, i: int) -> list[Section]:
@@ -142,10 +152,13 @@ def _snell(tree: RayTree, i: int) -> Section:
     row = tree.nodes[i]
     n1, n2 = float(row["n1"]), float(row["n2"])
     left = n1 * math.sin(row["theta1"])
+    turn = turned(tree, i)
     section = Section("Snell's law", "n₁ sin θ₁ = n₂ sin θ₂")
-    section.add(f"{shown(n1)} · sin {angle(row['theta1'])}", shown(left))
+    section.add(f"{shown(n1)} · sin {angle(row['theta1'], turn)}", shown(left, error=n1 * turn))
     if row["radicand"] > 0.0:
-        section.add(f"{shown(n2)} · sin {angle(row['theta2'])}", shown(n2 * math.sin(row["theta2"])))
+        section.add(
+            f"{shown(n2)} · sin {angle(row['theta2'], turn)}", shown(n2 * math.sin(row["theta2"]), error=n2 * turn)
+        )
     else:
         section.add("sin θ₂ would be", f"{shown(left / n2)} > 1")
     return section
@@ -159,7 +172,10 @@ def _critical(tree: RayTree, i: int) -> Section:
     section = Section("Critical angle", "θc = asin(n₂ / n₁)")
     section.add(f"asin({shown(n2)} / {shown(n1)})", angle(critical))
     beyond = row["radicand"] <= 0.0
-    section.add(f"θ₁ = {angle(row['theta1'])}", "beyond it: total internal reflection" if beyond else "below it")
+    section.add(
+        f"θ₁ = {angle(row['theta1'], turned(tree, i))}",
+        "beyond it: total internal reflection" if beyond else "below it",
+    )
     return section
 
 
@@ -169,21 +185,22 @@ def _transmission(tree: RayTree, i: int) -> Section:
     n1, n2 = float(row["n1"]), float(row["n2"])
     c1 = optics.cosine(v, normal)
     root = float(row["radicand"])
+    turn = turned(tree, i)
     section = Section("Transmission direction", "t = η v + (η c₁ − c₂) n,  η = n₁/n₂")
     section.add("η = n₁/n₂", shown(n1 / n2))
-    section.add("c₁ = −v·n", shown(c1))
-    section.add("1 − η²(1 − c₁²)", shown(root))
+    section.add("c₁ = −v·n", shown(c1, error=turn))
+    section.add("1 − η²(1 − c₁²)", shown(root, error=2.0 * (n1 / n2) ** 2 * turn))
     if root <= 0.0:
         section.add("η²(1 − c₁²)", f"{shown(1.0 - root)} ≥ 1: total internal reflection")
         return section
     c2 = math.sqrt(root)
-    section.add("c₂ = √", shown(c2))
-    section.add("v", triple(v))
-    section.add("n", triple(normal))
+    section.add("c₂ = √", shown(c2, error=turn))
+    section.add("v", place(v, turn))
+    section.add("n", place(normal, turn))
     if n1 == n2:
         section.add("t = v", "equal indices: straight on")
     else:
-        section.add("t", triple(optics.transmission(v, normal, n1, n2, c1, c2)))
+        section.add("t", place(optics.transmission(v, normal, n1, n2, c1, c2), turn))
     return section
 
 
@@ -208,11 +225,12 @@ def _fresnel(tree: RayTree, i: int, material: Material) -> Section:
 def _reflection(tree: RayTree, i: int) -> Section:
     row = tree.nodes[i]
     v, n = vector(row["direction"]), vector(row["normal"])
+    turn = turned(tree, i)
     section = Section("Reflection", "r = v − 2 (n·v) n")
-    section.add("v", triple(v))
-    section.add("n", triple(n))
-    section.add("n·v", shown(-optics.cosine(v, n)))
-    section.add("r", triple(optics.reflect(v, n)))
+    section.add("v", place(v, turn))
+    section.add("n", place(n, turn))
+    section.add("n·v", shown(-optics.cosine(v, n), error=turn))
+    section.add("r", place(optics.reflect(v, n), turn))
     return section
 
 

@@ -248,3 +248,17 @@ def test_ray_that_leaves_a_ball_outwards_does_not_meet_it_again(inward: float) -
     assert sphere.again(world, surface, out) == math.inf
     within = make_ray((1.0, 0.0, 0.0), (-inward, 1.0, -0.5 * inward), 0, -1.0, 1.0)
     assert sphere.again(world, surface, within) == 2.0 * inward
+
+
+def test_box_on_a_plane_meets_a_ray_where_the_plane_does() -> None:
+    """Faces that coincide are one interface, whatever shapes they belong to: no speckle of rounding."""
+    glass = Material("glass", transmit=1.0, ior=1.5)
+    floor = Object(Plane((0.0, -0.6, 0.0), (0.0, 1.0, 0.0)), MATTE, "floor")
+    world = world_of(floor, box((-2, -0.6, -2), (2, 1, 2), glass, "block"))
+    random = np.random.default_rng(8)
+    for _ in range(300):
+        target = random.uniform(-1.5, 1.5, 3) * (1, 0, 1) - (0, 0.6, 0)
+        origin = random.uniform(-1, 1, 3) + (0, 4, 0)
+        tree = tracer.trace(world, ray=(tuple(origin), tuple(target - origin)), depth=1)
+        assert tree.object_name(0) == "block"
+        assert tree.object_name(len(tree) - 1 if tree.kind(len(tree) - 1) == "refraction" else 1) == "floor"

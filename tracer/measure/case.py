@@ -69,6 +69,11 @@ class Result:
         return max(self.readings, key=lambda reading: reading.error / (reading.allowed or 1.0))
 
     @property
+    def telling(self) -> Reading:
+        """The worst where the case falls short; else the one that is hardest on the textbook."""
+        return self.worst if not self.ok else max(self.readings, key=lambda reading: reading.textbook_error or 0.0)
+
+    @property
     def ok(self) -> bool:
         return bool(self.readings) and all(reading.ok for reading in self.readings)
 

@@ -42,15 +42,18 @@ class Box:
 
 @compiled
 def crossing(surface: Any, ray: Ray) -> tuple[float, float]:
-    """The distances at which the ray enters and leaves; entering is after leaving where it misses."""
+    """The distances at which the ray enters and leaves; entering is after leaving where it misses.
+
+    Both are worked out as a plane's are, by one division: a box that stands on a plane meets the ray where that does.
+    """
     enter, leave = -math.inf, math.inf
     for k in range(3):
         if ray.direction[k] == 0.0:
             if not surface.a[k] <= ray.origin[k] <= surface.b[k]:
                 return (math.inf, -math.inf)
         else:
-            low = (surface.a[k] - ray.origin[k]) * ray.inverse[k]
-            high = (surface.b[k] - ray.origin[k]) * ray.inverse[k]
+            low = (surface.a[k] - ray.origin[k]) / ray.direction[k]
+            high = (surface.b[k] - ray.origin[k]) / ray.direction[k]
             enter = max(enter, min(low, high))
             leave = min(leave, max(low, high))
     return (enter, leave)
@@ -85,7 +88,7 @@ def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector
         if ray.direction[k] != 0.0:
             at_low = (ray.direction[k] > 0.0) == entering
             plane = surface.a[k] if at_low else surface.b[k]
-            if (plane - ray.origin[k]) * ray.inverse[k] == t:
+            if (plane - ray.origin[k]) / ray.direction[k] == t:
                 n = -1.0 if at_low else 1.0
                 if k == 0:
                     return ((plane, p[1], p[2]), (n, 0.0, 0.0), (n, 0.0, 0.0))
