@@ -257,8 +257,8 @@ def test_box_on_a_plane_meets_a_ray_where_the_plane_does() -> None:
     world = world_of(floor, box((-2, -0.6, -2), (2, 1, 2), glass, "block"))
     random = np.random.default_rng(8)
     for _ in range(300):
-        target = random.uniform(-1.5, 1.5, 3) * (1, 0, 1) - (0, 0.6, 0)
-        origin = random.uniform(-1, 1, 3) + (0, 4, 0)
+        target = random.uniform(-1.5, 1.5, 3) * np.array([1, 0, 1]) - np.array([0.0, 0.6, 0.0])
+        origin = tuple(random.uniform(-1, 1, 3) + np.array([0.0, 4.0, 0.0]))
         tree = tracer.trace(world, ray=(tuple(origin), tuple(target - origin)), depth=1)
         assert tree.object_name(0) == "block"
         assert tree.object_name(len(tree) - 1 if tree.kind(len(tree) - 1) == "refraction" else 1) == "floor"
