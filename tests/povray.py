@@ -77,7 +77,7 @@ def _object(item: Object) -> str:
 
 
 def _finish(shape: object, material: Material) -> str:
-    opaque = 1.0 - material.transmit
+    opaque = 1.0 - material.transmit or 1.0
     pigment = f"color {_rgb(material.color)} transmit {material.transmit!r}"
     if material.checker:
         assert material.transmit == 0.0

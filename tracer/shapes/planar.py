@@ -116,8 +116,8 @@ def plane_distance(world: Any, surface: Any, ray: Ray, floor: float, ceiling: fl
 @compiled
 def is_aligned(surface: Any) -> bool:
     """Whether the normal is along an axis: then n.(a - o) is one difference and n.d one number."""
-    n = surface.normal
-    return (n[0] == 0.0) + (n[1] == 0.0) + (n[2] == 0.0) == 2
+    x, y, z = surface.normal[0] == 0.0, surface.normal[1] == 0.0, surface.normal[2] == 0.0
+    return (x and y) or (y and z) or (z and x)
 
 
 @routine
