@@ -10,7 +10,7 @@ BIN := .venv/bin
 PROGRAMS := Xvfb:xvfb xdotool:xdotool openbox:openbox povray:povray setpriv:util-linux
 LIBRARIES := libEGL.so.1:libegl1 libGL.so.1:libgl1 swrast_dri.so:libgl1-mesa-dri
 
-.PHONY: run test check bench picture clean
+.PHONY: run test check bench bench-stable picture clean
 
 run: .venv/installed
 	@$(BIN)/raytree
@@ -29,6 +29,10 @@ bench: .venv/installed-dev
 	@sh .ci/system-packages 'povray:povray' ''
 	@mkdir -p out
 	$(BIN)/python -m benchmarks.against_povray out/bench.json
+
+# What the stable formulas cost, against the textbook's in the same kernel.
+bench-stable: .venv/installed-dev
+	$(BIN)/python -m benchmarks.against_textbook
 
 # The README's picture of the viewer, by the viewer.
 picture: .venv/installed
