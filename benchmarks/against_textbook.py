@@ -1,4 +1,6 @@
-"""What the stable formulas cost: images with them against images with the textbook's, side by side: `make bench-stable`.
+"""What the stable formulas cost: images with them against images with the textbook's in the same kernel.
+
+`make bench-stable`.
 
 The plain kernel has the quadratic by (-b -+ sqrt(b^2 - ac)) / a, planes by one division, the hit where the ray says,
 directions by a root and three divisions. It is compiled in a process of its own; both take turns, one thread each.
@@ -76,9 +78,8 @@ def make_plain() -> None:
     """Put the textbook's formulas where kernels will look them up; nothing is compiled yet."""
     sphere.intersect, sphere.locate = plain_sphere, plain_on_sphere
     for flat in (plane_shape, polygon, triangle):
-        flat.plane_distance = plain_plane
-        flat.locate = plain_on_plane if flat is not triangle else flat.locate
-    planar.locate = plain_on_plane
+        vars(flat)["plane_distance"] = plain_plane
+    plane_shape.locate = polygon.locate = planar.locate = plain_on_plane
     intersect = shapes._fold("intersect", shapes._no_intersect, shapes._link_intersect)
     locate = shapes._fold("locate", shapes._no_locate, shapes._link_locate)
     hits.intersect = intersect
