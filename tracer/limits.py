@@ -1,11 +1,15 @@
 """How far a tree of rays goes, and by which model its edges weigh."""
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from tracer.world import World
 
 WHITTED, FRESNEL = range(2)
 MODELS = ("whitted", "fresnel")
 
 
+MAX_NODES = 10**6  # rays of a tree, where no one asks for more or fewer
 ANY_DEPTH = 2**31 - 1  # what a row's depth can count to
 LEVEL_BY_LEVEL = -1.0  # instead of a tolerance
 
@@ -20,3 +24,30 @@ class Limits(NamedTuple):
     model: int
     glass_blocks: bool  # shadow rays: glass casts a full shadow instead of filtering the light
     records: bool  # the table will be read (a click): fill in what an image has no use for
+
+
+def make_limits(
+    world: "World",
+    depth: int | None = None,
+    min_weight: float = 0.0,
+    tolerance: float | None = None,
+    max_nodes: int = MAX_NODES,
+    model: str | None = None,
+    *,
+    records: bool,
+) -> Limits:
+    """The kernel's limits, with the scene's own values where none are given."""
+    tracing = world.scene.tracing
+    if depth is None:
+        depth = tracing.depth if tolerance is None else ANY_DEPTH
+    if not 0 <= depth <= ANY_DEPTH:
+        raise ValueError(f"depth must be 0 .. {ANY_DEPTH}, got {depth}")
+    if not min_weight >= 0.0:
+        raise ValueError(f"min_weight must be >= 0, got {min_weight}")
+    if tolerance is not None and not tolerance >= 0.0:
+        raise ValueError(f"tolerance must be >= 0, got {tolerance}")
+    if max_nodes < 1:
+        raise ValueError(f"max_nodes must be >= 1, got {max_nodes}")
+    least = LEVEL_BY_LEVEL if tolerance is None else float(tolerance)
+    code = MODELS.index(model or tracing.model)
+    return Limits(depth, float(min_weight), max_nodes, least, code, tracing.shadows == "block", records)

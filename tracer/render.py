@@ -19,12 +19,12 @@ from tracer.bound import brightest
 from tracer.bvh import FLAT
 from tracer.camera import View
 from tracer.jit import is_compiled
-from tracer.limits import Limits
+from tracer.limits import MAX_NODES, Limits, make_limits
 from tracer.nodes import KINDS
 from tracer.scene import Material, Object, Scene
 from tracer.shapes.sphere import Sphere
 from tracer.tile import CENTER, Area, Samples, Workspace, run, trace_area
-from tracer.tree import MAX_NODES, checked_size, make_limits, solids_at, trace, words
+from tracer.tree import checked_size, solids_at, trace, words
 from tracer.world import World, prepare
 
 TILE = 64  # pixels a side: some milliseconds of work, so that cancelling is quick and threads end together

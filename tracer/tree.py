@@ -18,7 +18,7 @@ from numpy.lib.recfunctions import repack_fields
 from tracer.bound import Ledger, brightest, ledger
 from tracer.camera import View
 from tracer.digits import errors_of
-from tracer.limits import ANY_DEPTH, LEVEL_BY_LEVEL, MODELS, Limits
+from tracer.limits import MAX_NODES, MODELS, make_limits
 from tracer.media import WORD
 from tracer.nodes import BLOCKED, ENDS, KINDS, PUBLIC, SHADOW, SURFACE
 from tracer.outline import outline
@@ -26,8 +26,6 @@ from tracer.scene import Scene
 from tracer.tile import CENTER, Area, Samples, Workspace, eye_view, run
 from tracer.vector import Vector, tame, unit
 from tracer.world import World
-
-MAX_NODES = 10**6
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -250,33 +248,6 @@ def checked_size(size: tuple[int, int] | None) -> tuple[int, int] | None:
     if width < 1 or height < 1:
         raise ValueError(f"size must be at least 1x1, got {width}x{height}")
     return (width, height)
-
-
-def make_limits(
-    world: World,
-    depth: int | None = None,
-    min_weight: float = 0.0,
-    tolerance: float | None = None,
-    max_nodes: int = MAX_NODES,
-    model: str | None = None,
-    *,
-    records: bool,
-) -> Limits:
-    """The kernel's limits, with the scene's own values where none are given."""
-    tracing = world.scene.tracing
-    if depth is None:
-        depth = tracing.depth if tolerance is None else ANY_DEPTH
-    if not 0 <= depth <= ANY_DEPTH:
-        raise ValueError(f"depth must be 0 .. {ANY_DEPTH}, got {depth}")
-    if not min_weight >= 0.0:
-        raise ValueError(f"min_weight must be >= 0, got {min_weight}")
-    if tolerance is not None and not tolerance >= 0.0:
-        raise ValueError(f"tolerance must be >= 0, got {tolerance}")
-    if max_nodes < 1:
-        raise ValueError(f"max_nodes must be >= 1, got {max_nodes}")
-    least = LEVEL_BY_LEVEL if tolerance is None else float(tolerance)
-    code = MODELS.index(model or tracing.model)
-    return Limits(depth, float(min_weight), max_nodes, least, code, tracing.shadows == "block", records)
 
 
 def words(world: World) -> int:

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 import tracer
-from tracer.limits import MODELS
-from tracer.tree import RayTree, make_limits
+from tracer.limits import MODELS, make_limits
+from tracer.tree import RayTree
 from tracer.world import World
 from viewer.lesson import Lesson, LessonView
 from viewer.looks import Look, Notice, Shown

@@ -202,8 +202,8 @@ def test_absurd_limits_are_refused() -> None:
 
 def test_mirrors_face_to_face_take_no_room_but_where_they_are_recorded() -> None:
     """100 000 bounces as an image and as a tree: the same colour and counts, and the image's table stays short."""
+    from tracer.limits import make_limits
     from tracer.render import Job
-    from tracer.tree import make_limits
 
     end = ball((0.5, 100.0, 0), 1.0, Material("end", ambient=1.0, color=(0.3, 0.5, 0.7)), "end")
     walls = (plane((0, 0, 0), (1, 0, 0), MIRROR, "left"), plane((1, 0, 0), (-1, 0, 0), MIRROR, "right"))

@@ -13,12 +13,12 @@ import pytest
 import tracer
 from tests.scenes import ball, box, world_of
 from tracer.bvh import split_all
-from tracer.limits import MODELS
+from tracer.limits import MODELS, make_limits
 from tracer.nodes import BACKGROUND, SHADOW
 from tracer.render import COARSE_TO_FINE, Job, passes, trace_passes
 from tracer.scene import Image, Material
 from tracer.tile import trace_area
-from tracer.tree import RayTree, make_limits
+from tracer.tree import RayTree
 from tracer.vector import dot, vector
 
 DEPTHS = (0, 1, 2, 3)

@@ -6,10 +6,11 @@ import pytest
 import tracer
 from tests.scenes import world_of
 from tests.tracer.test_shapes import OPEN, uv_sphere
+from tracer.limits import make_limits
 from tracer.scene import Object
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.tile import CENTER, Area, Workspace, eye_view, run
-from tracer.tree import make_limits, solids_at, words
+from tracer.tree import solids_at, words
 
 PIXEL = Area(0, 0, 1, 1, 1, 0)
 RAYS = 100_000  # at the corners, and as many at the edges, of each mesh

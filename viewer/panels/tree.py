@@ -243,7 +243,14 @@ class _Diagram:
         drawn, total, weight = len(self.rows), len(self.tree), shown(self.tree.residual, 3)
         fewer = f"{drawn} of {total} rays drawn" if self.folded > 0 else ""
         if self.tree.residual > 0.0:
+            bound = self.tree.bound
+            most = (
+                f"at most {shown(bound, 3)} of light is missing"
+                if math.isfinite(bound)
+                else "no bound on what they miss"
+            )
             cuts = [
+                f"rays that were cut carry {weight} of the weight: {most}",
                 f"rays that were cut carry {weight} of the weight",
                 f"cut rays: {weight} of the weight",
                 f"cut: {weight}",
