@@ -102,3 +102,36 @@ def offset(point: Vector, normal: Vector, direction: Vector) -> Vector:
     """A hit moved off its surface, to the side the next ray goes: the other usual way not to meet it again."""
     side = 1.0 if dot(normal, direction) > 0.0 else -1.0
     return [p + side * TMIN * n for p, n in zip(point, normal, strict=True)]
+
+
+def haines(origin: Vector, direction: Vector, center: Vector, radius: float) -> bool:
+    """Whether a ray of unit direction comes within the radius of the centre: not the quadratic's discriminant."""
+    f = [o - c for o, c in zip(origin, center, strict=True)]
+    b = -dot(f, direction)
+    beside = at(f, direction, b)
+    return b > 0.0 and radius * radius - dot(beside, beside) >= 0.0
+
+
+def press(a: float, b: float, c: float) -> tuple[float, float]:
+    """Roots of the quadratic by q = -(b + sign(b) sqrt(b^2 - 4ac)) / 2, as q/a and c/q; 0/0 is NaN, as in C."""
+    q = -0.5 * (b + math.copysign(math.sqrt(b * b - 4.0 * a * c), b))
+    return (q / a, c / q if q != 0.0 else math.nan)
+
+
+def pole_normal(point: Vector, radius: float) -> Vector:
+    """Of a ball about the origin with longitudes: on its axis, where there is none, x is set to 1e-5 radius."""
+    x, y, z = point
+    return unit((1e-5 * radius if x == 0.0 and y == 0.0 else x, y, z))
+
+
+def slab(origin: Vector, direction: Vector, low: Vector, high: Vector) -> tuple[float, float]:
+    """Distances to where a ray enters and leaves a box, by 1/d; a NaN goes through max and min as it does in C."""
+    enter, leave = -math.inf, math.inf
+    for k in range(3):
+        inverse = 1.0 / direction[k] if direction[k] != 0.0 else math.copysign(math.inf, direction[k])
+        first, second = (low[k] - origin[k]) * inverse, (high[k] - origin[k]) * inverse
+        if inverse < 0.0:
+            first, second = second, first
+        enter = first if not enter > first else enter
+        leave = second if not leave < second else leave
+    return (enter, leave)
