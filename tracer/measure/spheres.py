@@ -112,7 +112,7 @@ CASES = (
         far,
         "The textbook takes b^2 - 4ac, two numbers of the size of the squared distance, to find a difference of the "
         "size of the squared radius. At D = 1e7 they have sixteen digits before the one that counts: the hit lies "
-        "visibly off the sphere. At D = 1e8 the difference is all rounding: the edge frays, then the sphere is missed. "
+        "visibly off the sphere. At D = 1e8 the difference is all rounding: the edge frays, and rays miss the sphere. "
         "Measured from the point of the ray nearest to the centre nothing large is left to cancel.",
     ),
     Case(
@@ -135,9 +135,9 @@ CASES = (
         "A6",
         "the way out of a sphere just below its top",
         grazing,
-        "With y = 1 - 2^-k the root is that of 1 - y^2, which is about 2^(1-k); y^2 is rounded to 1e-16 first, so for "
-        "k = 40 only four digits are left of the difference. Taken as (1 - y)(1 + y) it loses nothing. And hits nearer "
-        "than 1e-4 are thrown away altogether.",
+        "With y = 1 - 2^-k the root is that of 1 - y^2, which is about 2^(1-k); the textbook rounds y^2 to 1e-16 "
+        "first, which can leave four digits of the difference at k = 40. Taken as (1 - y)(1 + y) it loses nothing. And "
+        "a smallest distance of 1e-4 throws the way out itself away: the ray never leaves the sphere.",
     ),
     Case(
         "A7",
@@ -152,7 +152,7 @@ CASES = (
         "half a metre above the Earth, in metres",
         earth,
         "The squared radius is 4e13, and the hit is half a metre away: rounding of the squares alone is 0.004. "
-        "The textbook's distance has ten good digits here, and a tracer in single precision has none: it finds the "
+        "The textbook's distance has nine good digits here, and a tracer in single precision has none: it finds the "
         "other side of the Earth.",
     ),
     Case(
@@ -160,7 +160,7 @@ CASES = (
         "a tiny glass ball at distance 1: how thick it is",
         tiny,
         "c = f.f - r^2 is 1 for every r below 1e-8: the radius is gone before the discriminant is taken. Both roots "
-        "are then 1, the ball has no thickness, and for a ray half a radius beside its middle it is not there. Our ray "
-        "starts on the sphere and looks for the chord from there, -2 f.d, in which only the radius counts.",
+        "are then 1: the ball has no thickness, and rays that pass it by a few radii hit it too. Our ray starts on the "
+        "sphere and looks for the chord from there, -2 f.d, in which only the radius counts.",
     ),
 )
