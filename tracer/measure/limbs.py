@@ -99,8 +99,8 @@ CASES = (
         "hit or miss, a hair inside and outside of the edge",
         decided,
         "Whether the ray hits is the sign of b^2 - 4ac. Both are 4 |f|^2, and the edge makes a difference of about "
-        "8 * 2^-k: from 5 away that still has digits, from 2^30 away b^2 is 4e18, in which a double counts in steps of "
-        "512. The answer is then the same on either side of the edge.",
+        "8 * 2^-k: from 5 away that still has digits, from 2^30 away b^2 is 5e18, where doubles count in steps of "
+        "1024. The answer is then the same on either side of the edge.",
     ),
     Case(
         "A5",
@@ -115,7 +115,7 @@ CASES = (
         "through the pole of a glass ball, straight on",
         pole,
         "On the axis a sphere has no longitude, so programs that need one set x to 1e-5 of the radius there. The "
-        "normal tilts by 1e-5, and the ray that should pass straight through leaves it turned by 7e-6: more than a "
+        "normal tilts by 1e-5, and the ray that should pass straight through leaves it turned by 2e-6: ten "
         "billion roundings. A normal that is the point minus the centre needs no longitude.",
     ),
     Case(
@@ -123,7 +123,7 @@ CASES = (
         "what a ray hits, throws a shadow along it: one geometry",
         two_questions,
         "Some programs solve the quadratic to find the nearest hit, and ask a quicker formula whether a shadow ray is "
-        "blocked. Near the edge of a sphere 1e6 away the two disagree about one ray in several: a point that is seen "
+        "blocked. Near the edge of a sphere 1e6 away the two disagree about one in three of these rays: a point that is seen "
         "lets light through, or one that is not seen throws a shadow. One test for both cannot disagree.",
     ),
 )
