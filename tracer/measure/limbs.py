@@ -123,7 +123,7 @@ CASES = (
         "what a ray hits, throws a shadow along it: one geometry",
         two_questions,
         "Some programs solve the quadratic to find the nearest hit, and ask a quicker formula whether a shadow ray is "
-        "blocked. Near the edge of a sphere 1e6 away the two disagree about one in three of these rays: a point that is seen "
-        "lets light through, or one that is not seen throws a shadow. One test for both cannot disagree.",
+        "blocked. Near the edge of a sphere 1e6 away the two disagree about one ray in three: a point that is "
+        "seen lets light through, or one that is not seen throws a shadow. One test for both cannot disagree.",
     ),
 )
