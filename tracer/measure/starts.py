@@ -3,6 +3,7 @@
 import math
 import random
 from collections.abc import Iterator
+from dataclasses import replace
 from decimal import Decimal
 
 from tracer.measure import textbook
@@ -79,8 +80,8 @@ def thin_layer() -> Iterator[Reading]:
     for gap in (7e-5, 7e-7, 7e-10, 7e-13):
         low = -1.0 - gap
         scene = world(
-            plane((0, 1, 0), (0, 1, 0), glass(1.0), "top"),
-            plane((0, -1, 0), (0, 1, 0), glass(1.0), "bottom"),
+            replace(plane((0, 1, 0), (0, 1, 0), glass(1.0), "top"), thin=True),
+            replace(plane((0, -1, 0), (0, 1, 0), glass(1.0), "bottom"), thin=True),
             plane((0, low, 0), (0, 1, 0), DARK, "ground"),
         )
         rows = path(scene, (0.25, 3, 0.25), (0, -1, 0), depth=2).nodes
@@ -106,7 +107,7 @@ def never_again() -> Iterator[Reading]:
                 count += 1
                 again += tree.object_name(1) is not None
                 start, way = tree.nodes[0]["point"].tolist(), tree.nodes[1]["direction"].tolist()
-                usual += textbook.sphere(start, way, center, radius) < math.inf
+                usual += textbook.sphere(start, way, center, radius, tmin=0.0) < math.inf
     yield exactly(f"{count} reflected rays that meet their own ball", 0, again, usual)
 
 
@@ -174,9 +175,9 @@ CASES = (
         "C5",
         "a mirror ball of any size, anywhere: it never meets itself",
         never_again,
-        "The hit is rounded to the digits of its coordinates: 1e8 from the origin that is 1e-8, far more than a ball "
-        "of radius 1e-4 can bear, but also more than 1e-4 once the ray runs along it. The reflected ray starts inside "
-        "as often as outside, and meets its own ball again.",
+        "The hit is rounded to the digits of its coordinates: 1e8 from the origin these are 1e-8. The reflected ray "
+        "then starts inside its ball as often as outside, and with no smallest distance (the count shown) many meet it "
+        "again. A smallest distance of 1e-4 hides that, and balls of radius 1e-4 with it.",
     ),
     Case(
         "C7",
