@@ -7,8 +7,8 @@ import numpy as np
 
 from tracer.measure import textbook
 from tracer.measure.case import Case, Reading, U, decimal, exactly
-from tracer.measure.starts import second_way
 from tracer.measure.stages import DARK, MATTE, ball, box, glass, path, plane, world
+from tracer.measure.starts import second_way
 from tracer.scene import Light, Material, Object
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.triangle import Triangle
