@@ -1,4 +1,4 @@
-"""The cases of `raytree check` of rays and surfaces: all come out, their exact answers are exact, the textbook's fail."""
+"""`raytree check` of rays and surfaces: the cases come out, their exact answers are exact, the textbook fails."""
 
 import math
 import random

@@ -37,7 +37,7 @@ def closed() -> Iterator[Reading]:
     points, faces = sphere_mesh()
     scene = world(Object(Mesh(Geometry(points, faces)), DARK, "mesh"))
     chance = random.Random(1)
-    for aimed, rays in (("anywhere", 100), ("at corners", 400), ("at edges", 400)):
+    for aimed, rays in (("anywhere", 200), ("at corners", 800), ("at edges", 800)):
         missed = missed_usual = 0
         for ray in range(rays):
             origin = [chance.uniform(-1, 1) for _ in range(3)]

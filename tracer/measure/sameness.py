@@ -54,7 +54,7 @@ def differing(k: int, side: float) -> int:
     turn = np.array((side, 1.0, 1.0))
     for origin, aim in aims():
         a = path(one, origin, aim, depth=4).nodes
-        b = path(other, turn * s * origin, turn * aim, depth=4).nodes
+        b = path(other, (turn * s * origin).tolist(), (turn * aim).tolist(), depth=4).nodes
         if len(a) != len(b):
             return 10**6
         for field in a.dtype.names or ():
