@@ -101,3 +101,8 @@ def decimal(value: Exact | float) -> Decimal:
 
 def root(value: Exact | float) -> Decimal:
     return DIGITS.sqrt(decimal(value))
+
+
+def exactly(setting: str, exact: int | str, got: Got, textbook: Got | None = None) -> Reading:
+    """A reading with no room for rounding: a word, a number of things, or digits that must be just these."""
+    return Reading(setting, exact, got, 0.0, 0.0, textbook)

@@ -7,6 +7,8 @@ Nothing else uses this file. Each function is the usual way: the quadratic by (-
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 Vector = Sequence[float]
 
 TMIN = 1e-4  # the usual smallest distance, and the usual offset along the normal
@@ -102,3 +104,31 @@ def offset(point: Vector, normal: Vector, direction: Vector) -> Vector:
     """A hit moved off its surface, to the side the next ray goes: the other usual way not to meet it again."""
     side = 1.0 if dot(normal, direction) > 0.0 else -1.0
     return [p + side * TMIN * n for p, n in zip(point, normal, strict=True)]
+
+
+def haines(origin: Vector, direction: Vector, center: Vector, radius: float) -> bool:
+    """Whether a ray of unit direction comes within the radius of the centre: not the quadratic's discriminant."""
+    f = [o - c for o, c in zip(origin, center, strict=True)]
+    b = -dot(f, direction)
+    beside = at(f, direction, b)
+    return b > 0.0 and radius * radius - dot(beside, beside) >= 0.0
+
+
+def press(a: float, b: float, c: float) -> tuple[float, float]:
+    """Roots of the quadratic by q = -(b + sign(b) sqrt(b^2 - 4ac)) / 2, as q/a and c/q; 0/0 is NaN, as in C."""
+    q = -0.5 * (b + math.copysign(math.sqrt(b * b - 4.0 * a * c), b))
+    return (q / a, c / q if q != 0.0 else math.nan)
+
+
+def pole_normal(point: Vector, radius: float) -> Vector:
+    """Of a ball about the origin with longitudes: on its axis, where there is none, x is set to 1e-5 radius."""
+    x, y, z = point
+    return unit((1e-5 * radius if x == 0.0 and y == 0.0 else x, y, z))
+
+
+def slab(origin: Vector, direction: Vector, low: Vector, high: Vector) -> tuple[float, float]:
+    """Distances to where a ray enters and leaves a box, by 1/d: three slabs at once, as array programs write it."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        inverse = 1.0 / np.array(direction, float)
+        first, second = np.subtract(low, origin) * inverse, np.subtract(high, origin) * inverse
+    return (float(np.minimum(first, second).max()), float(np.maximum(first, second).min()))
