@@ -102,3 +102,45 @@ def offset(point: Vector, normal: Vector, direction: Vector) -> Vector:
     """A hit moved off its surface, to the side the next ray goes: the other usual way not to meet it again."""
     side = 1.0 if dot(normal, direction) > 0.0 else -1.0
     return [p + side * TMIN * n for p, n in zip(point, normal, strict=True)]
+
+
+def mirrors(
+    origin: Vector, direction: Vector, sides: Sequence[tuple[Vector, Vector]], bounces: int
+) -> tuple[Vector, Vector]:
+    """The last hit of a ray between plane mirrors (point, normal), and the direction from there."""
+    hit = origin
+    for _ in range(bounces):
+        t, n, hit = min((t := plane(origin, direction, p, n), n, at(origin, direction, min(t, 1e99))) for p, n in sides)
+        direction = reflect(direction, n)
+        origin = offset(hit, n, direction)
+    return hit, direction
+
+
+def inside_ball(origin: Vector, direction: Vector, bounces: int, axis: int = -1) -> Vector:
+    """The hit after so many bounces inside a mirrored unit ball about 0; with an axis, inside the tube along it."""
+    hit = origin
+    for _ in range(bounces + 1):
+        flat_origin, flat = ([0.0 if i == axis else x for i, x in enumerate(a)] for a in (origin, direction))
+        t = sphere(flat_origin, flat, (0.0, 0.0, 0.0), 1.0)
+        if t == math.inf:
+            break
+        hit = at(origin, direction, t)
+        n = unit([0.0 if i == axis else x for i, x in enumerate(hit)])
+        direction = reflect(direction, n)
+        origin = offset(hit, n, direction)
+    return hit
+
+
+def to_and_fro(origin: Vector, direction: Vector, centers: Sequence[Vector], count: int) -> list[Vector]:
+    """The points on mirrored unit balls that a ray meets in turn."""
+    hits: list[Vector] = []
+    direction = unit(direction)
+    for _ in range(count):
+        t, center = min((sphere(origin, direction, center, 1.0), center) for center in centers)
+        hits.append(at(origin, direction, t) if t < math.inf else [math.inf] * 3)
+        if t == math.inf:
+            break
+        n = unit([x - c for x, c in zip(hits[-1], center, strict=True)])
+        direction = reflect(direction, n)
+        origin = offset(hits[-1], n, direction)
+    return hits + [[math.inf] * 3] * (count - len(hits))
