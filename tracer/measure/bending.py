@@ -157,7 +157,7 @@ def slab() -> Iterator[Reading]:
 
 
 def equal_indices() -> Iterator[Reading]:
-    directions = [(math.sin(0.02 * k), -math.cos(0.02 * k), 0.1) for k in range(50)]
+    directions = [(math.sin(0.03 * k), -math.cos(0.03 * k), 0.1) for k in range(50)]
     for n in (1.0, 1.5):
         inner = box((-9, -3, -9), (9, -1, 9), glass(n), "inner", 1)
         stage = world(plane((0, 0, 0), UP, glass(n)), inner, model="fresnel")

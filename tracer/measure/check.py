@@ -6,10 +6,10 @@ from fractions import Fraction
 from types import ModuleType
 from typing import Any
 
-from tracer.measure import bending, spheres
+from tracer.measure import bending, chains, plates, spheres
 from tracer.measure.case import Case, Result, run
 
-GROUPS: tuple[ModuleType, ...] = (spheres, bending)
+GROUPS: tuple[ModuleType, ...] = (spheres, bending, chains, plates)
 
 CASES: tuple[Case, ...] = tuple(case for group in GROUPS for case in group.CASES)
 
