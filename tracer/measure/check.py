@@ -6,10 +6,10 @@ from fractions import Fraction
 from types import ModuleType
 from typing import Any
 
-from tracer.measure import bending, chains, plates, spheres
+from tracer.measure import bending, chains, lenses, media, plates, spheres
 from tracer.measure.case import Case, Result, run
 
-GROUPS: tuple[ModuleType, ...] = (spheres, bending, chains, plates)
+GROUPS: tuple[ModuleType, ...] = (spheres, bending, chains, plates, lenses, media)
 
 CASES: tuple[Case, ...] = tuple(case for group in GROUPS for case in group.CASES)
 
