@@ -97,7 +97,12 @@ def grazing() -> Iterator[Reading]:
         both = 4 * c1 * c2 * decimal(1.5)
         exact = (both / (c1 + decimal(1.5) * c2) ** 2 + both / (decimal(1.5) * c1 + c2) ** 2) / 2
         yield Reading(
-            f"T, cosine {cosine:g}", exact, share(tree, 2), U * float(exact), 4.0, 1.0 - textbook.fresnel(cosine, 1, 1.5)
+            f"T, cosine {cosine:g}",
+            exact,
+            share(tree, 2),
+            U * float(exact),
+            4.0,
+            1.0 - textbook.fresnel(cosine, 1, 1.5),
         )
 
 
@@ -113,7 +118,9 @@ def brewster() -> Iterator[Reading]:
     exact = Fraction(25, 338)
     yield Reading("R, n = 1.5", exact, share(tree, 1), U * float(exact), 8.0, usual(tree)[0])
     d = tree.nodes["direction"]
-    yield Reading("cosine between both rays", 0, float(d[1] @ d[2]), U, 4.0, textbook.dot(d[1].tolist(), usual(tree)[1]))
+    yield Reading(
+        "cosine between both rays", 0, float(d[1] @ d[2]), U, 4.0, textbook.dot(d[1].tolist(), usual(tree)[1])
+    )
 
 
 def spots() -> Iterator[Reading]:

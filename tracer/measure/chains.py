@@ -198,7 +198,7 @@ CASES = (
         "the same off the axes of coordinates: a tracer must say when it knows no more",
         chaos,
         "Every bounce multiplies any error by 3.73. Rounding alone, 1e-16, is as large as the balls after 28 bounces: "
-        "no double precision can go on, whatever the formula. A start moved by 1e-4 gets there after seven. A "
-        "tracer that tells no error draws the rest as if it were true; here the row says that its digits are gone.",
+        "no double precision can go on, and the textbook's formulas are no worse than ours. But a tracer that tells no "
+        "error draws the rest as if it were true; here the row says that its digits are gone.",
     ),
 )

@@ -20,9 +20,7 @@ UP = (0.0, 1.0, 0.0)
 def glass_over_water(overlap: float = 0.0) -> World:
     """A layer of glass on two of water; the water may reach into the glass, which then has priority."""
     top = box((-9, -1, -9), (9, 0, 9), glass(1.5), "glass", 1)
-    return world(
-        top, box((-9, -3, -9), (9, overlap - 1.0, 9), glass(WATER, "water"), "water"), model="fresnel"
-    )
+    return world(top, box((-9, -3, -9), (9, overlap - 1.0, 9), glass(WATER, "water"), "water"), model="fresnel")
 
 
 def straight_through(tree: RayTree) -> list[int]:

@@ -56,7 +56,12 @@ def aslant() -> Iterator[Reading]:
         r = bent(tree).r
         exact = (1 - r) / (1 + r)
         yield Reading(
-            f"T, {degrees:g} degrees", exact, shown(tree), U * float(exact), 8.0, shown(down(under_dark(), degrees, **CUT))
+            f"T, {degrees:g} degrees",
+            exact,
+            shown(tree),
+            U * float(exact),
+            8.0,
+            shown(down(under_dark(), degrees, **CUT)),
         )
 
 
