@@ -79,7 +79,7 @@ def test_impacts_of_the_rainbow() -> None:
 
 
 def test_growth_between_two_balls() -> None:
-    """Paraxial rays between unit mirrors at distance D: y' = 2 (2 (D - 2) / ... ) as the trace of one bounce's matrix."""
+    """Paraxial rays to and fro between unit mirrors: the larger eigenvalue of one bounce."""
     mp.dps = 50
     distance = mp.sqrt(mpf("1.3") ** 2 + mpf("2.1") ** 2 + mpf("1.7") ** 2) - 2
     half = 1 + distance  # half the trace of to the mirror and back: 1 + L / (R / 2) / 2 with R = 1

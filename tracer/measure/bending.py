@@ -222,7 +222,8 @@ CASES = (
         "D6",
         "light falling head on: R = ((n - 1) / (n + 1))^2",
         head_on,
-        "Nothing much goes wrong here: with c1 = 1 the textbook's terms are exact but for the rounding of the products. "
+        "Nothing much goes wrong here: with c1 = 1 the textbook's terms are exact but for the rounding of the "
+        "products. "
         "The case is here to show that care elsewhere costs nothing where none is needed, even for n = 1e8.",
     ),
     Case(

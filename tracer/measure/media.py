@@ -167,7 +167,8 @@ CASES = (
         "H1",
         "glass on water, face to face: 60 degrees in, 60 degrees out",
         touching,
-        "Where two media touch there are two faces at the same place. A textbook tracer leaves the glass for air, at 60 "
+        "Where two media touch there are two faces at the same place. A textbook tracer leaves the glass for "
+        "air, at 60 "
         "degrees, and misses the water's face because it is nearer than its smallest distance. At the bottom it then "
         "leaves water at 60 degrees, where the sine outside would be 1.15: total reflection where there is none.",
     ),

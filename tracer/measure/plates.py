@@ -1,4 +1,4 @@
-"""Group F: trees that branch without end, and weights that hardly fall: what a fixed cut loses, and what a bound says."""
+"""Group F: trees that branch without end, weights that hardly fall: what a fixed cut loses, what a bound says."""
 
 import math
 from collections.abc import Iterator
@@ -145,15 +145,18 @@ CASES = (
         "a slab seen head on, all its inner reflections: 1/13 and 12/13",
         head_on,
         "A fixed depth of 5 and a smallest weight of 1/255 leave out all but the first inner reflections; R and T come "
-        "out about one part in a thousand too small. Followed to 1e-12 the tree takes 20 rays: what is left inside is worth a "
+        "out about one part in a thousand too small. Followed to 1e-12 the tree takes 20 rays: what is left "
+        "inside is worth a "
         "25th each time.",
     ),
     Case(
         "F2",
         "a slab seen aslant: what it lets through is (1 - R) / (1 + R)",
         aslant,
-        "How much light a smallest weight of 1/255 loses depends on which ray happens to fall below it: a few parts in "
-        "a thousand at 45 and 75 degrees, less than a tenth of that at 60. Nothing tells the reader, for a ray that was "
+        "How much light a smallest weight of 1/255 loses depends on which ray happens to fall below it: a few "
+        "parts in "
+        "a thousand at 45 and 75 degrees, less than a tenth of that at 60. Nothing tells the reader, for a "
+        "ray that was "
         "cut looks like one that found black.",
     ),
     Case(
