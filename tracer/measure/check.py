@@ -6,10 +6,25 @@ from fractions import Fraction
 from types import ModuleType
 from typing import Any
 
-from tracer.measure import faces, gaps, limbs, needless, sameness, spheres, starts
+from tracer.measure import (
+    bending,
+    chains,
+    faces,
+    gaps,
+    lenses,
+    limbs,
+    media,
+    needless,
+    plates,
+    sameness,
+    spheres,
+    starts,
+)
 from tracer.measure.case import Case, Result, run
 
-GROUPS: tuple[ModuleType, ...] = (spheres, limbs, gaps, faces, starts, sameness, needless)
+GROUPS: tuple[ModuleType, ...] = (
+    spheres, limbs, gaps, faces, starts, bending, chains, plates, lenses, media, sameness, needless,
+)  # fmt: skip
 
 CASES: tuple[Case, ...] = tuple(case for group in GROUPS for case in group.CASES)
 

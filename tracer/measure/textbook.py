@@ -132,3 +132,93 @@ def slab(origin: Vector, direction: Vector, low: Vector, high: Vector) -> tuple[
         inverse = 1.0 / np.array(direction, float)
         first, second = np.subtract(low, origin) * inverse, np.subtract(high, origin) * inverse
     return (float(np.minimum(first, second).max()), float(np.maximum(first, second).min()))
+
+
+def mirrors(
+    origin: Vector, direction: Vector, sides: Sequence[tuple[Vector, Vector]], bounces: int
+) -> tuple[Vector, Vector]:
+    """The last hit of a ray between plane mirrors (point, normal), and the direction from there."""
+    hit = origin
+    for _ in range(bounces):
+        t, n, hit = min((t := plane(origin, direction, p, n), n, at(origin, direction, min(t, 1e99))) for p, n in sides)
+        direction = reflect(direction, n)
+        origin = offset(hit, n, direction)
+    return hit, direction
+
+
+def inside_ball(origin: Vector, direction: Vector, bounces: int, axis: int = -1) -> Vector:
+    """The hit after so many bounces inside a mirrored unit ball about 0; with an axis, inside the tube along it."""
+    hit = origin
+    for _ in range(bounces + 1):
+        flat_origin, flat = ([0.0 if i == axis else x for i, x in enumerate(a)] for a in (origin, direction))
+        t = sphere(flat_origin, flat, (0.0, 0.0, 0.0), 1.0)
+        if t == math.inf:
+            break
+        hit = at(origin, direction, t)
+        n = unit([0.0 if i == axis else x for i, x in enumerate(hit)])
+        direction = reflect(direction, n)
+        origin = offset(hit, n, direction)
+    return hit
+
+
+def to_and_fro(origin: Vector, direction: Vector, centers: Sequence[Vector], count: int) -> list[Vector]:
+    """The points on mirrored unit balls that a ray meets in turn."""
+    hits: list[Vector] = []
+    direction = unit(direction)
+    for _ in range(count):
+        t, center = min((sphere(origin, direction, center, 1.0), center) for center in centers)
+        hits.append(at(origin, direction, t) if t < math.inf else [math.inf] * 3)
+        if t == math.inf:
+            break
+        n = unit([x - c for x, c in zip(hits[-1], center, strict=True)])
+        direction = reflect(direction, n)
+        origin = offset(hits[-1], n, direction)
+    return hits + [[math.inf] * 3] * (count - len(hits))
+
+
+def drop(origin: Vector, direction: Vector, n: float, inner: int, radius: float = 1.0) -> tuple[Vector, Vector]:
+    """The last hit and the direction out of a ball about 0 after some inner reflections."""
+    hit = origin
+    for k in range(inner + 2):
+        t = sphere(origin, direction, (0.0, 0.0, 0.0), radius)
+        if t == math.inf:
+            break
+        hit = at(origin, direction, t)
+        out = unit(hit)
+        if k == 0:
+            direction = refract(direction, out, 1.0, n) or direction
+        elif k <= inner:
+            direction = reflect(direction, out)
+        else:
+            direction = refract(direction, [-x for x in out], n, 1.0) or direction
+        origin = offset(hit, out, direction)
+    return hit, direction
+
+
+def layers(origin: Vector, direction: Vector, faces: Sequence[tuple[float, float]]) -> tuple[list[Vector], Vector]:
+    """Down through level faces (height, index below), from air: the hits and the last direction."""
+    hits, n1, below = [], 1.0, list(faces)
+    while below:
+        found = [(plane(origin, direction, (0.0, y, 0.0), (0.0, 1.0, 0.0)), y, n2) for y, n2 in below]
+        t, y, n2 = min(found)
+        if t == math.inf:
+            break
+        below = [face for face in below if face[0] < y]
+        hits.append(at(origin, direction, t))
+        direction, n1 = refract(direction, (0.0, 1.0, 0.0), n1, n2) or direction, n2
+        origin = offset(hits[-1], (0.0, 1.0, 0.0), direction)
+    return hits, direction
+
+
+def panes(origin: Vector, direction: Vector, heights: Sequence[float], n: float) -> tuple[int, Vector | None]:
+    """Down through panes of glass that change places with air at each hit: how many hits, and the direction out."""
+    inside, hits = False, 0
+    while True:
+        t = min(plane(origin, direction, (0.0, y, 0.0), (0.0, 1.0, 0.0)) for y in heights)
+        if t == math.inf:
+            return hits, direction
+        hit, hits = at(origin, direction, t), hits + 1
+        onward = refract(direction, (0.0, 1.0, 0.0), n if inside else 1.0, 1.0 if inside else n)
+        if onward is None:
+            return hits, None
+        origin, direction, inside = hit, onward, not inside
