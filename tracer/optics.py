@@ -55,11 +55,10 @@ def fresnel_shares(c1: float, s1: float, c2: float, n1: float, n2: float) -> tup
     are multiplied out so that no difference of rounded numbers is left (Born & Wolf, Principles of Optics, 1.5.2).
     """
     s2 = n1 / n2 * s1
-    e = (n2 - n1) * (n2 + n1)
     along_s = n1 * c1 + n2 * c2
     along_p = n2 * c1 + n1 * c2
-    r_s = e / (along_s * along_s)
-    r_p = e * (c1 - s2) * (c1 + s2) / (along_p * along_p)
+    r_s = (n2 - n1) / along_s * ((n2 + n1) / along_s)
+    r_p = (n2 - n1) / along_p * ((n2 + n1) / along_p) * (c1 - s2) * (c1 + s2)
     both = 4.0 * n1 * n2 * c1 * c2
     t_s = both / (along_s * along_s)
     t_p = both / (along_p * along_p)

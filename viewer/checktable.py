@@ -11,11 +11,12 @@ from fractions import Fraction
 from typing import Any
 
 from tracer.measure.case import Case, Reading, Result
-from tracer.measure.check import CASES, run_all, to_dict
+from tracer.measure.check import CASES, TOPICS, run_all, to_dict
 from viewer.files import Unusable
 
+LONGEST = 18  # characters of a word in the table
 WIDTH = 100  # of running text
-HEADINGS = ("case", "what it is", "exact answer", "the textbook's", "error", "ours", "error", "")
+HEADINGS = ("setting", "exact answer", "the textbook's", "error", "ours", "error", "")
 ABOUT = (
     "Each line is a case at the setting hardest on the textbook's formula. Its error is relative; ours is counted in\n"
     "units of rounding, 2^-53 of the answer times the case's condition number, with what is allowed behind it.\n"
@@ -61,17 +62,29 @@ def check(cases: Sequence[Case], explain: bool, as_json: bool, put: Callable[[st
 
 
 def table(results: Sequence[Result]) -> str:
-    rows: list[tuple[str, ...]] = [HEADINGS]
-    for result in results:
-        reading = result.telling
-        rows.append((result.case.id, f"{result.case.title} ({reading.setting})", *cells(reading)))
-    return ABOUT + "\n" + aligned(rows)
+    """Topic by topic; a case's title, and below it the setting with the answers."""
+    head = ("", *HEADINGS)
+    rows = [("", result.telling.setting, *cells(result.telling)) for result in results]
+    widths = [max(len(row[k]) for row in (head, *rows)) for k in range(len(head))]
+    lines = [ABOUT, spread(head, widths)]
+    topic = ""
+    for result, row in zip(results, rows, strict=True):
+        case = result.case
+        if case.id[0] != topic:
+            topic = case.id[0]
+            lines += ["", f"{topic}  {TOPICS[topic].upper()}"]
+        lines += [f"{case.id:4}{case.title}", spread(row, widths)]
+    return "\n".join(lines) + "\n"
+
+
+def spread(row: Sequence[str], widths: Sequence[int]) -> str:
+    return "  ".join(cell.ljust(width) for cell, width in zip(("  ", *row[1:]), (2, *widths[1:]), strict=True)).rstrip()
 
 
 def explained(result: Result) -> str:
     """One case in full: what it is, what goes wrong, every setting."""
     case = result.case
-    rows = [("", "setting", *HEADINGS[2:]), *(("", reading.setting, *cells(reading)) for reading in result.readings)]
+    rows = [HEADINGS, *((reading.setting, *cells(reading)) for reading in result.readings)]
     return f"{case.id}  {case.title}\n\n{textwrap.fill(case.wrong, WIDTH)}\n\n{aligned(rows)}"
 
 
@@ -86,6 +99,8 @@ def cells(reading: Reading) -> tuple[str, ...]:
     lost = "" if usual is None else ("wrong" if usual == float("inf") else f"{usual:.1e}")
     if usual == 0.0:
         lost = "0"
+    if usual is not None and reading.unit == 0.0:
+        lost = "wrong" if usual else "right"
     return (
         shown(reading.exact),
         "" if reading.textbook is None else shown(reading.textbook),
@@ -104,14 +119,16 @@ def counted(reading: Reading) -> str:
 
 
 def shown(value: Any) -> str:
-    """A number with a dozen digits, a word as it is."""
+    """A number with ten digits, a word as it is."""
     if isinstance(value, str):
-        return value
+        return value if len(value) <= LONGEST else value[: LONGEST - 1] + "…"
+    if value == float("inf"):
+        return "no hit"
     if isinstance(value, int):
         return str(value)
     if isinstance(value, Fraction) and value.denominator < 1000:
         return str(value)
-    return f"{float(value) if isinstance(value, Decimal | Fraction) else value:.12g}"
+    return f"{float(value) if isinstance(value, Decimal | Fraction) else value:.10g}"
 
 
 def aligned(rows: Sequence[Sequence[str]]) -> str:

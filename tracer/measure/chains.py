@@ -38,7 +38,7 @@ def gallery() -> Iterator[Reading]:
     for bounces in (10, 1000, 100_000):
         exact = exactly.round_and_round(start[:2], d[:2], bounces)
         other = textbook.inside_ball(start, d, bounces) if bounces <= 1000 else None
-        usual = other and math.hypot(*(float(e) - x for e, x in zip(exact, other, strict=False)))
+        usual = math.hypot(*(float(e) - x for e, x in zip(exact, other, strict=False))) if other else None
         got = far_from(nodes["point"], bounces, exact)
         yield Reading(f"off by, {bounces} bounces", 0, got, U * bounces**2, 2.0, usual)
         yield Reading(f"weight, {bounces} bounces", 1, float(nodes["weight"][bounces, 0]), 0.0, 0.0)
@@ -69,7 +69,7 @@ def fibre() -> Iterator[Reading]:
         around = exactly.round_and_round(start[:2], d[:2], bounces)
         exact = [*around, (first + bounces * length) * exactly.decimal(d[2]) / size]
         other = textbook.inside_ball(start, d, bounces, axis=2) if bounces <= 1000 else None
-        usual = other and math.hypot(*(float(e) - x for e, x in zip(exact, other, strict=True)))
+        usual = math.hypot(*(float(e) - x for e, x in zip(exact, other, strict=True))) if other else None
         yield Reading(
             f"off by, {bounces} bounces", 0, far_from(nodes["point"], bounces, exact), U * bounces**2, 2.0, usual
         )
@@ -82,7 +82,7 @@ def corner() -> Iterator[Reading]:
         for _ in range(count):
             axes = np.eye(3) if count == 1 else np.linalg.qr(random.normal(size=(3, 3)))[0].T
             start, d = axes.T @ (0.7, 0.9, 1.2), axes.T @ (-0.5, -0.6, -0.7)
-            stage = world(*(plane((0, 0, 0), axis, MIRROR, f"mirror {i}") for i, axis in enumerate(axes)))
+            stage = world(*(plane((0, 0, 0), axis.tolist(), MIRROR, f"mirror {i}") for i, axis in enumerate(axes)))
             nodes = path(stage, start.tolist(), d.tolist(), 3).nodes
             back = max(back, float(np.abs(nodes["direction"][3] + nodes["direction"][0]).max()))
             # The line it leaves along is the one it came along, turned about the corner.

@@ -26,7 +26,24 @@ GROUPS: tuple[ModuleType, ...] = (
     spheres, limbs, gaps, faces, starts, bending, chains, plates, lenses, media, sameness, needless,
 )  # fmt: skip
 
-CASES: tuple[Case, ...] = tuple(case for group in GROUPS for case in group.CASES)
+# What the cases' letters stand for.
+TOPICS = {
+    "A": "spheres",
+    "B": "flat faces, meshes and boxes",
+    "C": "where rays start, and how large a scene is",
+    "D": "bending at a surface",
+    "E": "long chains of bounces",
+    "F": "trees that branch without end",
+    "G": "geometrical optics",
+    "H": "one medium in another",
+    "I": "shadows and mirrors",
+    "J": "sameness, and input that is none",
+    "L": "nothing traced that a scene does not need",
+}
+
+CASES: tuple[Case, ...] = tuple(
+    sorted((case for group in GROUPS for case in group.CASES), key=lambda case: (case.id[0], int(case.id[1:])))
+)
 
 
 def run_all(cases: Sequence[Case] = CASES, done: Callable[[Result], None] = lambda result: None) -> list[Result]:

@@ -129,7 +129,7 @@ def diver() -> Iterator[Reading]:
     got = abs(float(tree.nodes["direction"][rows[-1], 0]))
     usual = textbook.refract(textbook.unit((0.3, 1, 0)), (0.0, -1.0, 0.0), 1.0, 1.5)
     usual = usual and textbook.refract(usual, (0.0, -1.0, 0.0), 1.5, 1.0)
-    yield Reading("sine outside", sine, got, U * float(sine), 8.0, usual and usual[0])
+    yield Reading("sine outside", sine, got, U * float(sine), 8.0, usual[0] if usual else None)
 
 
 def shadow() -> Iterator[Reading]:

@@ -47,6 +47,6 @@ def world(
     return prepare(scene)
 
 
-def path(world: World, origin: Sequence[float], direction: Sequence[float], depth: int = 0, **limits) -> RayTree:
+def path(world: World, origin: Sequence[float], direction: Sequence[float], depth: int | None = 0, **limits) -> RayTree:
     """The tree of a ray given by hand."""
     return trace(world, ray=(origin, direction), depth=depth, **limits)
