@@ -19,6 +19,7 @@ from tracer.jit import compiled, kernel, routine
 from tracer.nodes import BLOCKED, REFRACTION, SHADOW
 from tracer.rays import make_ray
 from tracer.rows import way_length
+from tracer.shadows import towards_light
 from tracer.shapes import locate, turning
 from tracer.vector import Vector, add, dot, scale, subtract, vector
 
@@ -54,7 +55,7 @@ class Step(NamedTuple):
     start: int  # surface it starts on, -1 for the eye
     side: float
     point: Vector  # where it starts
-    shadow_way: float  # to a light: how far; else 0
+    shadow_way: float  # to a light: how far
 
 
 def errors_of(world: Bundle, table: np.ndarray, count: int) -> None:
@@ -179,13 +180,9 @@ def make_step(world: Any, table: Any, i: int) -> Step:
     parent = table[max(row.parent, 0)]
     d, n = vector(parent.direction), vector(parent.normal)
     eta = parent.n1 / parent.n2 if row.kind == REFRACTION else 1.0
-    way = 0.0
+    way = math.inf
     if row.kind == SHADOW:
-        light = world.lights[row.light]
-        if not light.distant:
-            to_light = subtract(vector(light.position), vector(row.origin))
-            way = max(abs(to_light[0]), max(abs(to_light[1]), abs(to_light[2])))
-            way = way * math.sqrt(dot(scale(1.0 / way, to_light), scale(1.0 / way, to_light))) if way > 0.0 else 0.0
+        _, way = towards_light(world.lights[row.light], vector(row.origin))
     c2 = math.sqrt(max(parent.radicand, 0.0)) if row.kind == REFRACTION else 1.0
     return Step(
         row.kind,
@@ -209,7 +206,7 @@ def sent_on(world: Any, step: Step, length: float, dp: Vector, dd: Vector) -> Ve
     """How a ray turns whose start moves by dp, in units of `length`, where the ray that led there turns by dd."""
     if step.kind == SHADOW:
         if step.shadow_way == 0.0:
-            return (0.0, 0.0, 0.0)
+            return (0.0, 0.0, 0.0)  # the light is where the ray starts: it has no direction
         return scale(-length / step.shadow_way, subtract(dp, scale(dot(dp, step.onward), step.onward)))
     dn = scale(step.side, turning(world, world.surfaces[step.start], step.point, scale(length, dp)))
     return bent(step, dn, dd)

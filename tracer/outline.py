@@ -63,8 +63,14 @@ def missing(tree: RayTree) -> str:
     return f"{carry}: at most {number(tree.bound)} of light is missing"
 
 
+DEEPEST = 60  # levels that are indented: a tree of a million would be no wider than long
+
+
 def _stems(tree: RayTree) -> dict[int, str]:
-    """The lines that lead to each row, as a file tree has them."""
+    """The lines that lead to each row, as a file tree has them; in a very deep tree its level instead."""
+    levels = tree.nodes["depth"]
+    if levels.max() > DEEPEST:
+        return {i: f"level {levels[i]}: " for i in range(len(tree))}
     stems = {0: ""}
     trunks = {0: ""}
     for i in tree.walk():

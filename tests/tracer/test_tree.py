@@ -10,6 +10,7 @@ import pytest
 
 import tracer
 from tests.conftest import LESSONS
+from tests.scenes import MIRROR, plane, world_of
 from tracer.nodes import ENDS, KINDS
 from tracer.outline import WHY, outline
 from viewer.figures.csv import write_csv
@@ -145,3 +146,12 @@ def test_path_strings() -> None:
     assert ("camera", "E") in found
     assert ("shadow", "EDL") in found
     assert {path for kind, path in found if kind == "reflection"} <= {"ES", "ESD"}
+
+
+def test_text_of_a_very_deep_tree_is_no_wider_for_it() -> None:
+    walls = (plane((0, 0, 0), (1, 0, 0), MIRROR, "left"), plane((1, 0, 0), (-1, 0, 0), MIRROR, "right"))
+    tree = tracer.trace(world_of(*walls), ray=((0.5, 0, 0), (1, 0.1, 0)), depth=20_000)
+    lines = tree.to_text().splitlines()
+    assert len(lines) == 20_001 + 4
+    assert max(map(len, lines)) < 150
+    assert lines[-1].startswith("level 20000: 20000 reflection")

@@ -7,6 +7,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 from tracer.nodes import SHADOW
+from tracer.outline import missing
 from viewer.canvas import Canvas
 from viewer.explain import headline
 from viewer.figures.layout import Place, heaviest_rows, layout, with_parents_only
@@ -243,14 +244,8 @@ class _Diagram:
         drawn, total, weight = len(self.rows), len(self.tree), shown(self.tree.residual, 3)
         fewer = f"{drawn} of {total} rays drawn" if self.folded > 0 else ""
         if self.tree.residual > 0.0:
-            bound = self.tree.bound
-            most = (
-                f"at most {shown(bound, 3)} of light is missing"
-                if math.isfinite(bound)
-                else "no bound on what they miss"
-            )
             cuts = [
-                f"rays that were cut carry {weight} of the weight: {most}",
+                missing(self.tree),
                 f"rays that were cut carry {weight} of the weight",
                 f"cut rays: {weight} of the weight",
                 f"cut: {weight}",
