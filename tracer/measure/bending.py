@@ -259,8 +259,8 @@ CASES = (
         "D12",
         "equal indices on both sides: the ray goes straight on, alone",
         equal_indices,
-        "In the textbook c2 is sqrt(1 - (1 - c1^2)), which is not c1 to the last bit. So glass in the same glass bends "
-        "the ray a little and sends out a second one, of weight 1e-33 or so, which then branches again. Equal "
-        "indices are no surface: one ray, the same bits.",
+        "In the textbook c2 is sqrt(1 - (1 - c1^2)), which is not c1 to the last bit. So at one angle in four or so "
+        "glass in the same glass sends out a second ray, of weight 1e-33, which then branches again. Equal indices "
+        "are no surface: one ray, the same bits.",
     ),
 )
