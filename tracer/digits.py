@@ -94,8 +94,8 @@ def estimate_errors(world: Bundle, table: Any, count: int, length: float, room: 
         ahead = here[0, 0] + here[1, 1] + here[2, 2]
         turned = here[3, 3] + here[4, 4] + here[5, 5]
         steps = row.depth + 1.0
-        row.error = math.sqrt(steps * ahead) * length if ahead < math.inf else math.inf
-        row.turn = math.sqrt(steps * turned) if turned < math.inf else math.inf
+        row.error = math.sqrt(steps * ahead) * length if 0.0 <= ahead < math.inf else math.inf
+        row.turn = math.sqrt(steps * turned) if 0.0 <= turned < math.inf else math.inf
         if not row.t < math.inf:
             row.error = math.nan
         room.slots[i] = slot

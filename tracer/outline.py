@@ -58,6 +58,8 @@ def missing(tree: RayTree) -> str:
     if tree.residual == 0.0:
         return "no ray was cut"
     carry = f"rays that were cut carry {number(tree.residual)} of the weight"
+    if tree.tolerance is not None and tree.residual > tree.tolerance:
+        carry = f"stopped before the tolerance was reached: {carry}"
     if math.isinf(tree.bound):
         return f"{carry}, and nothing bounds the light they miss"
     return f"{carry}: at most {number(tree.bound)} of light is missing"
@@ -94,7 +96,7 @@ def _row(tree: RayTree, i: int, stem: str) -> tuple[str, ...]:
         met or ("background" if tree.end(i) == "background" else ""),
         number(row["t"], row["error"]),
         "" if shadow else _pair(number(row["n1"]), number(row["n2"])),
-        "" if shadow else _pair(degrees(row["theta1"]), degrees(row["theta2"])),
+        "" if shadow else _pair(degrees(row["theta1"], row["turn"]), degrees(row["theta2"], row["turn"])),
         triple(row["weight"], same=True),
         triple(row["radiance"]),
         why(tree, i),
@@ -118,8 +120,12 @@ def number(x: float, error: float = 0.0) -> str:
     return f"{x:.{digits}g}" if digits > 0 or x == 0.0 else "?"
 
 
-def degrees(radians: float) -> str:
-    return "" if math.isnan(radians) else f"{math.degrees(radians):.2f}°"
+def degrees(radians: float, error: float = 0.0) -> str:
+    """Two decimals, or as many as the error has left: "?" where none of its digits is."""
+    if math.isnan(radians):
+        return ""
+    wrong = math.degrees(error)
+    return f"{math.degrees(radians):.{2 if wrong < 0.01 else 1 if wrong < 0.1 else 0}f}°" if wrong < 1.0 else "?"
 
 
 def triple(rgb: Sequence[float] | np.ndarray, same: bool = False) -> str:

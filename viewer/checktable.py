@@ -18,8 +18,9 @@ LONGEST = 18  # characters of a word in the table
 WIDTH = 100  # of running text
 HEADINGS = ("setting", "exact answer", "the textbook's", "error", "ours", "error", "")
 ABOUT = (
-    "Each line is a case at the setting hardest on the textbook's formula. Its error is relative; ours is counted in\n"
-    "units of rounding, 2^-53 of the answer times the case's condition number, with what is allowed behind it.\n"
+    "Each line is a case at the setting where the textbook's formula does worst beside ours. Its error is relative;\n"
+    "ours is counted in units of rounding, 2^-53 of the answer times the case's condition number, with what is\n"
+    "allowed behind it. Where an answer has a bound of its own (some of E and F) the unit is that bound.\n"
 )
 
 
@@ -28,14 +29,16 @@ def chosen(names: Sequence[str]) -> list[Case]:
     if not names:
         return list(CASES)
     found: list[Case] = []
+    faults: list[str] = []
     for name in names:
         these = [case for case in CASES if name.upper() in (case.id, case.id[0])]
-        if not these:
-            known = [case.id for case in CASES]
-            close = difflib.get_close_matches(name.upper(), known, 1)
-            hint = f"did you mean {close[0]}?" if close else f"the cases are {', '.join(known)}"
-            raise Unusable(f'raytree check: no case "{name}": {hint}')
         found += [case for case in these if case not in found]
+        if not these:
+            close = difflib.get_close_matches(name.upper(), [case.id for case in CASES], 1)
+            hint = f"did you mean {close[0]}?" if close else f"the groups are {', '.join(TOPICS)}"
+            faults.append(f'raytree check: no case "{name}": {hint}')
+    if faults:
+        raise Unusable(*faults)
     return found
 
 

@@ -46,6 +46,12 @@ class Reading:
         return off(self.textbook, self.exact) / (size or 1.0)
 
     @property
+    def gain(self) -> float:
+        """How many times the textbook's error is ours."""
+        size = 0.0 if isinstance(self.exact, str) else abs(float(self.exact))
+        return (self.textbook_error or 0.0) / (off(self.got, self.exact) / (size or 1.0) + U)
+
+    @property
     def ok(self) -> bool:
         return self.error <= self.allowed
 
@@ -70,8 +76,8 @@ class Result:
 
     @property
     def telling(self) -> Reading:
-        """The worst where the case falls short; else the one that is hardest on the textbook."""
-        return self.worst if not self.ok else max(self.readings, key=lambda reading: reading.textbook_error or 0.0)
+        """The worst where the case falls short; else the one where we do most better than the textbook."""
+        return self.worst if not self.ok else max(self.readings, key=lambda reading: reading.gain)
 
     @property
     def ok(self) -> bool:

@@ -244,9 +244,11 @@ class _Diagram:
         drawn, total, weight = len(self.rows), len(self.tree), shown(self.tree.residual, 3)
         fewer = f"{drawn} of {total} rays drawn" if self.folded > 0 else ""
         if self.tree.residual > 0.0:
+            most = self.tree.bound
             cuts = [
                 missing(self.tree),
-                f"rays that were cut carry {weight} of the weight",
+                f"cut: {weight} of the weight, "
+                + (f"at most {shown(most, 3)} of light" if most < np.inf else "no bound"),
                 f"cut rays: {weight} of the weight",
                 f"cut: {weight}",
             ]
