@@ -46,7 +46,7 @@ def trace_tree(world: Any, limits: Limits, space: Any) -> int:
         for i in range(first, end):
             count, planned = spawn(world, limits, space, i, count, planned)
         if end == first + 1 and not limits.records and passes_on(table, first):
-            count = move_up(space, first, end, count)
+            count = move_up(space, first, count)
             next_first = first
         first, end = next_first, count
     sum_up(table, end)
@@ -64,7 +64,7 @@ def passes_on(table: Any, i: int) -> bool:
 
 
 @routine
-def move_up(space: Any, i: int, shadows: int, count: int) -> int:
+def move_up(space: Any, i: int, count: int) -> int:
     """Put row i's only child, the last row, in its place: a million mirrors in a row take no more room than one.
 
     The rows it takes with it are counted here. The number of rows that are left.

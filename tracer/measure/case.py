@@ -42,14 +42,17 @@ class Reading:
         """Absolute, or relative to the exact answer where that is not 0."""
         if self.textbook is None:
             return None
-        size = 0.0 if isinstance(self.exact, str) else abs(float(self.exact))
-        return off(self.textbook, self.exact) / (size or 1.0)
+        return off(self.textbook, self.exact) / self.size
 
     @property
     def gain(self) -> float:
         """How many times the textbook's error is ours."""
-        size = 0.0 if isinstance(self.exact, str) else abs(float(self.exact))
-        return (self.textbook_error or 0.0) / (off(self.got, self.exact) / (size or 1.0) + U)
+        return (self.textbook_error or 0.0) / (off(self.got, self.exact) / self.size + U)
+
+    @property
+    def size(self) -> float:
+        """What errors are relative to: of the exact answer, 1 for 0 and for words."""
+        return (0.0 if isinstance(self.exact, str) else abs(float(self.exact))) or 1.0
 
     @property
     def ok(self) -> bool:

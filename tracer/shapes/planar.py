@@ -120,12 +120,17 @@ def is_aligned(surface: Any) -> bool:
     return (x and y) or (y and z) or (z and x)
 
 
+@compiled
+def exact_normal(surface: Any) -> PairVector:
+    n, low = surface.normal, surface.low
+    return ((n[0], low[0]), (n[1], low[1]), (n[2], low[2]))
+
+
 @routine
 def exact_distance(surface: Any, ray: Ray) -> float:
     """n.(a - o) / n.d in pairs, so that neither a grazing ray nor a far point of the plane costs digits."""
     stay_apart()
-    n, low = surface.normal, surface.low
-    normal = ((n[0], low[0]), (n[1], low[1]), (n[2], low[2]))
+    normal = exact_normal(surface)
     height = pair_dot(normal, exact_difference(vector(surface.a), ray.origin))
     speed = pair_dot(normal, pair_vector(ray.direction))
     return over(height, speed) if speed[0] != 0.0 else math.inf
@@ -177,8 +182,7 @@ def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector
 def exact_height(surface: Any, p: Vector) -> float:
     """n.(p - a) in pairs, for an `a` so far from the hit that it has fewer digits."""
     stay_apart()
-    n, low = surface.normal, surface.low
-    return pair_dot(((n[0], low[0]), (n[1], low[1]), (n[2], low[2])), exact_difference(p, vector(surface.a)))[0]
+    return pair_dot(exact_normal(surface), exact_difference(p, vector(surface.a)))[0]
 
 
 @compiled
