@@ -17,13 +17,12 @@ import numpy as np
 from tracer.bundle import Bundle
 from tracer.jit import compiled, kernel, routine
 from tracer.nodes import BLOCKED, REFRACTION, SHADOW
+from tracer.pairs import U
 from tracer.rays import make_ray
 from tracer.rows import way_length
 from tracer.shadows import towards_light
 from tracer.shapes import locate, turning
 from tracer.vector import Vector, add, dot, scale, subtract, vector
-
-U = 2.0**-53
 
 # Roundings of one step, in u: of a hit, in units of the way it was computed from; of a ray's direction, and of what the
 # surface that sends it on is told of the one that comes.

@@ -11,7 +11,7 @@ from dataclasses import MISSING, Field, fields, is_dataclass
 from typing import Any
 
 LARGEST = 1e150  # of a coordinate: its square must still be a number
-SMALLEST = 1e-150  # of what must be above 0: its square must not vanish
+LEAST = 1e-150  # of what must be above 0: its square must not vanish
 
 
 class Refused(Exception):
@@ -43,8 +43,8 @@ def number(
         )
         if outside:
             raise Refused(allowed)
-        if above == 0.0 and value < SMALLEST:
-            raise Refused(f"at least {SMALLEST:g}")
+        if above == 0.0 and value < LEAST:
+            raise Refused(f"at least {LEAST:g}")
         return float(value)
 
     return rule(read)

@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 
 from tracer.jit import compiled, routine
+from tracer.pairs import SMALLEST, U
 from tracer.rays import Ray
 from tracer.shapes import again, intersect
-
-SMALLEST = 5e-324  # the number after 0
 
 
 @compiled
@@ -89,7 +88,7 @@ def nearer(t: float, s: int, best: float, found: int, tied: bool) -> tuple[float
 
 
 # Three roundings on either side of the comparison, each at most 2^-53 of its value (pbr-book 4ed, 6.1.2 and 6.8.2).
-OUTWARD = 1.0 + 8 * 2.0**-53
+OUTWARD = 1.0 + 8 * U
 
 
 @compiled

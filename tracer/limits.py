@@ -1,5 +1,6 @@
 """How far a tree of rays goes, and by which model its edges weigh."""
 
+from numbers import Integral, Real
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
@@ -36,18 +37,21 @@ def make_limits(
     *,
     records: bool,
 ) -> Limits:
-    """The kernel's limits, with the scene's own values where none are given."""
+    """The kernel's limits, with the scene's own values where none are given; ValueError for what can be none."""
     tracing = world.scene.tracing
     if depth is None:
         depth = tracing.depth if tolerance is None else ANY_DEPTH
-    if not 0 <= depth <= ANY_DEPTH:
-        raise ValueError(f"depth must be 0 .. {ANY_DEPTH}, got {depth}")
-    if not min_weight >= 0.0:
-        raise ValueError(f"min_weight must be >= 0, got {min_weight}")
-    if tolerance is not None and not tolerance >= 0.0:
-        raise ValueError(f"tolerance must be >= 0, got {tolerance}")
-    if max_nodes < 1:
-        raise ValueError(f"max_nodes must be >= 1, got {max_nodes}")
+    model = model or tracing.model
+    if not (isinstance(depth, Integral) and 0 <= depth <= ANY_DEPTH):
+        raise ValueError(f"depth must be a whole number, 0 .. {ANY_DEPTH}, got {depth!r}")
+    if not (isinstance(min_weight, Real) and min_weight >= 0.0):
+        raise ValueError(f"min_weight must be a number >= 0, got {min_weight!r}")
+    if tolerance is not None and not (isinstance(tolerance, Real) and tolerance >= 0.0):
+        raise ValueError(f"tolerance must be a number >= 0, got {tolerance!r}")
+    if not (isinstance(max_nodes, Integral) and max_nodes >= 1):
+        raise ValueError(f"max_nodes must be a whole number >= 1, got {max_nodes!r}")
+    if model not in MODELS:
+        raise ValueError(f"model must be one of {', '.join(MODELS)}, got {model!r}")
     least = LEVEL_BY_LEVEL if tolerance is None else float(tolerance)
-    code = MODELS.index(model or tracing.model)
-    return Limits(depth, float(min_weight), max_nodes, least, code, tracing.shadows == "block", records)
+    blocks = tracing.shadows == "block"
+    return Limits(int(depth), float(min_weight), int(max_nodes), least, MODELS.index(model), blocks, records)

@@ -30,15 +30,41 @@ WHY = {
 }
 
 
-def outline(tree: RayTree) -> str:
-    """The whole tree, children below their parent, with a head of two lines."""
+def outline(tree: RayTree, most: int | None = None) -> str:
+    """The tree, children below their parent, with a head of two lines; of more than `most` rays the heaviest."""
     rows: list[tuple[str, ...]] = [HEADINGS]
-    stems = _stems(tree)
+    shown = set(range(len(tree)))
+    head = _head(tree)
+    if most is not None and len(tree) > most:
+        shown = heaviest_rows(tree, most, shown)
+        head.append(f"the heaviest {len(shown)} of {len(tree)} rays are shown")
+    stems = _stems(tree, shown)
     for i in tree.walk():
-        rows.append(_row(tree, i, stems[i]))
-    widths = [max(len(row[k]) for row in rows) for k in range(len(HEADINGS))]
-    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
-    return "\n".join([*_head(tree), "", *lines]) + "\n"
+        if i in shown:
+            rows.append(_row(tree, i, stems[i]))
+    return "\n".join([*head, "", *columns(rows)]) + "\n"
+
+
+def heaviest_rows(tree: RayTree, most: int, rows: set[int]) -> set[int]:
+    """At most about `most` of these rows: the heaviest rays with their shadow rays. A child is never heavier than its
+    parent, so every row that is kept keeps its parent."""
+    if len(rows) <= most:
+        return rows
+    weights = tree.nodes["weight"].max(axis=1)
+    rays = sorted((i for i in rows if tree.nodes["kind"][i] != SHADOW), key=lambda i: (-weights[i], i))
+    kept: set[int] = set()
+    for i in rays:
+        shadows = {child for child in tree.children[i] if child in rows and tree.nodes["kind"][child] == SHADOW}
+        if kept and len(kept) + 1 + len(shadows) > most:
+            break
+        kept |= {i} | shadows
+    return kept
+
+
+def columns(rows: Sequence[Sequence[str]]) -> list[str]:
+    """A table's lines, each column as wide as its widest cell."""
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
 
 
 def _head(tree: RayTree) -> list[str]:
@@ -68,15 +94,15 @@ def missing(tree: RayTree) -> str:
 DEEPEST = 60  # levels that are indented: a tree of a million would be no wider than long
 
 
-def _stems(tree: RayTree) -> dict[int, str]:
+def _stems(tree: RayTree, shown: set[int]) -> dict[int, str]:
     """The lines that lead to each row, as a file tree has them; in a very deep tree its level instead."""
     levels = tree.nodes["depth"]
     if levels.max() > DEEPEST:
-        return {i: f"level {levels[i]}: " for i in range(len(tree))}
+        return {i: f"level {levels[i]}: " for i in shown}
     stems = {0: ""}
     trunks = {0: ""}
     for i in tree.walk():
-        below = tree.children[i]
+        below = [child for child in tree.children[i] if child in shown]
         for child in below:
             last = child == below[-1]
             stems[child] = trunks[i] + ("└─ " if last else "├─ ")
@@ -116,16 +142,29 @@ def number(x: float, error: float = 0.0) -> str:
     """Five digits, or as many as the error has left: "?" for none; nothing for what is absent."""
     if math.isnan(x):
         return ""
-    digits = 5 if not error > 0.0 else min(5, math.floor(math.log10(abs(x) / error))) if abs(x) > error else 0
-    return f"{x:.{digits}g}" if digits > 0 or x == 0.0 else "?"
+    digits = 5 if x == 0.0 else min(5, digits_left(abs(x), error))
+    return f"{x:.{digits}g}" if digits > 0 else "?"
 
 
 def degrees(radians: float, error: float = 0.0) -> str:
     """Two decimals, or as many as the error has left: "?" where none of its digits is."""
     if math.isnan(radians):
         return ""
-    wrong = math.degrees(error)
-    return f"{math.degrees(radians):.{2 if wrong < 0.01 else 1 if wrong < 0.1 else 0}f}°" if wrong < 1.0 else "?"
+    decimals = min(2, decimals_left(error))
+    return f"{math.degrees(radians):.{decimals}f}°" if decimals >= 0 else "?"
+
+
+def digits_left(size: float, error: float) -> int:
+    """How many digits of a number of this size an error of that size leaves, of the 17 that a float may have."""
+    if not error > 0.0:
+        return 17
+    return max(0, math.floor(math.log10(size / error))) if error < size else 0
+
+
+def decimals_left(turn: float) -> int:
+    """How many decimals of an angle in degrees an error in radians leaves; -1 where not even the degrees are sure."""
+    wrong = math.degrees(turn)
+    return digits_left(1.0, wrong) if wrong < 1.0 else -1
 
 
 def triple(rgb: Sequence[float] | np.ndarray, same: bool = False) -> str:

@@ -12,6 +12,9 @@ import math
 from tracer.jit import compiled, product_error
 from tracer.vector import Vector
 
+U = 2.0**-53  # the unit of rounding: no operation is wrong by more than this times its result
+SMALLEST = 5e-324  # the number after 0
+
 Pair = tuple[float, float]  # (nearest float, what is missing)
 
 

@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from tracer.hits import SMALLEST, closest, distance, entry, transmit
+from tracer.hits import closest, distance, entry, transmit
 from tracer.jit import compiled, routine, stay_apart
+from tracer.pairs import SMALLEST
 from tracer.rays import Ray
 from tracer.vector import Vector, length, scale, subtract, unit, vector
 

@@ -116,9 +116,9 @@ class RayTree:
             return letters + ("D" if row["end"] == BLOCKED else "DL")
         return letters + ("D" if row["end"] == SURFACE else "")
 
-    def to_text(self) -> str:
+    def to_text(self, most: int | None = None) -> str:
         """The tree as it is drawn in a terminal."""
-        return outline(self)
+        return outline(self, most)
 
     def to_dict(self) -> dict[str, Any]:
         """The tree as JSON has it: names for codes, None for absent, degrees for angles."""

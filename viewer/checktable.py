@@ -12,15 +12,18 @@ from typing import Any
 
 from tracer.measure.case import Case, Reading, Result
 from tracer.measure.check import CASES, TOPICS, run_all, to_dict
+from tracer.outline import columns
 from viewer.files import Unusable
 
 LONGEST = 18  # characters of a word in the table
+NONE = "–"  # where the textbook has nothing to compare with
 WIDTH = 100  # of running text
 HEADINGS = ("setting", "exact answer", "the textbook's", "error", "ours", "error", "")
 ABOUT = (
     "Each line is a case at the setting where the textbook's formula does worst beside ours. Its error is relative;\n"
     "ours is counted in units of rounding, 2^-53 of the answer times the case's condition number, with what is\n"
-    "allowed behind it. Where an answer has a bound of its own (some of E and F) the unit is that bound.\n"
+    "allowed behind it. Where an answer has a bound of its own (some of E and F) the unit is that bound. A dash: the\n"
+    "textbook has no formula to compare with.\n"
 )
 
 
@@ -66,29 +69,23 @@ def check(cases: Sequence[Case], explain: bool, as_json: bool, put: Callable[[st
 
 def table(results: Sequence[Result]) -> str:
     """Topic by topic; a case's title, and below it the setting with the answers."""
-    head = ("", *HEADINGS)
-    rows = [("", result.telling.setting, *cells(result.telling)) for result in results]
-    widths = [max(len(row[k]) for row in (head, *rows)) for k in range(len(head))]
-    lines = [ABOUT, spread(head, widths)]
+    head, *rows = columns([("  ", *HEADINGS), *(("  ", *cells(result.telling)) for result in results)])
+    lines = [ABOUT, head]
     topic = ""
     for result, row in zip(results, rows, strict=True):
         case = result.case
         if case.id[0] != topic:
             topic = case.id[0]
             lines += ["", f"{topic}  {TOPICS[topic].upper()}"]
-        lines += [f"{case.id:4}{case.title}", spread(row, widths)]
+        lines += [f"{case.id:4}{case.title}", row]
     return "\n".join(lines) + "\n"
-
-
-def spread(row: Sequence[str], widths: Sequence[int]) -> str:
-    return "  ".join(cell.ljust(width) for cell, width in zip(("  ", *row[1:]), (2, *widths[1:]), strict=True)).rstrip()
 
 
 def explained(result: Result) -> str:
     """One case in full: what it is, what goes wrong, every setting."""
     case = result.case
-    rows = [HEADINGS, *((reading.setting, *cells(reading)) for reading in result.readings)]
-    return f"{case.id}  {case.title}\n\n{textwrap.fill(case.wrong, WIDTH)}\n\n{aligned(rows)}"
+    lines = columns([HEADINGS, *(cells(reading) for reading in result.readings)])
+    return "\n".join([f"{case.id}  {case.title}", "", textwrap.fill(case.wrong, WIDTH), "", *lines]) + "\n"
 
 
 def verdict(results: Sequence[Result], seconds: float) -> str:
@@ -99,14 +96,15 @@ def verdict(results: Sequence[Result], seconds: float) -> str:
 
 def cells(reading: Reading) -> tuple[str, ...]:
     usual = reading.textbook_error
-    lost = "" if usual is None else ("wrong" if usual == float("inf") else f"{usual:.1e}")
+    lost = NONE if usual is None else ("wrong" if usual == float("inf") else f"{usual:.1e}")
     if usual == 0.0:
         lost = "0"
     if usual is not None and reading.unit == 0.0:
         lost = "wrong" if usual else "right"
     return (
+        reading.setting,
         shown(reading.exact),
-        "" if reading.textbook is None else shown(reading.textbook),
+        NONE if reading.textbook is None else shown(reading.textbook),
         lost,
         shown(reading.got),
         counted(reading),
@@ -118,7 +116,8 @@ def counted(reading: Reading) -> str:
     """The error in units, with what is allowed; words are right or wrong."""
     if isinstance(reading.exact, str) or reading.unit == 0.0:
         return "right" if reading.ok else "wrong"
-    return f"{reading.error:.2g} of {reading.allowed:g}"
+    few = 0.0 < reading.error < 0.01
+    return f"{'<0.01' if few else f'{reading.error:.2g}'} of {reading.allowed:g}"
 
 
 def shown(value: Any) -> str:
@@ -132,8 +131,3 @@ def shown(value: Any) -> str:
     if isinstance(value, Fraction) and value.denominator < 1000:
         return str(value)
     return f"{float(value) if isinstance(value, Decimal | Fraction) else value:.10g}"
-
-
-def aligned(rows: Sequence[Sequence[str]]) -> str:
-    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    return "".join("  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).strip() + "\n" for row in rows)

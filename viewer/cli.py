@@ -70,6 +70,13 @@ def make_parser() -> Parser:
     _add_limits(trace)
     trace.add_argument("--size", type=pair("x"), metavar="WxH", help="of the image, the scene's own by default")
     trace.add_argument("--format", choices=FORMATS, default="text", help="text by default")
+    trace.add_argument(
+        "--rays",
+        type=at_least(0),
+        default=300,
+        metavar="N",
+        help="text: show the N heaviest, 300 by default; 0 for all",
+    )
     trace.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of the terminal")
 
     render = commands.add_parser("render", help="the scene's image into a file")

@@ -44,7 +44,7 @@ def trace(options: Namespace) -> int:
             tolerance=options.tolerance,
             model=options.model,
         )
-    text = as_text(tree, options.format)
+    text = as_text(tree, options.format, options.rays)
     if options.output:
         write_atomically(options.output, text.encode("utf-8"))
     else:
@@ -164,7 +164,7 @@ def compile_once() -> float:
     return time.perf_counter() - began
 
 
-def as_text(tree: tracer.RayTree, name: str) -> str:
+def as_text(tree: tracer.RayTree, name: str, rays: int) -> str:
     match name:
         case "json":
             return tree.to_json()
@@ -177,7 +177,7 @@ def as_text(tree: tracer.RayTree, name: str) -> str:
 
             return write_dot(tree)
         case _:
-            return tree.to_text()
+            return tree.to_text(rays or None)
 
 
 def put(text: str) -> None:

@@ -5,6 +5,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from tracer.outline import decimals_left, digits_left
+
 GONE = "no digit left"  # of a number that is all rounding error
 
 
@@ -12,17 +14,16 @@ def shown(x: float, digits: int = 5, error: float = 0.0) -> str:
     """A number for people, with no digit that its error has made; a dash for what is absent."""
     if math.isnan(x):
         return "–"
-    if error > 0.0 and x != 0.0:
-        digits = min(digits, _sure(abs(x), error))
-    return f"{x:.{digits}g}".replace("-", "−") if digits > 0 else GONE
+    sure = digits if x == 0.0 else min(digits, digits_left(abs(x), error))
+    return f"{x:.{sure}g}".replace("-", "−") if sure > 0 else GONE
 
 
 def angle(radians: float, error: float = 0.0) -> str:
     """In degrees, with no more decimals than are sure."""
     if math.isnan(radians):
         return "–"
-    decimals = 2 if error == 0.0 else min(2, _sure(1.0, math.degrees(error)))
-    return f"{math.degrees(radians):.{decimals}f}°" if error < 1.0 else GONE
+    decimals = min(2, decimals_left(error))
+    return f"{math.degrees(radians):.{decimals}f}°" if decimals >= 0 else GONE
 
 
 def place(xyz: Sequence[float] | np.ndarray, error: float = 0.0) -> str:
@@ -31,7 +32,7 @@ def place(xyz: Sequence[float] | np.ndarray, error: float = 0.0) -> str:
     if math.isnan(size):
         return "–"
     exponent = math.floor(math.log10(size)) if size > 0.0 else 0
-    decimals = 4 if error == 0.0 else min(4, _sure(size, error) - 1)
+    decimals = min(4, digits_left(size, error) - 1)
     if decimals < 0:
         return GONE
     if -3 <= exponent <= 4:
@@ -41,11 +42,6 @@ def place(xyz: Sequence[float] | np.ndarray, error: float = 0.0) -> str:
 
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
-def _sure(size: float, error: float) -> int:
-    """How many digits of a number of this size an error of that size leaves."""
-    return max(0, math.floor(math.log10(size / error))) if error < size else 0
 
 
 def triple(xyz: Sequence[float] | np.ndarray, decimals: int = 4) -> str:

@@ -5,7 +5,7 @@ from decimal import localcontext
 import pytest
 from mpmath import mp, mpf
 
-from tracer.measure import bending, chains, exactly, lenses, media, plates
+from tracer.measure import bending, chains, lenses, media, plates, precise
 from tracer.measure.case import DIGITS, Case, Result, run
 
 CASES = [case for group in (bending, chains, plates, lenses, media) for case in group.CASES]
@@ -107,7 +107,7 @@ def test_drop_of_3_4_5() -> None:
 def test_arctan_has_fifty_digits(x: str) -> None:
     mp.dps = 60
     with localcontext(DIGITS):
-        ours = mpf(str(exactly.arctan(exactly.Decimal(x))))
+        ours = mpf(str(precise.arctan(precise.Decimal(x))))
     assert abs(ours / mp.atan(mpf(x)) - 1) < mpf(10) ** -45
 
 
@@ -115,7 +115,7 @@ def test_exact_bends_agree_with_a_second_library() -> None:
     mp.dps = 50
     for s1, n1, n2 in ((0.1, 1.0, 1.5), (0.6, 1.5, 1.0), (0.999, 1.0, 2.4)):
         with localcontext(DIGITS):
-            ours = exactly.bend(s1, n1, n2)
+            ours = precise.bend(s1, n1, n2)
         a, b = mp.asin(mpf(s1)), mp.asin(mpf(n1) * mpf(s1) / mpf(n2))
         rs, rp = -mp.sin(a - b) / mp.sin(a + b), mp.tan(a - b) / mp.tan(a + b)
         assert abs(mpf(str(ours.r)) - (rs * rs + rp * rp) / 2) < mpf(10) ** -45

@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ import tracer
 from tests.conftest import LESSONS
 from tests.scenes import MIRROR, plane, world_of
 from tracer.nodes import ENDS, KINDS
-from tracer.outline import WHY, outline
+from tracer.outline import WHY, heaviest_rows, outline
 from viewer.figures.csv import write_csv
 from viewer.figures.dot import write_dot
 
@@ -155,3 +156,19 @@ def test_text_of_a_very_deep_tree_is_no_wider_for_it() -> None:
     assert len(lines) == 20_001 + 4
     assert max(map(len, lines)) < 150
     assert lines[-1].startswith("level 20000: 20000 reflection")
+    few = tree.to_text(100).splitlines()
+    assert few[2] == "the heaviest 100 of 20001 rays are shown"
+    assert [line.split()[:3] for line in few[5:]] == [line.split()[:3] for line in lines[4:104]]
+
+
+def test_text_shows_the_heaviest_rays_with_their_ancestors(worlds: dict[str, tracer.World]) -> None:
+    tree = tracer.trace(worlds["plates"], pixel=(400, 300), tolerance=1e-3)
+    weights = tree.nodes["weight"].max(axis=1)
+    kept = heaviest_rows(tree, 60, set(range(len(tree))))
+    rays = [i for i in range(len(tree)) if tree.kind(i) != "shadow"]
+    assert min(weights[i] for i in rays if i in kept) >= max(weights[i] for i in rays if i not in kept)
+    assert all(int(tree.nodes["parent"][i]) in kept for i in kept - {0})
+    shown = [
+        re.search(r"(\d+) (camera|reflection|refraction|tir|shadow)", line) for line in tree.to_text(60).splitlines()
+    ]
+    assert {int(found[1]) for found in shown if found} == kept

@@ -10,8 +10,9 @@ import tracer
 from tests.conftest import LESSONS
 from tests.scenes import box, world_of
 from tracer.nodes import REFRACTION, SHADOW
+from tracer.outline import heaviest_rows
 from tracer.scene import Light, Material
-from viewer.figures.layout import LEFT, RIGHT, STUB_HALF, Place, heaviest_rows, layout
+from viewer.figures.layout import LEFT, RIGHT, STUB_HALF, Place, layout
 
 
 def plates(count: int, depth: int, lights: int) -> tracer.RayTree:

@@ -7,8 +7,8 @@ from fractions import Fraction
 import numpy as np
 
 from tracer import optics
-from tracer.measure import exactly, textbook
-from tracer.measure.case import Case, Reading, U, decimal
+from tracer.measure import precise, textbook
+from tracer.measure.case import Case, Reading, U, decimal, exactly
 from tracer.measure.stages import box, glass, path, plane, world
 from tracer.tree import RayTree
 
@@ -28,10 +28,10 @@ def out_of(n: float, sine: float, cosine: float, outside: float = 1.0) -> RayTre
     return path(stage, (0, -cosine, 0), (sine, cosine, 0), 1)
 
 
-def bent(tree: RayTree) -> exactly.Bend:
+def bent(tree: RayTree) -> precise.Bend:
     """What the eye's ray, as it is recorded, does at the plane."""
     row = tree.nodes[0]
-    return exactly.bend(exactly.across(row["direction"].tolist()), float(row["n1"]), float(row["n2"]))
+    return precise.bend(precise.across(row["direction"].tolist()), float(row["n1"]), float(row["n2"]))
 
 
 def share(tree: RayTree, row: int) -> float:
@@ -70,7 +70,7 @@ def at_critical() -> Iterator[Reading]:
 def near_normal() -> Iterator[Reading]:
     for angle in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10):
         tree = into(1.5, math.sin(angle), math.cos(angle))
-        exact = exactly.arcsin(bent(tree).s2)
+        exact = precise.arcsin(bent(tree).s2)
         usual_angle = textbook.angle(usual(tree)[1], DOWN)
         yield Reading(f"{angle:g} rad", exact, float(tree.nodes["theta2"][0]), U * float(exact), 4.0, usual_angle)
 
@@ -81,7 +81,7 @@ def matched() -> Iterator[Reading]:
         tree = into(n, math.sqrt(0.75), 0.5)
         exact, (r, t) = bent(tree), usual(tree)
         d = tree.nodes["direction"]
-        turn = exactly.arcsin(exact.s1) - exactly.arcsin(exact.s2)
+        turn = precise.arcsin(exact.s1) - precise.arcsin(exact.s2)
         got = optics.angle(tuple(d[0]), tuple(d[2]))
         yield Reading(f"turned by, n = 1 + 1e-{k}", turn, got, U, 4.0, textbook.angle(d[0].tolist(), t))
         yield Reading(f"R, n = 1 + 1e-{k}", exact.r, share(tree, 1), U * float(exact.r), 8.0, r)
@@ -90,10 +90,10 @@ def matched() -> Iterator[Reading]:
 def grazing() -> Iterator[Reading]:
     for cosine in (1e-2, 1e-5, 1e-8, 1e-12, 1e-16):
         tree = into(1.5, math.sqrt((1.0 - cosine) * (1.0 + cosine)), cosine)
-        d = exactly.unit(tree.nodes["direction"][0].tolist())
+        d = precise.unit(tree.nodes["direction"][0].tolist())
         # The sine holds no digits of so small a cosine: T from the cosine itself.
         c1 = -d[1]
-        c2 = exactly.root(1 - (1 - c1 * c1) / decimal(1.5) ** 2)
+        c2 = precise.root(1 - (1 - c1 * c1) / decimal(1.5) ** 2)
         both = 4 * c1 * c2 * decimal(1.5)
         exact = (both / (c1 + decimal(1.5) * c2) ** 2 + both / (decimal(1.5) * c1 + c2) ** 2) / 2
         yield Reading(
@@ -129,7 +129,7 @@ def spots() -> Iterator[Reading]:
         tree = (out_of if inside else into)(1.5, math.sin(a), math.cos(a))
         exact, (r, t) = bent(tree), usual(tree)
         way = f"{degrees} degrees, {'1.5 to 1' if inside else '1 to 1.5'}"
-        theta = exactly.arcsin(exact.s2)
+        theta = precise.arcsin(exact.s2)
         yield Reading(f"R, {way}", exact.r, share(tree, 1), U * float(exact.r), 8.0, r)
         yield Reading(f"T, {way}", exact.t, share(tree, 2), U * float(exact.t), 8.0, 1.0 - r)
         normal = (-tree.nodes["normal"][0]).tolist()
@@ -172,8 +172,8 @@ def equal_indices() -> Iterator[Reading]:
         rays = sum(1 + (usual(tree)[0] > 0.0) for tree in trees)
         same = sum(usual(tree)[1] == tree.nodes["direction"][0].tolist() for tree in trees)
         straight = sum(bool((tree.nodes["direction"][0] == tree.nodes["direction"][1]).all()) for tree in trees)
-        yield Reading(f"rays sent on, n = {n:g}", 50, sum(len(tree) - 1 for tree in trees), 0.0, 0.0, rays)
-        yield Reading(f"of 50 unbent to the bit, n = {n:g}", 50, straight, 0.0, 0.0, same)
+        yield exactly(f"rays sent on, n = {n:g}", 50, sum(len(tree) - 1 for tree in trees), rays)
+        yield exactly(f"of 50 unbent to the bit, n = {n:g}", 50, straight, same)
 
 
 CASES = (

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from decimal import Context, Decimal, localcontext
 from fractions import Fraction
 
-U = 2.0**-53
+from tracer.pairs import U
 
 DIGITS = Context(prec=50)
 
@@ -112,6 +112,6 @@ def root(value: Exact | float) -> Decimal:
     return DIGITS.sqrt(decimal(value))
 
 
-def exactly(setting: str, exact: int | str, got: Got, textbook: Got | None = None) -> Reading:
+def exactly(setting: str, exact: Exact, got: Got, textbook: Got | None = None) -> Reading:
     """A reading with no room for rounding: a word, a number of things, or digits that must be just these."""
     return Reading(setting, exact, got, 0.0, 0.0, textbook)

@@ -6,8 +6,8 @@ from decimal import Decimal
 
 import numpy as np
 
-from tracer.measure import exactly, textbook
-from tracer.measure.case import Case, Reading, U
+from tracer.measure import precise, textbook
+from tracer.measure.case import Case, Reading, U, exactly
 from tracer.measure.stages import MIRROR, ball, box, glass, path, plane, world
 from tracer.scene import Object
 from tracer.shapes.cone import Cone
@@ -17,13 +17,13 @@ MANY = 2 * 10**6
 
 def far_from(points: np.ndarray, row: int, exact: list[Decimal]) -> float:
     """How far a recorded point is from where it should be."""
-    return math.hypot(*(float(x - y) for x, y in zip(exactly.point(points[row].tolist()), exact, strict=False)))
+    return math.hypot(*(float(x - y) for x, y in zip(precise.point(points[row].tolist()), exact, strict=False)))
 
 
 def parallel() -> Iterator[Reading]:
     walls = (plane((0, 0, 0), (1, 0, 0), MIRROR, "left"), plane((1, 0, 0), (-1, 0, 0), MIRROR, "right"))
     nodes = path(world(*walls), (0.5, 0, 0), (1, 2.0**-10, 0), 100_000, max_nodes=MANY).nodes
-    dx, dy, _ = exactly.point(nodes["direction"][0].tolist())
+    dx, dy, _ = precise.point(nodes["direction"][0].tolist())
     sides = [((0, 0, 0), (1, 0, 0)), ((1, 0, 0), (-1, 0, 0))]
     for bounces in (1000, 10_000, 100_000):
         exact = (bounces - Decimal("0.5")) * dy / dx
@@ -36,18 +36,18 @@ def gallery() -> Iterator[Reading]:
     start, d = (math.sin(math.radians(50.0)), 0.0, 0.0), (0.0, 1.0, 0.0)
     nodes = path(world(ball((0, 0, 0), 1.0, glass(1.5))), start, d, 100_000, max_nodes=MANY).nodes
     for bounces in (10, 1000, 100_000):
-        exact = exactly.round_and_round(start[:2], d[:2], bounces)
+        exact = precise.round_and_round(start[:2], d[:2], bounces)
         other = textbook.inside_ball(start, d, bounces) if bounces <= 1000 else None
         usual = math.hypot(*(float(e) - x for e, x in zip(exact, other, strict=False))) if other else None
         got = far_from(nodes["point"], bounces, exact)
         yield Reading(f"off by, {bounces} bounces", 0, got, U * bounces**2, 2.0, usual)
-        yield Reading(f"weight, {bounces} bounces", 1, float(nodes["weight"][bounces, 0]), 0.0, 0.0)
+        yield exactly(f"weight, {bounces} bounces", 1, float(nodes["weight"][bounces, 0]))
 
 
 def guide() -> Iterator[Reading]:
     slab = box((-10, -1, -10), (1e6, 1, 10), glass(1.5))
     nodes = path(world(slab, model="fresnel"), (0, 0, 0), (3, 1, 0), 100_000, max_nodes=MANY).nodes
-    dx, dy, _ = exactly.point(nodes["direction"][0].tolist())
+    dx, dy, _ = precise.point(nodes["direction"][0].tolist())
     for bounces in (1000, 10_000, 100_000):
         exact = (2 * bounces - 1) * dx / dy
         sides = [((0, -1, 0), (0, 1, 0)), ((0, 1, 0), (0, -1, 0))]
@@ -61,13 +61,13 @@ def fibre() -> Iterator[Reading]:
     tube = Object(Cone((0.0, 0.0, -10.0), 1.0, (0.0, 0.0, 1e6), 1.0), MIRROR, "tube")
     nodes = path(world(tube), start, (-2, 1, 2), 100_000, max_nodes=MANY).nodes
     d = nodes["direction"][0].tolist()
-    near, far = exactly.chord(start[:2], d[:2])
-    size = exactly.root(sum((exactly.decimal(x) ** 2 for x in d[:2]), Decimal(0)))
-    length = exactly.root(sum(((x - y) ** 2 for x, y in zip(near, far, strict=True)), Decimal(0)))
-    first = exactly.root(sum(((x - exactly.decimal(y)) ** 2 for x, y in zip(far, start, strict=False)), Decimal(0)))
+    near, far = precise.chord(start[:2], d[:2])
+    size = precise.root(sum((precise.decimal(x) ** 2 for x in d[:2]), Decimal(0)))
+    length = precise.root(sum(((x - y) ** 2 for x, y in zip(near, far, strict=True)), Decimal(0)))
+    first = precise.root(sum(((x - precise.decimal(y)) ** 2 for x, y in zip(far, start, strict=False)), Decimal(0)))
     for bounces in (10, 1000, 100_000):
-        around = exactly.round_and_round(start[:2], d[:2], bounces)
-        exact = [*around, (first + bounces * length) * exactly.decimal(d[2]) / size]
+        around = precise.round_and_round(start[:2], d[:2], bounces)
+        exact = [*around, (first + bounces * length) * precise.decimal(d[2]) / size]
         other = textbook.inside_ball(start, d, bounces, axis=2) if bounces <= 1000 else None
         usual = math.hypot(*(float(e) - x for e, x in zip(exact, other, strict=True))) if other else None
         yield Reading(
@@ -111,10 +111,10 @@ def unstable() -> Iterator[Reading]:
     centers = ((0.0, 0.0, 0.0), (3.0, 0.0, 0.0))
     stage = world(*(ball(center, 1.0, MIRROR, f"ball {i}") for i, center in enumerate(centers)))
     still = path(stage, (1.5, 0, 0), (1, 0, 0), 1000).nodes
-    yield Reading("on the axis, 1000 bounces", 0, float(np.abs(still["point"][:1000, 1]).max()), 0.0, 0.0)
+    yield exactly("on the axis, 1000 bounces", 0, float(np.abs(still["point"][:1000, 1]).max()))
     start, d = (1.5, 1e-6, 0.0), (1.0, 0.0, 0.0)
     nodes = path(stage, start, d, 10).nodes
-    exact = exactly.to_and_fro(start, d, centers, 11)
+    exact = precise.to_and_fro(start, d, centers, 11)
     usual = textbook.to_and_fro(start, d, centers, 11)
     for k in (1, 4, 7, 10):
         y, got = exact[k][1], float(nodes["point"][k, 1])
@@ -126,7 +126,7 @@ def chaos() -> Iterator[Reading]:
     stage = world(*(ball(center, 1.0, MIRROR, f"ball {i}") for i, center in enumerate(centers)))
     start, d = (0.65, 1.05, 0.85), (1.3, 2.1, 1.7)
     nodes = path(stage, start, d, 60).nodes
-    exact = exactly.to_and_fro(start, nodes["direction"][0].tolist(), centers, 30)
+    exact = precise.to_and_fro(start, nodes["direction"][0].tolist(), centers, 30)
     usual = textbook.to_and_fro(start, nodes["direction"][0].tolist(), centers, 30)
     for k in (5, 10, 15, 20):
         got = far_from(nodes["point"], k, exact[k])
@@ -135,7 +135,7 @@ def chaos() -> Iterator[Reading]:
         yield Reading(f"off by no more than told, bounce {k}", 0, got, float(nodes["error"][k]), 1.0)
     gone = int(np.argmax(~(nodes["error"] <= 1.0)))
     said = "yes" if 24 <= gone < 29 else f"at bounce {gone}"
-    yield Reading("digits gone before bounce 29", "yes", said, 0.0, 0.0)
+    yield exactly("digits gone before bounce 29", "yes", said)
 
 
 CASES = (

@@ -75,7 +75,7 @@ def flat() -> Iterator[Reading]:
         yield reading(f"{height:g} above it", FLAT, origin, aim, 8.0)
         row = path(world(triangle(FLAT)), origin, aim).nodes[0]
         usual = textbook.at(origin, row["direction"].tolist(), float(row["t"]))[1]
-        yield Reading(f"{height:g} above it: height of the hit", 0, float(row["point"][1]), 0.0, 0.0, usual)
+        yield exactly(f"{height:g} above it: height of the hit", 0, float(row["point"][1]), usual)
         yield reading(f"{height:g} above it, all turned", turned, turn(origin), turn(aim), 8.0)
 
 
@@ -97,7 +97,7 @@ def within() -> Iterator[Reading]:
         exact, usual = DIGITS.divide(Decimal(-1), decimal(d[1])), textbook.plane((0, 1, 0), d, (0, 0, 0), (0, 1, 0))
         yield Reading(f"at {angle:g}: t", exact, float(row["t"]), U * float(exact), 4.0, usual)
         after = textbook.at((0, 1, 0), d, usual)[1]
-        yield Reading(f"at {angle:g}: height of the hit", 0, float(row["point"][1]), 0.0, 0.0, after)
+        yield exactly(f"at {angle:g}: height of the hit", 0, float(row["point"][1]), after)
 
 
 def slabs() -> Iterator[Reading]:

@@ -7,9 +7,9 @@ from decimal import Decimal
 import numpy as np
 
 from tracer import optics
-from tracer.measure import exactly, textbook
+from tracer.measure import precise, textbook
 from tracer.measure.bending import bent
-from tracer.measure.case import Case, Reading, U, decimal, root
+from tracer.measure.case import Case, Reading, U, decimal, exactly, root
 from tracer.measure.stages import MATTE, MIRROR, ball, box, glass, path, plane, world
 from tracer.scene import Object
 from tracer.shapes.mesh import Geometry, Mesh
@@ -45,10 +45,10 @@ def turned(direction) -> float:
 
 
 def rainbow() -> Iterator[Reading]:
-    n, full = 4 / 3, 2 * exactly.pi()
+    n, full = 4 / 3, 2 * precise.pi()
     for k, b in RAINBOWS.items():
         out = last_out(through_drop(b, n, k))
-        exact = k * exactly.pi() + 2 * exactly.arcsin(b) - 2 * (k + 1) * exactly.arcsin(decimal(b) / decimal(n))
+        exact = k * precise.pi() + 2 * precise.arcsin(b) - 2 * (k + 1) * precise.arcsin(decimal(b) / decimal(n))
         usual = turned(textbook.drop((-2, b, 0), (1, 0, 0), n, k)[1])
         yield Reading(f"{k} inside", exact % full, turned(out["direction"]), U * (k + 1), 9.0, usual)
 
@@ -56,7 +56,7 @@ def rainbow() -> Iterator[Reading]:
 def cat_eye() -> Iterator[Reading]:
     for b in (0.5, 0.1, 1e-2, 1e-3, 1e-4):
         d = last_out(through_drop(b, 2.0, 1))["direction"]
-        exact = 2 * exactly.arcsin(b) - 4 * exactly.arcsin(decimal(b) / 2)
+        exact = 2 * precise.arcsin(b) - 4 * precise.arcsin(decimal(b) / 2)
         usual = textbook.angle(d.tolist(), (-1.0, 0.0, 0.0))
         yield Reading(f"b = {b:g}", abs(exact), optics.angle(tuple(d), (-1.0, 0.0, 0.0)), U, 8.0, usual)
 
@@ -64,7 +64,7 @@ def cat_eye() -> Iterator[Reading]:
 def ball_lens() -> Iterator[Reading]:
     for n, b in ((1.5, 0.8), (1.5, 0.5), (1.5, 0.1), (1.5, 1e-3), (2.0, 0.5)):
         nodes = path(world(ball((0, 0, 0), 1.0, glass(n))), (-2, b, 0), (1, 0, 0), 2).nodes
-        a = exactly.bend(b, 1.0, n)
+        a = precise.bend(b, 1.0, n)
         exact = decimal(b) / (2 * (a.s1 * a.c2 - a.c1 * a.s2) * (a.c1 * a.c2 + a.s1 * a.s2))
         got, usual = (
             crossing(nodes["point"][1], nodes["direction"][2]),
@@ -80,7 +80,7 @@ def prism() -> Iterator[Reading]:
         a = incidence - math.pi / 6.0  # upwards, at the face whose normal is at 150 degrees
         d = (math.cos(a), math.sin(a), 0.0)
         nodes = path(stage, (-0.5 - d[0], math.sqrt(0.75) - d[1], 0.1), d, 2).nodes
-        exact = 2 * exactly.arcsin(decimal(n) / 2) - exactly.pi() / 3
+        exact = 2 * precise.arcsin(decimal(n) / 2) - precise.pi() / 3
         got = optics.angle(tuple(nodes["direction"][0]), tuple(nodes["direction"][2]))
         inside = textbook.refract(d, (-math.sqrt(0.75), 0.5, 0.0), 1.0, n) or d
         usual = textbook.refract(inside, (-math.sqrt(0.75), -0.5, 0.0), n, 1.0) or d
@@ -107,8 +107,8 @@ def many_layers() -> Iterator[Reading]:
         pile = [box((-1e4, -k - 1.0, -1e4), (1e4, -k, 1e4), glass(n), f"layer {k}") for k, n in enumerate(indices)]
         tree = path(world(*pile), (-0.6, 0.8, 0), (0.6, -0.8, 0), count + 1)
         nodes = tree.nodes
-        sine = exactly.across(nodes["direction"][0].tolist())
-        bends = [exactly.bend(sine, 1.0, n) for n in indices]
+        sine = precise.across(nodes["direction"][0].tolist())
+        bends = [precise.bend(sine, 1.0, n) for n in indices]
         exact = sum((a.s2 / a.c2 for a in bends), Decimal(0))
         got = float(nodes["point"][count, 0] - nodes["point"][0, 0])
         off = float(np.abs(nodes["direction"][-1] - nodes["direction"][0]).max())
@@ -132,7 +132,7 @@ def window() -> Iterator[Reading]:
     exact = 1 / root(decimal(n) ** 2 - 1)
     for side, word in ((-1e-12, "out"), (1e-12, "reflected")):
         got = "out" if leaves(float(exact) * (1.0 + side)) else "reflected"
-        yield Reading(f"{side:+g} from its edge", word, got, 0.0, 0.0)
+        yield exactly(f"{side:+g} from its edge", word, got)
     low, high = 1.0, 1.3
     while low < (middle := 0.5 * (low + high)) < high:
         low, high = (middle, high) if leaves(middle) else (low, middle)

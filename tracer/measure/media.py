@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tracer.measure import exactly, textbook
-from tracer.measure.case import Case, Reading, U, decimal, root
+from tracer.measure import precise, textbook
+from tracer.measure.case import Case, Reading, U, decimal, exactly, root
 from tracer.measure.stages import MATTE, MIRROR, ball, box, glass, path, plane, world
 from tracer.scene import Light
 from tracer.tree import RayTree
@@ -38,19 +38,19 @@ def slant(stage: World) -> RayTree:
 def touching() -> Iterator[Reading]:
     tree = slant(glass_over_water())
     rows, nodes = straight_through(tree), tree.nodes
-    sine = exactly.across(nodes["direction"][0].tolist())
+    sine = precise.across(nodes["direction"][0].tolist())
     faces = [(1.0, 1.5), (1.5, WATER), (WATER, 1.0)]
-    bends = [exactly.bend(sine / decimal(n1), n1, n2) for n1, n2 in faces]
+    bends = [precise.bend(sine / decimal(n1), n1, n2) for n1, n2 in faces]
     into = textbook.refract((SINE, -COSINE, 0), UP, 1.0, 1.5) or UP
     into = textbook.refract(into, UP, 1.5, 1.0) or UP  # the textbook leaves the glass for air: the water's face is gone
     names = ("in the glass", "in the water", "in the air again")
     usual = (None, textbook.angle(into, (0.0, -1.0, 0.0)), None)
     for name, row, a, other in zip(names, rows, bends, usual, strict=False):
-        theta = exactly.arctan(a.s2 / a.c2)
+        theta = precise.arctan(a.s2 / a.c2)
         yield Reading(f"angle {name}", theta, float(nodes["theta2"][row]), U * float(theta) * 2, 8.0, other)
     leaves = "goes out" if len(rows) == 4 else "total reflection"
     other = "goes out" if textbook.refract(into, UP, WATER, 1.0) else "total reflection"
-    yield Reading("at the last face", "goes out", leaves, 0.0, 0.0, other)
+    yield exactly("at the last face", "goes out", leaves, other)
     x = bends[0].s2 / bends[0].c2 + 2 * bends[1].s2 / bends[1].c2
     yield Reading("place where it leaves", x, float(nodes["point"][rows[2], 0]), U * float(x), 8.0)
     through = bends[0].t * bends[1].t * bends[2].t
@@ -63,7 +63,7 @@ def gap() -> Iterator[Reading]:
         tree = path(
             world(box((-9, 0, -9), (9, 1, 9), glass(1.5)), bottom, model="fresnel"), (0, 0.5, 0), (SINE, -COSINE, 0), 1
         )
-        exact = exactly.bend(exactly.across(tree.nodes["direction"][0].tolist()), 1.5, WATER).r if width == 0.0 else 1
+        exact = precise.bend(precise.across(tree.nodes["direction"][0].tolist()), 1.5, WATER).r if width == 0.0 else 1
         usual = textbook.fresnel(COSINE, 1.5, 1.0)  # whichever of both faces it finds, the glass ends in air
         got, unit = float(tree.nodes["factor"][1, 0]), U * float(exact)
         # At 77 degrees behind the face R is given to 1 / cosine^2 of its sine.
@@ -80,7 +80,7 @@ def two_panes() -> Iterator[Reading]:
             d = tree.nodes["direction"]
             hits = int(np.isfinite(tree.nodes["t"]).sum())
             count, out = textbook.panes((0, 2, 0), (s, -c, 0), (1.0, 0.0, -width, -1.0 - width), 1.5)
-            yield Reading(f"{degrees} degrees, gap {width:g}", "4 hits", f"{hits} hits", 0.0, 0.0, f"{count} hits")
+            yield exactly(f"{degrees} degrees, gap {width:g}", "4 hits", f"{hits} hits", f"{count} hits")
             off, other = float(np.abs(d[-1] - d[0]).max()), math.inf
             if out:
                 other = float(np.abs(np.array(out) - d[0]).max())
@@ -92,9 +92,9 @@ def overlapping() -> Iterator[Reading]:
     for field in ("point", "direction", "theta1", "theta2", "weight", "n1", "n2"):
         a, b = plain.nodes[field], overlapped.nodes[field]
         same = "the same bits" if a.shape == b.shape and np.array_equal(a, b, equal_nan=True) else "others"
-        yield Reading(field, "the same bits", same, 0.0, 0.0)
+        yield exactly(field, "the same bits", same)
     row = straight_through(overlapped)[1]
-    theta = exactly.arcsin(exactly.across(overlapped.nodes["direction"][0].tolist()) / decimal(WATER))
+    theta = precise.arcsin(precise.across(overlapped.nodes["direction"][0].tolist()) / decimal(WATER))
     way = textbook.refract((SINE, -COSINE, 0), UP, 1.0, 1.5) or UP
     way = textbook.refract(way, UP, 1.5, WATER) or UP
     way = textbook.refract(way, UP, 1.5, 1.0) or way  # the glass's lower face, as if there were no water
@@ -110,9 +110,9 @@ def twice() -> Iterator[Reading]:
     same = len(once) == len(both) and all(
         np.array_equal(once.nodes[f], both.nodes[f], equal_nan=True) for f in ("point", "direction", "weight", "t")
     )
-    yield Reading("both trees", "the same bits", "the same bits" if same else "others", 0.0, 0.0)
-    a = exactly.bend(decimal(0.5), 1.0, 1.5)
-    exact = exactly.arcsin(a.s1) - exactly.arcsin(a.s2)
+    yield exactly("both trees", "the same bits", "the same bits" if same else "others")
+    a = precise.bend(decimal(0.5), 1.0, 1.5)
+    exact = precise.arcsin(a.s1) - precise.arcsin(a.s2)
     n = textbook.unit((-SINE, 0.5, 0.0))
     way = textbook.refract((1, 0, 0), n, 1.0, 1.5) or UP
     way = textbook.refract(way, n, 1.0, 1.5) or UP  # the second ball's surface bends it again
@@ -124,8 +124,8 @@ def diver() -> Iterator[Reading]:
     tree = path(glass_over_water(), (0, -2, 0), (0.3, 1, 0), 3)
     rows = straight_through(tree)
     n = [float(tree.nodes["n1"][row]) for row in rows]
-    yield Reading("indices", "1.333 1.5 1", " ".join(f"{x:.4g}" for x in n), 0.0, 0.0)
-    sine = decimal(WATER) * exactly.across(tree.nodes["direction"][0].tolist())
+    yield exactly("indices", "1.333 1.5 1", " ".join(f"{x:.4g}" for x in n))
+    sine = decimal(WATER) * precise.across(tree.nodes["direction"][0].tolist())
     got = abs(float(tree.nodes["direction"][rows[-1], 0]))
     usual = textbook.refract(textbook.unit((0.3, 1, 0)), (0.0, -1.0, 0.0), 1.0, 1.5)
     usual = usual and textbook.refract(usual, (0.0, -1.0, 0.0), 1.5, 1.0)
@@ -142,7 +142,7 @@ def shadow() -> Iterator[Reading]:
         origin = textbook.offset((x, 0.0, 0.0), UP, UP)
         t = textbook.sphere(origin, textbook.unit((-x, 10.0 - origin[1], 0.0)), (0, 5, 0), 3.0)
         word = "blocked" if side < 0 else "lit"
-        yield Reading(f"7.5 (1 {side:+g})", word, tree.end(1) or "", 0.0, 0.0, "blocked" if t < math.inf else "lit")
+        yield exactly(f"7.5 (1 {side:+g})", word, tree.end(1) or "", "blocked" if t < math.inf else "lit")
 
 
 def virtual() -> Iterator[Reading]:
@@ -150,10 +150,10 @@ def virtual() -> Iterator[Reading]:
     stage = world(plane((0, 0, 0), (0, 0, 1), MIRROR, "mirror"), ball(thing, 0.7, MATTE))
     for aside in (0.0, 0.1, 0.3):
         nodes = path(stage, origin, (0.5 + aside, 1.7 - aside, -7.0), 1).nodes
-        p, d = exactly.point(nodes["origin"][0].tolist()), exactly.unit(nodes["direction"][0].tolist())
-        f = [x - y for x, y in zip(p, exactly.point((1.0, 2.0, -4.0)), strict=True)]
-        b = exactly.dot(f, d)
-        exact = -b - root(b * b - exactly.dot(f, f) + decimal(0.7) ** 2)
+        p, d = precise.point(nodes["origin"][0].tolist()), precise.unit(nodes["direction"][0].tolist())
+        f = [x - y for x, y in zip(p, precise.point((1.0, 2.0, -4.0)), strict=True)]
+        b = precise.dot(f, d)
+        exact = -b - root(b * b - precise.dot(f, f) + decimal(0.7) ** 2)
         way = nodes["direction"][0].tolist()
         t = textbook.plane(origin, way, (0, 0, 0), (0, 0, 1))
         back = textbook.reflect(way, (0.0, 0.0, 1.0))

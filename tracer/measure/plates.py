@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from tracer.measure import textbook
 from tracer.measure.bending import bent, given
-from tracer.measure.case import Case, Reading, U
+from tracer.measure.case import Case, Reading, U, exactly
 from tracer.measure.stages import DARK, ball, box, glass, path, plane, world
 from tracer.scene import Material
 from tracer.tree import RayTree
@@ -47,7 +47,7 @@ def head_on() -> Iterator[Reading]:
         ray = ((0.0, 2.0, 0.0), (0.0, -1.0, 0.0))
         got, cut = shown(path(stage, *ray, None, tolerance=1e-20)), shown(path(stage, *ray, **CUT))
         yield Reading(what, exact, got, U * float(exact), 4.0, cut)
-    yield Reading("rays to 1e-12", 20, len(down(pile(1), tolerance=1e-12)), 0.0, 0.0)
+    yield exactly("rays to 1e-12", 20, len(down(pile(1), tolerance=1e-12)))
 
 
 def aslant() -> Iterator[Reading]:
@@ -80,7 +80,7 @@ def piles() -> Iterator[Reading]:
         yield Reading(f"R of {count}", exact, shown(tree), tree.bound, 1.0, shown(down(stage, **CUT)))
     tree = down(pile(3), tolerance=0.0, max_nodes=1000)
     held = tree.bound <= 1.5e-4 and abs(shown(tree) - 0.2) <= tree.bound
-    yield Reading("3 within 1.5e-4 by 1000 rays", "yes", "yes" if held else f"{tree.bound:.1e}", 0.0, 0.0)
+    yield exactly("3 within 1.5e-4 by 1000 rays", "yes", "yes" if held else f"{tree.bound:.1e}")
 
 
 def drop() -> Iterator[Reading]:
@@ -112,7 +112,7 @@ def furnace() -> Iterator[Reading]:
     cut = shown(path(shell, *ray, **CUT))
     for depth in (10, 30, 51):
         tree = path(shell, *ray, depth)
-        yield Reading(f"half thrown back, depth {depth}", 2 - Fraction(1, 2**depth), shown(tree), 0.0, 0.0, cut)
+        yield exactly(f"half thrown back, depth {depth}", 2 - Fraction(1, 2**depth), shown(tree), cut)
     bright = world(ball((0, 0, 0), 1.0, Material("shell", ambient=1.0, reflect=0.999)))
     tree = path(bright, *ray, 20_000)
     exact = 1 / (1 - Fraction(0.999))
@@ -136,7 +136,7 @@ def at_any_time() -> Iterator[Reading]:
         bounds.append(tree.bound)
         yield Reading(f"R after {rays} rays", Fraction(10, 34), shown(tree), tree.bound, 1.0, cut)
     falls = "yes" if bounds == sorted(bounds, reverse=True) else "no"
-    yield Reading("the bound only falls", "yes", falls, 0.0, 0.0)
+    yield exactly("the bound only falls", "yes", falls)
 
 
 CASES = (

@@ -97,7 +97,7 @@ def places() -> Iterator[Reading]:
         own = "core" if len(tree) > 1 and tree.object_name(1) == "core" else "other"
         yield exactly(f"slanting, moved by 2^{k}: met", "core", own)
         usual = textbook.sphere((far + 0.25, 0, 5), aim, (far, 0, 0), 1.0 + gap)
-        yield Reading(f"slanting, moved by 2^{k}: same t", decimal(bits), float(tree.nodes["t"][0]), 0.0, 0.0, usual)
+        yield exactly(f"slanting, moved by 2^{k}: same t", decimal(bits), float(tree.nodes["t"][0]), usual)
 
 
 def mirrored() -> Iterator[Reading]:

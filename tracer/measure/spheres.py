@@ -51,7 +51,7 @@ def far() -> Iterator[Reading]:
         yield Reading(f"D = {distance:g}", exact, float(row["t"]), 2 * U * distance, 4.0, usual)
         above = textbook.at(origin, d, usual) if usual < math.inf else None
         yield Reading(
-            f"D = {distance:g}: from the centre to the hit",
+            f"D = {distance:g}: hit to centre",
             1,
             float(root(sum(decimal(x) ** 2 for x in row["point"].tolist()))),
             textbook=math.sqrt(textbook.dot(above, above)) if above else math.inf,
@@ -128,8 +128,8 @@ CASES = (
         "a ground that is a sphere of radius 1e3 to 1e15",
         ground,
         "The centre is R below, so b^2 and 4ac are of size R^2, and the height of the eye is what is left when they "
-        "cancel. The error grows with R: at R = 1e9 seven digits of the distance are good, at 1e15 hardly one. "
-        "The floor of the scene then shows rings, or is not there.",
+        "cancel. The error grows with R, but for a few round numbers that happen to come out: at R = 1e9 seven digits "
+        "of the distance are good, at 1e15 hardly one. The floor of the scene then shows rings, or is not there.",
     ),
     Case(
         "A6",

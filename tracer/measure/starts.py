@@ -108,7 +108,7 @@ def never_again() -> Iterator[Reading]:
                 again += tree.object_name(1) is not None
                 start, way = tree.nodes[0]["point"].tolist(), tree.nodes[1]["direction"].tolist()
                 usual += textbook.sphere(start, way, center, radius, tmin=0.0) < math.inf
-    yield exactly(f"{count} reflected rays that meet their own ball", 0, again, usual)
+    yield exactly(f"{count} rays: meet their own ball", 0, again, usual)
 
 
 def thin_shadow() -> Iterator[Reading]:

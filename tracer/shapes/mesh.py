@@ -35,7 +35,7 @@ class Mesh:
 
     def placed(self) -> np.ndarray:
         """The corners of every face, (m, 3, 3), where the author put them."""
-        vertices = self.scale * self.geometry.vertices @ _turn(self.rotate).T + self.translate
+        vertices = self.scale * self.geometry.vertices @ turn(self.rotate).T + self.translate
         return vertices[self.geometry.faces]
 
     def pack(self, rows: Any) -> None:
@@ -45,7 +45,7 @@ class Mesh:
         """The unit normals at every face's corners, (m, 3, 3), or None where the file has none."""
         if self.geometry.normals is None:
             return None
-        return (self.geometry.normals @ _turn(self.rotate).T)[self.geometry.faces]
+        return (self.geometry.normals @ turn(self.rotate).T)[self.geometry.faces]
 
     def bounds(self) -> np.ndarray:
         corners = self.placed()
@@ -74,7 +74,7 @@ class Mesh:
         return bool(abs(2.0 * np.arctan2(volume, spread).sum()) > 2.0 * math.pi)
 
 
-def _turn(degrees: Vector) -> np.ndarray:
+def turn(degrees: Vector) -> np.ndarray:
     """The matrix that turns about x, then y, then z. Quarter turns are exact."""
     turn = np.eye(3)
     for axis, angle in enumerate(degrees):

@@ -14,6 +14,7 @@ import numpy as np
 from tracer.jit import compiled, routine, stay_apart
 from tracer.pairs import (
     PairVector,
+    U,
     exact_difference,
     over,
     pair_cross,
@@ -27,11 +28,9 @@ from tracer.vector import Vector, VectorLike, add, dot, scale, subtract, vector
 
 # Rounding errors of n.(a - o): three products, three differences and two sums, and as many again in the point of the
 # surface the ray leaves; each at most 2^-53 of |a| + |o| in the 1-norm.
-NEAR = 16 * 2.0**-53
-
+NEAR = 16 * U
 
 FAR = 4.0  # times the way to the hit: where the plane's own point lies farther, it is the one with fewer digits
-
 
 BALL = 1  # the number of corners of a sphere
 

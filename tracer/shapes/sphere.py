@@ -15,8 +15,10 @@ import numpy as np
 from tracer import fields
 from tracer.jit import compiled, routine, stay_apart
 from tracer.pairs import (
+    SMALLEST,
     Pair,
     PairVector,
+    U,
     exact_difference,
     minus,
     normal_pair,
@@ -35,9 +37,6 @@ from tracer.shapes.planar import BALL
 from tracer.vector import Vector, add, dot, scale, subtract, unit, vector
 
 NAME = "sphere"
-
-U = 2.0**-53
-SMALLEST = 5e-324  # the number after 0
 
 # The quick form gets the ray's closest point to the centre wrong by 8 u |f| at most, f from the centre to the ray's
 # start; so the discriminant by less than SHARE of (CLOSE (r^2 + beside^2) + ROUGH |f|^2), since 2xy <= x^2 + y^2.

@@ -106,22 +106,6 @@ def _stub_places(count: int, ray_left: bool, ray_right: bool) -> list[float]:
     return [STUB_GAP * (k - 0.5 * (count - 1)) for k in range(count)]
 
 
-def heaviest_rows(tree: RayTree, most: int, rows: set[int]) -> set[int]:
-    """At most about `most` of these rows: the heaviest rays with their shadow rays. A child is never heavier than its
-    parent, so every row that is kept keeps its parent."""
-    if len(rows) <= most:
-        return rows
-    weights = tree.nodes["weight"].max(axis=1)
-    rays = sorted((i for i in rows if tree.nodes["kind"][i] != SHADOW), key=lambda i: (-weights[i], i))
-    kept: set[int] = set()
-    for i in rays:
-        shadows = {child for child in tree.children[i] if child in rows and tree.nodes["kind"][child] == SHADOW}
-        if kept and len(kept) + 1 + len(shadows) > most:
-            break
-        kept |= {i} | shadows
-    return kept
-
-
 def with_parents_only(parents: np.ndarray, wanted: set[int]) -> set[int]:
     """Rows whose every ancestor is wanted too: a branch that is switched off takes what hangs on it along."""
     kept: set[int] = set()

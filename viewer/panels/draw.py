@@ -104,6 +104,13 @@ def sun(draw: imgui.ImDrawList, at: Point, radius: float, color: Color, halo: Co
             draw.add_line(a, b, ink, 1.6 + 2 * grow)
 
 
+def eye(draw: imgui.ImDrawList, at: Point, radius: float, color: Color) -> None:
+    ink = u32(color)
+    draw.path_elliptical_arc_to(at, (1.5 * radius, 0.8 * radius), 0.0, 0.0, 2 * math.pi, 32)
+    draw.path_stroke(ink, 1.6 * unit())
+    draw.add_circle_filled(at, 0.45 * radius, ink)
+
+
 def sample(draw: imgui.ImDrawList, at: Point, width: float, style: RayStyle, color: Color, scale: float) -> None:
     """A piece of a ray as it is drawn: for the legend."""
     a, b = at, (at[0] + width, at[1])

@@ -7,10 +7,10 @@ import numpy as np
 from imgui_bundle import imgui
 
 from tracer.nodes import SHADOW
-from tracer.outline import missing
+from tracer.outline import heaviest_rows, missing
 from viewer.canvas import Canvas
 from viewer.explain import headline
-from viewer.figures.layout import Place, heaviest_rows, layout, with_parents_only
+from viewer.figures.layout import Place, layout, with_parents_only
 from viewer.panels import draw as d
 from viewer.raylines import family
 from viewer.session import Session
@@ -130,10 +130,7 @@ class _Diagram:
     def _eye(self) -> None:
         x, y = self._top(0)
         r = 0.8 * self.radius
-        ink = d.u32(self.theme.text)
-        self.pad.path_elliptical_arc_to((x, y), (1.5 * r, 0.8 * r), 0.0, 0.0, 2 * math.pi, 32)
-        self.pad.path_stroke(ink, 1.6 * d.unit())
-        self.pad.add_circle_filled((x, y), 0.45 * r, ink)
+        d.eye(self.pad, (x, y), r, self.theme.text)
         d.text(self.pad, (x + 1.9 * r, y - 0.5 * self.text_size), self.theme.text, "eye", self.text_size)
 
     def _edge(self, i: int) -> None:
