@@ -95,8 +95,8 @@ CASES = (
         closed,
         "Moeller and Trumbore's test works out u and v of every triangle on its own. On a shared edge each of the two "
         "neighbours may round to just outside, -1e-17, and the ray slips through the crack: about one in ten of those "
-        "aimed at corners and edges. Ours gives a corner the same two numbers whichever triangle asks. (* The "
-        "textbook's triangles are given the first 100 rays only: they are slow Python.)",
+        "aimed at corners and edges. Ours gives a corner the same two numbers whichever triangle asks. "
+        "Of the textbook's triangles, slow as they are in Python, the first 100 rays alone are asked: that is the *.",
     ),
     Case(
         "B3",
