@@ -38,6 +38,7 @@ def trace_heaviest_first(world: Any, limits: Limits, space: Any) -> int:
     table, heap = space.table, space.open
     lights = len(world.lights)
     i, count, waiting, created = 0, 1, 0, 0
+    planned = 1 + lights  # rows spoken for, whether an image needs them or not: it is to end where the tree does
     left = (0.0, 0.0)  # sum of the weights of what is open or cut
     stopped_by = TOLERANCE
     while True:
@@ -65,7 +66,7 @@ def trace_heaviest_first(world: Any, limits: Limits, space: Any) -> int:
                         row.cut += weight
         if waiting == 0 or left[0] + left[1] <= limits.tolerance:
             break
-        if count + lights + 1 > limits.max_nodes:
+        if planned + 1 + lights > limits.max_nodes:
             stopped_by = NODES
             break
         parent, refracted = heap[0].parent, heap[0].refracted
@@ -73,6 +74,7 @@ def trace_heaviest_first(world: Any, limits: Limits, space: Any) -> int:
         waiting -= 1
         take_out(heap, waiting)
         i = count
+        planned += 1 + lights
         start_branch(limits, space, parent, split(world, limits, table[parent]), refracted, i)
         count += 1
     for k in range(waiting):

@@ -15,7 +15,6 @@ from tracer.limits import Limits
 from tracer.media import index_of, medium
 from tracer.nodes import BACKGROUND, SHADOW
 from tracer.optics import cosine, mirrored, radicand, sine, transmission
-from tracer.pairs import plus
 from tracer.rays import make_ray
 from tracer.rows import record_shadow, record_unlit, way_length
 from tracer.shading import ambient, phong, surface_color
@@ -72,7 +71,7 @@ def move_up(space: Any, i: int, count: int) -> int:
     stay_apart()
     table, solids = space.table, space.solids
     for k in range(i, count - 1):
-        space.rays[table[k].kind] += 1
+        space.counted[table[k].kind] += 1
     row, child = table[i], table[count - 1]
     child.sibling = row.sibling
     store(child.factor, vector(row.factor))
@@ -134,7 +133,10 @@ def is_usable(d: Vector, n: Vector, shading_n: Vector, n1: float, n2: float) -> 
 
 @routine
 def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> int:
-    """Row i's local term, light by light. What cannot add to it is followed only where every light gets its row."""
+    """Row i's local term, light by light; the number of rows after its shadow rays, which only a reader has use for.
+
+    What cannot add to the local term is followed only for the reader, too.
+    """
     table = space.table
     row = table[i]
     if row.surface < 0:
@@ -158,10 +160,11 @@ def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> 
                 if visible > 0.0:
                     share = scale(visible, phong(material, color, vector(light.color), n, to_light, d))
                     local = add(local, share)
-                table[count].kind = SHADOW
                 if limits.records:
                     record_shadow(world, limits, space, count, i, j, ray, far, visible, glass, share)
-                count += 1
+                    count += 1
+                else:
+                    space.counted[SHADOW] += 1
             elif limits.records:
                 record_unlit(world, limits, space, count, i, j, to_light, far)
                 count += 1
@@ -181,13 +184,3 @@ def sum_up(table: Any, count: int) -> None:
                 total = add(total, multiply(vector(table[k].factor), vector(table[k].radiance)))
                 k = table[k].sibling
             store(row.radiance, total)
-
-
-@compiled
-def residual_of(table: Any, count: int) -> float:
-    """The sum of the weights that were cut, rounded once."""
-    total = (0.0, 0.0)
-    for i in range(count):
-        if table[i].kind != SHADOW and table[i].cut > 0.0:
-            total = plus(total, (table[i].cut, 0.0))
-    return total[0] + total[1]

@@ -13,9 +13,10 @@ from tracer.bvh import DEEPEST, WAITING
 from tracer.camera import View, pixel_direction
 from tracer.certified import OPEN, trace_heaviest_first
 from tracer.jit import compiled, kernel
-from tracer.kernel import residual_of, trace_tree
+from tracer.kernel import trace_tree
 from tracer.limits import Limits
-from tracer.nodes import CAMERA, KINDS, NODE
+from tracer.nodes import CAMERA, KINDS, NODE, SHADOW
+from tracer.pairs import plus
 from tracer.rows import start_row
 from tracer.sampler import sample_offset
 from tracer.shadows import CROSSING, MOST_CROSSINGS
@@ -55,6 +56,7 @@ class Space(NamedTuple):
     open: np.ndarray  # rays that wait to be followed, the heaviest first
     stack: np.ndarray  # of boxes still to be entered
     crossed: np.ndarray  # glass on the way to a light
+    counted: np.ndarray  # rays of this pixel that have no row (any more), by kind; then all of them
     rays: np.ndarray  # traced so far, by kind
     tree: np.ndarray  # rows and residual of the last tree
     residuals: np.ndarray  # largest and sum over the pixels so far
@@ -70,6 +72,7 @@ class Workspace:
             np.zeros(2 * rows, OPEN),
             np.zeros(DEEPEST, WAITING),
             np.zeros(MOST_CROSSINGS, CROSSING),
+            np.zeros(len(KINDS), np.int64),
             np.zeros(len(KINDS), np.int64),
             np.zeros(2),
             np.zeros(2),
@@ -128,6 +131,8 @@ def trace_pixel(
     total = (0.0, 0.0, 0.0)
     lost = 0.0
     table, solids = space.table, space.solids
+    for kind in range(len(space.counted)):
+        space.counted[kind] = 0
     for k in range(samples.count):
         dx, dy = 0.5, 0.5
         if samples.first >= 0:
@@ -147,17 +152,29 @@ def trace_pixel(
             count = trace_tree(world, limits, space)
         if count < 0:
             return (total, -1.0)
-        residual = residual_of(table, count)
-        for i in range(count):
-            space.rays[table[i].kind] += 1
+        residual = count_rays(space, count)
         space.tree[0] = count
         space.tree[1] = residual
         lost += residual
         total = add(total, vector(table[0].radiance))
+    for kind in range(len(space.counted)):
+        space.rays[kind] += space.counted[kind]
     if samples.count > 1:
         total = (total[0] / samples.count, total[1] / samples.count, total[2] / samples.count)
         lost /= samples.count
     return (total, lost)
+
+
+@compiled
+def count_rays(space: Bundle, count: int) -> float:
+    """Count the rays that have a row. The sum of the weights that were cut, rounded once."""
+    cut = (0.0, 0.0)
+    for i in range(count):
+        row = space.table[i]
+        space.counted[row.kind] += 1
+        if row.kind != SHADOW and row.cut > 0.0:
+            cut = plus(cut, (row.cut, 0.0))
+    return cut[0] + cut[1]
 
 
 def run(

@@ -227,3 +227,30 @@ def test_mirrors_face_to_face_take_no_room_but_where_they_are_recorded() -> None
     assert kinds(tree).count("reflection") == workspace.arrays.rays[1]
     assert workspace.arrays.rays[0] == 1
     assert image.pixels.shape == (1, 1, 3)
+
+
+@pytest.mark.parametrize("max_nodes", [1, 7, 20, 60, 10**6])
+def test_an_image_ends_where_the_tree_of_its_pixel_ends(max_nodes: int) -> None:
+    """Also at the limit of rays: those of a tree that an image does not trace are spoken for in both."""
+    glass = Material("glass", transmit=0.9, reflect=0.1, diffuse=0.2, ior=1.5)
+    lamps = [Light("near", position=(1.0, 4.0, 4.0)), Light("behind", position=(0.0, -5.0, -3.0))]
+    world = world_of(
+        ball((0, 0, -3), 1, glass), ball((0.6, 0.4, -5), 1, glass), lights=lamps, background=(0.2, 0.3, 0.4)
+    )
+    limits = {"tolerance": 1e-3, "max_nodes": max_nodes}
+    image = tracer.render(world, (8, 6), threads=1, **limits)
+    for x, y in np.ndindex(8, 6):
+        tree = tracer.trace(world, (x, y), size=(8, 6), **limits)
+        assert image.pixels[y, x].tolist() == tree.radiance.tolist()
+
+
+def test_rays_are_counted_once_where_the_table_has_to_grow() -> None:
+    """A mirror's row gives way to the next; then the tree outgrows the table, and the pixel begins anew."""
+    mirror = plane((0, 100, 0), (0, -1, 0), MIRROR, "mirror")
+    upwards = Camera(position=(0.0, 50.0, 0.0), look_at=(0.0, 100.0, 1.0))
+    world = world_of(mirror, *plates(3).scene.objects, camera=upwards)
+    limits = {"depth": 14, "model": "fresnel"}
+    image = tracer.render(world, (1, 1), threads=1, **limits)
+    tree = tracer.trace(world, (0, 0), size=(1, 1), **limits)
+    assert len(tree) > 4 * 256
+    assert image.rays == {kind: kinds(tree).count(kind) for kind in image.rays}
