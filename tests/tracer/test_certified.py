@@ -11,7 +11,9 @@ from hypothesis import strategies as st
 
 import tracer
 from tests.scenes import MIRROR, ball, box, ends, kinds, plane, world_of
-from tracer.scene import Camera, Light, Material, Object
+from tracer.bound import brightest
+from tracer.certified import OPEN, put_in, take_out
+from tracer.scene import Camera, Checker, Light, Material, Object
 from tracer.shapes.plane import Plane
 
 U = 2.0**-53
@@ -75,6 +77,22 @@ def test_residual_comes_down_to_what_was_asked_for(tolerance: float) -> None:
     assert down(plates(3), tolerance=0.01 * tolerance).residual < tree.residual
 
 
+def test_tracing_stops_at_the_very_tolerance() -> None:
+    """Asked for what any stop has left, it stops there, and not for less: the sum does not drift as rays come and go.
+
+    A row that sends out two rays adds up what is cut of both: one rounding of the residual.
+    """
+    world = plates(3, 1.37)
+    for count in range(1, 600, 7):
+        residual = down(world, tolerance=0.0, max_nodes=count).residual
+        tree = down(world, tolerance=residual * (1.0 + 4 * U))
+        assert len(tree) <= count
+        assert tree.residual <= residual * (1.0 + 8 * U)
+        assert down(world, tolerance=residual * (1.0 - 4 * U)).residual < residual
+    shell = world_of(ball((0, 0, 0), 1.0, Material("half", reflect=0.5)))
+    assert tracer.trace(shell, ray=((0, 0, 0), (1, 2, 3)), tolerance=2.0**-9).residual == 2.0**-9
+
+
 @pytest.mark.parametrize("degrees, exact", [(60.0, 0.16376753728983167613), (89.0, 0.949681857200440876336)])
 def test_slab_aslant(degrees: float, exact: float) -> None:
     a = math.radians(degrees)
@@ -97,6 +115,18 @@ def test_rows_come_heaviest_first_with_their_shadows_behind_them() -> None:
     for a, b in itertools.pairwise(rays):
         assert weight[b] <= weight[a] or parent[b] == a
     assert (tree.nodes["id"] == np.arange(len(tree))).all()
+
+
+def test_heap_gives_the_heaviest_and_of_equals_the_first() -> None:
+    random = np.random.default_rng(2)
+    for size in range(1, 40):
+        heap = np.zeros(size, OPEN).view(np.recarray)
+        weights = random.integers(1, 9, size) / 8.0
+        for k, weight in enumerate(weights.tolist()):
+            put_in(heap, k, weight, k, 100 + k, k % 3 == 0)
+        for left, k in enumerate(np.lexsort((np.arange(size), -weights))):
+            assert heap[0].item() == (weights[k], k, 100 + k, k % 3 == 0)
+            take_out(heap, size - 1 - left)
 
 
 def test_depth_counts_only_if_it_is_given() -> None:
@@ -132,6 +162,25 @@ def test_where_light_adds_up_without_end_nothing_is_claimed() -> None:
         assert tree.residual == reflect**5
         assert tree.bound == pytest.approx(tree.residual * expected, rel=8 * U, abs=0.0)
     assert tracer.trace(world, ray=((0.5, 0, 0), (1, 0.1, 0)), depth=4).to_dict()["bound"] == 0.0
+
+
+@pytest.mark.parametrize(("sky", "expected"), [(0.0, 0.0), (0.5, math.inf)])
+def test_surface_that_sends_on_more_than_it_gets_has_a_bound_only_in_the_dark(sky: float, expected: float) -> None:
+    wrong = ball((0, 0, 0), 1.0, Material("wrong", reflect=0.7, transmit=0.7, ior=1.5))
+    tree = tracer.trace(world_of(wrong, background=(sky, 0.0, 0.0)), ray=((0.1, 0.2, 5), (0, 0, -1)), depth=3)
+    assert tree.residual > 0.0
+    assert tree.bound == expected
+
+
+def test_the_most_a_ray_can_bring_counts_every_light_and_the_brighter_square() -> None:
+    """Green: ambient 1/4 of 1/2, from lights of 2 and 1 an eighth and a highlight of a quarter; half is passed on."""
+    tiles = Material(
+        "tiles", (0.0, 0.5, 0.0), 0.25, 0.125, 0.25, reflect=0.25, transmit=0.25, checker=Checker((0.0, 1.0, 0.0), 1.0)
+    )
+    lights = [Light("two", position=(0.0, 9.0, 0.0), color=(0.0, 2.0, 0.0)), Light("one", direction=(0.0, -1.0, 0.0))]
+    for sky, most in ((2.0, (0.125 + 3.0 * (0.125 + 0.25)) / 0.5), (3.0, 3.0)):
+        world = world_of(ball(material=tiles), lights=lights, ambient=(0.0, 0.5, 0.0), background=(0.0, 0.0, sky))
+        assert brightest(world.scene) == most
 
 
 def test_furnace_lacks_exactly_what_the_bound_says() -> None:
@@ -198,6 +247,25 @@ def test_absurd_limits_are_refused() -> None:
     ):
         with pytest.raises(ValueError, match="must be"):
             down(world, **limits)
+
+
+def test_ray_that_passes_on_all_it_gets_keeps_what_was_cut_beside_it() -> None:
+    """A perfect mirror that lets a little through: too little to follow, and counted, in a tree as in an image."""
+    pane = Material("pane", reflect=1.0, transmit=2.0**-10, ior=1.5)
+    world = world_of(plane((0, 0, 0), (0, 0, 1), pane), background=WHITE)
+    limits = {"depth": 2, "min_weight": 0.5}
+    tree = tracer.trace(world, (32, 24), **limits)
+    assert tree.residual == 2.0**-10
+    image = tracer.render(world, **limits)
+    assert image.residual == {"max": 2.0**-10, "mean": 2.0**-10}
+
+
+def test_dark_surface_that_passes_on_a_part_takes_its_part_in_an_image_too() -> None:
+    world = world_of(plane((0, 0, 0), (0, 0, 1), Material("half", reflect=0.5)), background=(0.5, 0.75, 1.0))
+    assert (tracer.render(world).pixels == (0.25, 0.375, 0.5)).all()
+    for color in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)):  # nor is one dark that shines in one colour
+        shining = Material("shining", color, ambient=0.5, reflect=1.0)
+        assert (tracer.render(world_of(plane((0, 0, 0), (0, 0, 1), shining))).pixels == np.multiply(0.5, color)).all()
 
 
 def test_mirrors_face_to_face_take_no_room_but_where_they_are_recorded() -> None:

@@ -73,6 +73,17 @@ def test_critical_angle_of_water_is_decided_on_the_right_side(aside: float, mode
     assert tree.nodes["factor"][1].tolist() == [1.0, 1.0, 1.0]  # kr + kt
 
 
+@pytest.mark.parametrize("model", ["whitted", "fresnel"])
+def test_at_the_critical_angle_itself_all_light_is_reflected(model: str) -> None:
+    """sin 3/5 against an index of 5/3: the radicand is 0 to the last bit, and there is one ray."""
+    dense = Material("dense", reflect=0.25, transmit=0.75, ior=5 / 3)
+    world = world_of(plane((0, 0, 0), (0, 1, 0), dense), model=model)
+    tree = tracer.trace(world, ray=((0, -1, 0), (3, 4, 0)), depth=1)
+    assert tree.nodes["radicand"][0] == 0.0
+    assert kinds(tree) == ["camera", "tir"]
+    assert tree.nodes["factor"][1].tolist() == [1.0, 1.0, 1.0]
+
+
 def test_parallel_mirrors_are_met_at_equal_steps() -> None:
     """Between x = 0 and x = 1, rising 2^-10 a crossing: y_N = (N - 1/2) / 1024, to the rounding of N bounces."""
     world = world_of(plane((0, 0, 0), (1, 0, 0), MIRROR, "left"), plane((1, 0, 0), (-1, 0, 0), MIRROR, "right"))
@@ -131,6 +142,7 @@ def test_equal_indices_send_one_ray_straight_on(n: float) -> None:
         assert kinds(tree) == ["camera", "refraction"]
         assert (tree.nodes["direction"][1] == tree.nodes["direction"][0]).all()
         assert tree.nodes["factor"][1].tolist() == [0.7, 0.7, 0.7]
+        assert tree.ledger == pytest.approx((0.0, 0.7**2, 0.3 + 0.7 * 0.3), abs=4 * U)
 
 
 def test_concave_mirror_sends_rays_through_the_closed_form_of_its_axis() -> None:

@@ -9,10 +9,15 @@ from hypothesis import strategies as st
 
 import tracer
 from tests.judge import exact_tree, off
-from tests.scenes import MIRROR, ball, box, plane, world_of
+from tests.scenes import MIRROR, ball, box, plane, random_cone, world_of
 from tests.tracer.test_certified import random_world
 from tracer.nodes import SHADOW
-from tracer.scene import Light, Material
+from tracer.rays import Ray, make_ray
+from tracer.scene import Light, Material, Object
+from tracer.shapes import intersect, locate, turning
+from tracer.shapes.mesh import Geometry, Mesh
+from tracer.shapes.sphere import Sphere
+from tracer.vector import vector
 
 U = 2.0**-53
 
@@ -63,6 +68,25 @@ def test_unstable_bounce_knows_when_its_digits_are_gone() -> None:
     assert error[10] == pytest.approx(error[9] * (2 + math.sqrt(3)), rel=0.2, abs=0.0)
 
 
+@pytest.mark.parametrize("gap", [1.0, 8.0])
+def test_errors_of_a_straight_bounce_are_those_of_its_closed_form(gap: float) -> None:
+    """To and fro across a gap L between two mirrors: a ray turned by e meets its k-th wall aside by k L e.
+
+    Squares, in u^2: each ray starts turned by 2, all but the first by 1 more; each hit lies aside by 2 of its way, L
+    and then 2 L, as a wall is L off the origin. Of n steps' errors all may add up: n times the sum of their squares.
+    """
+    world = world_of(plane((0, 0, 0), (1, 0, 0), MIRROR, "left"), plane((gap, 0, 0), (-1, 0, 0), MIRROR, "right"))
+    tree = tracer.trace(world, ray=((0.5 * gap, 0, 0), (1, 0, 0)), depth=50)
+    for k, row in enumerate(tree.nodes):
+        turned = 4.0 * (k + 0.5) ** 2 + 5.0 * sum(float(j) ** 2 for j in range(1, k + 1))
+        placed = 4.0 + 16.0 * k
+        along = 4.0 if k == 0 else 16.0  # only the last of these: the next wall takes it away
+        expected = U * gap * math.sqrt((k + 1) * (2.0 * (turned + placed) + along))
+        assert row["error"] == pytest.approx(expected, rel=1e-12, abs=0.0)
+        turn = U * math.sqrt((k + 1) * 3.0 * (4.0 + 5.0 * k))
+        assert row["turn"] == pytest.approx(turn, rel=1e-12, abs=0.0)
+
+
 def test_a_hollow_mirror_keeps_its_digits() -> None:
     """Round and round in a hollow ball errors grow with the square of the bounces, not by a factor each."""
     shell = world_of(ball((0, 0, 0), 1.0, MIRROR))
@@ -110,3 +134,38 @@ def test_shadow_rays_inherit_what_their_start_is_off() -> None:
     tree = tracer.trace(world, ray=((0.3, 1, 0), (0.1, -1, 0.1)), depth=0)
     assert tree.end(1) == "blocked"
     assert 0.0 < tree.nodes["error"][1] < 16 * tree.nodes["error"][0]
+
+
+def bent_triangle(random: np.random.Generator) -> Mesh:
+    """With a normal at each corner that leans away from its own."""
+    corners, aside = random.normal(size=(2, 3, 3))
+    normals = np.cross(corners[1] - corners[0], corners[2] - corners[0]) + 0.5 * aside
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    return Mesh(Geometry(corners, np.array([[0, 1, 2]]), normals))
+
+
+@pytest.mark.parametrize("kind", ["ball", "cone", "bent"])
+def test_normal_turns_as_its_neighbours_differ(kind: str) -> None:
+    """By half the difference of those a small v before and behind it along the surface, but for the square of v."""
+    random = np.random.default_rng(1)
+    compared = 0
+    for k in range(60):
+        shape = {"ball": Sphere((0.5, 0.2, 0.7), 2.0), "cone": random_cone(random, k), "bent": bent_triangle(random)}
+        world = world_of(Object(shape[kind], MIRROR, "it")).arrays
+        surface = world.surfaces[0]
+        start, way = 5.0 * random.normal(size=(2, 3))
+        ray = ray_along(start, 0.1 * way - start)
+        t = intersect(world, surface, ray, 0.0, math.inf, True)
+        if t < math.inf:
+            p, n, _ = (np.array(v) for v in locate(world, surface, ray, t))
+            v = 1e-5 * np.cross(n, random.normal(size=3))
+            before, behind = (locate(world, surface, ray_along(p + w + n, -n), 1.0)[2] for w in (-v, v))
+            differ = 0.5 * np.subtract(behind, before)
+            found = np.array(turning(world, surface, vector(p.tolist()), vector(v.tolist())))
+            assert np.linalg.norm(found - differ) <= 1e-6 * np.linalg.norm(v)
+            compared += 1
+    assert compared > 5
+
+
+def ray_along(start: np.ndarray, way: np.ndarray) -> Ray:
+    return make_ray(vector(start.tolist()), vector((way / np.linalg.norm(way)).tolist()), -1, 0.0, 9.0)

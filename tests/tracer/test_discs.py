@@ -45,6 +45,15 @@ def test_tilted_disc_from_far_away() -> None:
             assert hits(world, tuple(origin), tuple(target - origin)) == inside, k
 
 
+@pytest.mark.parametrize("place", [0.0, 2.0**30, -(2.0**45)])
+def test_rim_is_as_sharp_wherever_the_disc_stands(place: float) -> None:
+    """3 aside, 4 down: a millionth of a millionth within the radius it is hit, as much outside it is not."""
+    world = world_of(disc((place, place, place), (0, 0, 1), 3, OPEN))
+    for share, hit in ((1.0 - 2.0**-40, True), (1.0 + 2.0**-40, False)):
+        for x, y in ((3, 0), (0, 3), (-1.8, 2.4)):
+            assert hits(world, (place, place, place + 4.0), (share * x, share * y, -4.0)) == hit
+
+
 def test_disc_normal_is_the_side_of_empty_space() -> None:
     glass = Material("glass", transmit=1.0, ior=1.5)
     for normal, indices in (((0, 0, 0.5), (1.0, 1.5)), ((0, 0, -2), (1.5, 1.0))):
@@ -114,7 +123,13 @@ def test_disc_behind_a_wall_of_the_same_plane_does_not_stop_what_leaves_the_wall
 
 @pytest.mark.parametrize(
     ("normal", "reach"),
-    [((0, 0, -7), (5, 5, 0)), ((1e-200, 0, 0), (0, 5, 5)), ((3, 4, 0), (4, 3, 5)), ((0, -8, 6), (5, 3, 4))],
+    [
+        ((0, 0, -7), (5, 5, 0)),
+        ((1e-200, 0, 0), (0, 5, 5)),
+        ((3, 4, 0), (4, 3, 5)),
+        ((0, -8, 6), (5, 3, 4)),
+        ((1e-9, 0, 1), (5, 5, 5e-9)),
+    ],
 )
 def test_bounds_are_tight(normal: tuple, reach: tuple) -> None:
     low, high = Disc((1.0, 2.0, 3.0), normal, 5.0).bounds()[0]

@@ -58,6 +58,14 @@ def test_what_is_missing_is_within_the_residual(limits: dict) -> None:
     assert leaves + cut.residual == pytest.approx(1.0, abs=len(cut) * 2.0**-50)
 
 
+def test_node_limit_is_used_to_the_last_row() -> None:
+    for most in (1, 2, 5):
+        assert (
+            len(tracer.trace(world_of(ball(material=HALF_MIRROR)), ray=((0, 0, 0), (1, 2, 3)), max_nodes=most, depth=9))
+            == most
+        )
+
+
 def test_phong_highlight() -> None:
     """ks (R.V)^p at 45 degrees in and straight up out: cos(45)^2 = 1/2."""
     shiny = Material("shiny", specular=0.5, shininess=2.0)
@@ -75,12 +83,23 @@ def test_thin_sheet_transmits_unbent(model: str) -> None:
     assert kinds(tree) == ["camera", "reflection", "refraction"]
     assert (tree.nodes["direction"][2] == tree.nodes["direction"][0]).all()
     assert tree.nodes["n2"][0] == tree.nodes["n1"][2] == 1.0
+    assert tree.ledger == pytest.approx((1.0, 0.0, 0.0), abs=4 * 2.0**-53)
     if model == "whitted":
         assert tree.nodes["factor"][1:, 0].tolist() == [0.1, 0.9]
     else:
         cos1 = -float(tree.nodes["direction"][0] @ tree.nodes["normal"][0])
         r, t = tracer.optics.fresnel(cos1, 1.0, 1.5)
         assert tree.nodes["factor"][1:, 0] == pytest.approx([0.1 + 0.9 * r, 0.9 * t], rel=1e-14, abs=0.0)
+
+
+@pytest.mark.parametrize("sine", [0.8, 0.95])
+def test_thin_sheet_of_less_index_than_where_it_lies_reflects_all(sine: float) -> None:
+    """Fresnel's law for a sheet of air in glass of 1.5, beyond its critical angle: nothing gets through."""
+    gap = sheet(0.0, Material("gap", reflect=0.25, transmit=0.5, ior=1.0))
+    world = world_of(box((-9, -9, -9), (9, 9, 9), GLASS), gap, model="fresnel")
+    tree = tracer.trace(world, ray=((0, 1, 0), (sine, -math.sqrt(1 - sine * sine), 0)), depth=1)
+    assert kinds(tree) == ["camera", "reflection"]
+    assert tree.nodes["factor"][1].tolist() == [0.75] * 3
 
 
 def test_grazing_ray_lets_through_what_the_formula_says() -> None:

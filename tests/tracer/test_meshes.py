@@ -171,6 +171,17 @@ def test_no_light_comes_through_a_face_that_its_vertex_normals_turn_towards_it()
     assert not tree.radiance.any()
 
 
+def test_vertex_normals_that_point_backwards_are_left_alone() -> None:
+    """The face itself says where its front is: it is lit from there, with its own normal."""
+    corners = np.array([[-3.0, 0, 3], [3, 0, 3], [0, 0, -3]])
+    mesh = Mesh(Geometry(corners, np.array([[0, 1, 2]]), np.tile([0.6, -0.8, 0.0], (3, 1))), "leaf")
+    lamp = Light("lamp", position=(0.0, 5.0, 0.0))
+    world = world_of(Object(mesh, Material("m", diffuse=1.0), "leaf"), lights=[lamp])
+    tree = tracer.trace(world, ray=((0, 4, 0), (0, -1, 0)), depth=0)
+    assert tree.nodes["normal"][0].tolist() == [0.0, 1.0, 0.0]
+    assert tree.radiance.tolist() == [1.0, 1.0, 1.0]
+
+
 def test_a_hundred_thousand_triangles_are_no_trouble() -> None:
     n = 230
     x, y = np.meshgrid(np.linspace(-1, 1, n), np.linspace(-1, 1, n))

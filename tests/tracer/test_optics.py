@@ -42,6 +42,22 @@ def test_critical_angle(n1: float, n2: float, degrees: float) -> None:
     assert optics.critical_angle(n1, n1) is None
 
 
+@pytest.mark.parametrize("k", [10, 30, 50])
+def test_critical_angle_of_nearly_equal_indices(k: int) -> None:
+    """n1 = 1 + 2^-k: its cosine is sqrt((n1 - 1) (n1 + 1)) / n1, of which n1^2 - 1 would keep 53 - k binary digits."""
+    critical = optics.critical_angle(1.0 + 2.0**-k, 1.0)
+    assert critical is not None
+    from_level = math.atan(math.sqrt(2.0**-k * (2.0 + 2.0**-k)))
+    assert critical == pytest.approx(math.pi / 2 - from_level, rel=2 * U, abs=0.0)
+
+
+@pytest.mark.parametrize("size", [1e-300, 1e-200, 1e200, 1e300])
+def test_length_of_a_vector_is_no_matter(size: float) -> None:
+    v, n = (3.0 * size, -4.0 * size, 0.0), (0.0, 5.0 / size, 0.0)
+    assert optics.reflect(v, n) == pytest.approx((0.6, 0.8, 0.0), abs=2 * U)
+    assert optics.refract(v, n, 1.0, 1.5) == pytest.approx((0.4, -math.sqrt(0.84), 0.0), abs=2 * U)
+
+
 def test_refraction_of_3_4_5() -> None:
     """sin 0.8 in air to sin 0.6 in n = 4/3: every number rational."""
     t = optics.refract((0.8, -0.6, 0.0), (0.0, 1.0, 0.0), 1.0, 4 / 3)
@@ -75,6 +91,14 @@ def test_approach_to_the_critical_angle(delta: float, cosine: float, reflectance
     assert -t[1] == pytest.approx(cosine, rel=8 * U / cosine**2, abs=0.0)
     r, _ = optics.fresnel(math.cos(critical - delta), 1.5, 1.0)
     assert abs(r - reflectance) <= 16 * U / cosine
+
+
+@pytest.mark.parametrize("k", [3, 10, 25, 30, 40, 52])
+def test_radicand_keeps_its_digits_next_to_the_critical_angle(k: int) -> None:
+    """s2 = 1 - 2^-k: 1 - s2^2 = 2^(1-k) - 2^(-2k), of which 1 less a rounded square has 53 - k binary digits."""
+    for n in (1.0, 4.0):
+        found = optics.radicand((1.0 - 2.0**-k) / n, n, 1.0)
+        assert found == pytest.approx(2.0 ** (1 - k) * (1.0 - 2.0 ** (-k - 1)), rel=2 * U, abs=0.0)
 
 
 @pytest.mark.parametrize(

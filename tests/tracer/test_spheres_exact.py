@@ -70,6 +70,26 @@ def test_start_just_above_the_surface(k: int) -> None:
         assert ulps(found, exact) <= 1.0
 
 
+def test_start_next_to_the_surface_anywhere() -> None:
+    """A rounding or four outside or inside: on which side it is, and so which root is the first, takes all digits.
+
+    t is (|f|^2 - r^2) / 2 r cos, a difference of which pairs keep 104 binary digits of r^2.
+    """
+    random = np.random.default_rng(5)
+    missed = 0
+    for _ in range(400):
+        center, radius = random.normal(size=3), 10.0 ** random.uniform(-2, 2)
+        n, w = random.normal(size=(2, 3))
+        n, w = n / np.linalg.norm(n), w / np.linalg.norm(w)
+        origin = center + radius * (1.0 + random.uniform(-4, 4) * U) * n
+        found, exact = hit(tuple(origin.tolist()), tuple(w.tolist()), tuple(center.tolist()), radius)
+        missed += exact is None
+        assert (found is None) == (exact is None)
+        if found is not None and exact is not None:
+            assert abs(found - exact) <= math.ulp(float(exact)) + 8 * U**2 * radius / abs(n @ w)
+    assert 50 < missed < 350
+
+
 @pytest.mark.parametrize("radius", [1e3, 1e6, 6.371e6, 1e9, 1e12, 1e15])
 def test_huge_ground_sphere(radius: float) -> None:
     assert ulps(*hit((0.0, 0.0, 1.0), (0.6, 0.0, -0.8), (0.0, 0.0, -radius), radius)) <= 1.0

@@ -1,4 +1,4 @@
-"""Closed meshes without a leak: 10^5 rays at corners and 10^5 at edges of each, from inside."""
+"""Closed meshes without a leak: 10^5 rays at corners and 10^5 at edges of each from inside. And rays that graze one."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ import tracer
 from tests.scenes import world_of
 from tests.tracer.test_shapes import OPEN, uv_sphere
 from tracer.limits import make_limits
-from tracer.scene import Object
+from tracer.scene import Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.tile import CENTER, Area, Workspace, eye_view, run
 from tracer.tree import solids_at, words
@@ -60,6 +60,27 @@ def test_no_ray_at_a_corner_or_an_edge_gets_out(name: str) -> None:
     along[:RAYS] = 0.0
     targets = face[:, 0] + along * (face[:, 1] - face[:, 0])
     assert misses(world, origins, targets) == 0
+
+
+def test_outline_of_glass_is_grazed_and_nothing_gets_into_it() -> None:
+    """A wedge, its top along the axes, its side aslant: rays over the edge that the eye sees as its outline.
+
+    By a chord less than rounding they enter the one face and leave the other. Whichever is found first, they pass.
+    """
+    profile = ((-1.0, 1.0), (1.0, 1.0), (0.3, -1.0), (-1.0, -1.0))
+    vertices = np.array([(x, y, z) for y in (-2.0, 2.0) for x, z in profile]) + 0.1
+    quads = ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))
+    faces = np.array([half for a, b, c, d in quads for half in ((a, b, c), (a, c, d))])
+    mesh = Mesh(Geometry(vertices, faces), "wedge")
+    assert mesh.is_closed()
+    world = world_of(Object(mesh, Material("glass", transmit=1.0, ior=1.0 + 2.0**-20), "wedge"))
+    random = np.random.default_rng(1)
+    for _ in range(300):
+        target = np.array([1.0, random.uniform(-1.9, 1.9), 1.0]) + 0.1
+        away = np.array([-random.uniform(0.5, 5.0), random.normal(), 10.0 ** random.uniform(-6, 0)])
+        away *= random.choice([1.0, 30.0])
+        tree = tracer.trace(world, ray=(tuple(target + away), tuple(-away)), depth=8)
+        assert tree.nodes["n1"][-1] == 1.0
 
 
 def test_the_count_sees_a_hole() -> None:
