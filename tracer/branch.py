@@ -92,7 +92,7 @@ def send(
         parent.end = reason
         parent.cut += heaviest
         return (count, planned)
-    start_branch(limits, space, i, rays, refracted, count)
+    start_branch(world, limits, space, i, rays, refracted, count)
     return (count + 1, planned + room)
 
 
@@ -110,7 +110,7 @@ def cut_at_once(limits: Limits, parent: Any, rays: Split, refracted: bool, heavi
 
 
 @compiled
-def start_branch(limits: Limits, space: Any, i: int, rays: Split, refracted: bool, count: int) -> None:
+def start_branch(world: Any, limits: Limits, space: Any, i: int, rays: Split, refracted: bool, count: int) -> None:
     """Row `count`: one of the rays that row i sends out, as it is before it is traced."""
     table, solids = space.table, space.solids
     parent = table[i]
@@ -121,7 +121,7 @@ def start_branch(limits: Limits, space: Any, i: int, rays: Split, refracted: boo
     row = start_row(limits, table, count, i, kind, parent.depth + 1, factor, multiply(vector(parent.weight), factor))
     store(row.origin, vector(parent.point))
     store(row.direction, rays.through if refracted else mirrored(d, n))
-    row.start = parent.surface
+    row.start = world.surfaces[parent.surface].twin
     row.side = -parent.hit_side if refracted else parent.hit_side
     row.reach = way_length(parent)
     own = 1 if refracted else 0

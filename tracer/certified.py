@@ -75,7 +75,7 @@ def trace_heaviest_first(world: Any, limits: Limits, space: Any) -> int:
         take_out(heap, waiting)
         i = count
         planned += 1 + lights
-        start_branch(limits, space, parent, split(world, limits, table[parent]), refracted, i)
+        start_branch(world, limits, space, parent, split(world, limits, table[parent]), refracted, i)
         count += 1
     for k in range(waiting):
         row = table[heap[k].parent]

@@ -2,7 +2,7 @@
 
 Surfaces are met in the order of (t, number of the surface), and a search starts behind the last one met in that order:
 there is no smallest distance below which hits are thrown away. A ray that starts on a surface meets that surface again
-only where its own geometry says so (`again`), never through rounding.
+only where its own geometry says so (`again`), never through rounding; so with any other in the very same place.
 """
 
 import math
@@ -25,7 +25,7 @@ def distance(
     `above` is the number after `floor`. Not `exactly`: only whether there is one will be asked.
     """
     least = floor if s > floor_id else above
-    if s == ray.start:
+    if world.surfaces[s].twin == ray.start:
         t = again(world, world.surfaces[s], ray)
         return t if t >= least else math.inf
     return intersect(world, world.surfaces[s], ray, least, ceiling, exactly)

@@ -154,7 +154,7 @@ def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> 
             light = world.lights[j]
             to_light, far = towards_light(light, point)
             if shines and dot(n, to_light) > 0.0 and dot(face_n, to_light) > 0.0:
-                ray = make_ray(point, to_light, s, row.hit_side, way_length(row))
+                ray = make_ray(point, to_light, world.surfaces[s].twin, row.hit_side, way_length(row))
                 visible, glass = light_through(world, ray, far, limits.glass_blocks, space)
                 share = (0.0, 0.0, 0.0)
                 if visible > 0.0:

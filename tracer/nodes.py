@@ -41,7 +41,7 @@ NODE = np.dtype(
         ("error", np.float64),  # how far rounding may have moved `point`, estimated to first order; a length
         ("turn", np.float64),  # and how far it may have turned `direction`; radians
         # From here on for the kernel alone:
-        ("start", np.int32),  # the surface the ray leaves
+        ("start", np.int32),  # the surface the ray leaves, of twins the first
         ("reach", np.float64),  # scale of the rounding errors in its origin
         ("surface", np.int32),  # the surface it hits
         ("side", np.float64),  # of its start's normal, on which it leaves: +1, -1

@@ -18,7 +18,7 @@ class Ray(NamedTuple):
     axis: int  # the direction's largest component
     shear: tuple[float, float]  # the two others over the largest
     reach: float  # the scale of the origin's rounding errors: |x| + |y| + |z| of what it was computed from
-    start: int  # the surface it leaves, -1 for a ray from the eye
+    start: int  # the surface it leaves (its `twin`), -1 for a ray from the eye
     side: float  # +1.0: it leaves to the side its start's normal points to, -1.0: to the other
 
 

@@ -81,7 +81,8 @@ def record_unlit(
     s, nothing = row.surface, (0.0, 0.0, 0.0)
     faces_it = dot(vector(row.face), to_light) > 0.0
     own = 1.0 if faces_it else transmit(world, s)
-    ray = make_ray(vector(row.point), to_light, s, row.hit_side if faces_it else -row.hit_side, way_length(row))
+    side = row.hit_side if faces_it else -row.hit_side
+    ray = make_ray(vector(row.point), to_light, world.surfaces[s].twin, side, way_length(row))
     if own == 0.0 or (limits.glass_blocks and not faces_it):
         write_shadow(world, limits, space.table, i, parent, light, ray, 0.0, s, BLOCKED, 0.0, nothing)
         return

@@ -12,7 +12,7 @@ from tracer.bundle import Bundle
 from tracer.bvh import build
 from tracer.camera import View, scene_view
 from tracer.plan import Need, hidden_solids, needs
-from tracer.scene import Material, Object, Scene, SceneError
+from tracer.scene import Material, Object, Scene, SceneError, Shape
 from tracer.shapes import CODES
 from tracer.shapes.cone import Cone
 from tracer.shapes.disc import Disc
@@ -20,6 +20,7 @@ from tracer.shapes.mesh import Mesh
 from tracer.shapes.planar import NEAR
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
+from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
 from tracer.vector import Vector, cross, tame, unit
 
@@ -35,6 +36,7 @@ SURFACE = np.dtype(
         ("count", np.int32),  # corners of a flat face, 1 for a sphere, 0 for what has none
         ("form", np.int32),  # which shape, as CODES numbers them
         ("object", np.int32),
+        ("twin", np.int32),  # the first surface that is curved the very same way in the same place: for most, itself
         ("smooth", np.int32),  # row of `smooth`, -1 for none
     ],
     align=True,
@@ -176,12 +178,17 @@ def _ranked(scene: Scene) -> list[int]:
 def _surfaces(scene: Scene) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[np.ndarray | None]]:
     blocks, corners, smooth = [], [np.zeros((0, 3))], [np.zeros((0, 3, 3))]
     bounds: list[np.ndarray | None] = []
-    corner_count = smooth_count = 0
+    corner_count = smooth_count = count = 0
+    first_such: dict[Shape, int] = {}
     for k, item in enumerate(scene.objects):
         shape = item.shape
         boxes = shape.bounds()
         rows = np.zeros(1 if boxes is None else len(boxes), SURFACE)
         rows["object"], rows["first"], rows["smooth"] = k, -1, -1
+        rows["twin"] = count + np.arange(len(rows))
+        if isinstance(shape, Sphere | Cone):  # flat faces find each other by their planes
+            rows["twin"] = first_such.setdefault(shape, count)
+        count += len(rows)
         rows["form"] = CODES["triangle" if isinstance(shape, Mesh) else _name(shape)]
         shape.pack(rows)
         if isinstance(shape, Polygon):

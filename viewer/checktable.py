@@ -15,7 +15,7 @@ from tracer.measure.check import CASES, TOPICS, run_all, to_dict
 from tracer.outline import columns
 from viewer.files import Unusable
 
-LONGEST = 18  # characters of a word in the table
+LONGEST = 20  # characters of a word in the table
 NONE = "–"  # where the textbook has nothing to compare with
 WIDTH = 100  # of running text
 HEADINGS = ("setting", "exact answer", "the textbook's", "error", "ours", "error", "")
@@ -123,7 +123,7 @@ def counted(reading: Reading) -> str:
 def shown(value: Any) -> str:
     """A number with ten digits, a word as it is."""
     if isinstance(value, str):
-        return value if len(value) <= LONGEST else value[: LONGEST - 1] + "…"
+        return value if len(value) <= LONGEST else value[: LONGEST - 1].rpartition(" ")[0] + " …"
     if value == float("inf"):
         return "no hit"
     if isinstance(value, int):

@@ -1,13 +1,17 @@
 """Edges and corners: rays that pass exactly through them, and rays that start there."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import DARK, MIRROR, OPEN, ball, box, ends, plane, polygon, world_of
+from tests.scenes import DARK, MIRROR, OPEN, ball, box, cone, ends, plane, polygon, world_of
 from tests.tracer.test_shapes import LETTER_U, hits
-from tracer.scene import Object
+from tracer.scene import Material, Object
 from tracer.shapes.polygon import Polygon
+
+GLASS, WATER = Material("glass", transmit=0.9, reflect=0.1, ior=1.5), Material("water", transmit=1.0, ior=1.33)
 
 DIAMOND = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0))
 
@@ -96,3 +100,23 @@ def test_reflected_by_a_ball_where_a_plane_cuts_it(height: float) -> None:
         met, missed = met + (t > 0.0), missed + (t <= 0.0)
         assert (row["t"] == t) if t > 0.0 else tree.end(1) == "background"
     assert met > 20 and missed > 20
+
+
+@pytest.mark.parametrize("model", ["whitted", "fresnel"])
+@pytest.mark.parametrize("shape", ["ball", "cone", "cylinder"])
+def test_what_stands_in_one_place_twice_is_there_once(shape: str, model: str) -> None:
+    """Of equal surfaces one cannot be left and the other missed: the trees are the same to the bit, from any side."""
+    item = {
+        "ball": ball((0.3, 0.1, 0.2), 1.1, GLASS),
+        "cone": cone((0.1, -1, 0.2), 1.2, (0.3, 1.1, 0.1), 0.4, GLASS),
+        "cylinder": cone((0.1, -1, 0.2), 0.9, (0.3, 1.1, 0.1), 0.9, GLASS),
+    }[shape]
+    again, water = replace(item, name="again"), replace(item, material=WATER, name="water", priority=-1)
+    worlds = [world_of(*some, background=(1, 1, 1), model=model) for some in ([item], [item, again], [item, water])]
+    random = np.random.default_rng(8)
+    for k in range(300):
+        eye = random.normal(size=3)
+        eye *= (0.2 if k % 4 == 0 and shape == "ball" else 5.0) / np.linalg.norm(eye)
+        ray = (eye.tolist(), (random.uniform(-0.8, 0.8, 3) - eye).tolist())
+        single, *doubles = (tracer.trace(world, ray=ray, depth=5).nodes.tobytes() for world in worlds)
+        assert doubles == [single, single]

@@ -70,8 +70,8 @@ def pole() -> Iterator[Reading]:
 
 
 def text(a: Sequence[float]) -> str:
-    """A vector in words, all its digits; -0 is 0."""
-    return " ".join(f"{x + 0.0:.17g}" for x in a)
+    """A vector in words; eleven digits, or all where so few would hide that a number is not whole."""
+    return " ".join(f"{x + 0.0:.17g}" if float(f"{x:.11g}").is_integer() else f"{x:.11g}" for x in a)
 
 
 def two_questions() -> Iterator[Reading]:
