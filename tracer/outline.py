@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tracer.nodes import SHADOW
+from tracer.nodes import NODES, SHADOW
 
 if TYPE_CHECKING:
     from tracer.tree import RayTree
@@ -84,8 +84,10 @@ def missing(tree: RayTree) -> str:
     if tree.residual == 0.0:
         return "no ray was cut"
     carry = f"rays that were cut carry {number(tree.residual)} of the weight"
-    if tree.tolerance is not None and tree.residual > tree.tolerance:
-        carry = f"stopped before the tolerance was reached: {carry}"
+    if (tree.nodes["end"] == NODES).any():
+        carry = f"stopped at the limit of rays: {carry}"
+    elif tree.tolerance is not None and tree.residual > tree.tolerance:
+        carry = f"stopped by depth or weight, before the tolerance was reached: {carry}"
     if math.isinf(tree.bound):
         return f"{carry}, and nothing bounds the light they miss"
     return f"{carry}: at most {number(tree.bound)} of light is missing"

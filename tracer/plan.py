@@ -9,10 +9,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tracer.shapes.cone import Cone
+from tracer.shapes.disc import Disc
 from tracer.shapes.mesh import Mesh
+from tracer.shapes.polygon import Polygon
+from tracer.shapes.triangle import Triangle
 
 if TYPE_CHECKING:
-    from tracer.scene import Object, Scene
+    from tracer.scene import Object, Scene, Shape
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +77,20 @@ def hidden_solids(ranked: list[Object]) -> list[str]:
                 notes.append(f'"{_name(inner)}" lies inside "{_name(outer)}" and never shows: raise its priority')
                 break
     return notes
+
+
+def open_solids(solids: list[Object]) -> list[str]:
+    """Where a medium begins at a surface that has no inside, a line each: light that enters there may never leave."""
+    return [
+        f'"{_name(item)}" is open: light that enters through it stays in its medium; make it thin, or a closed mesh'
+        for item in solids
+        if is_open(item.shape)
+    ]
+
+
+def is_open(shape: Shape) -> bool:
+    """Whether a shape has no inside."""
+    return not shape.is_closed() if isinstance(shape, Mesh) else isinstance(shape, Polygon | Triangle | Cone | Disc)
 
 
 def _name(item: Object) -> str:

@@ -11,7 +11,7 @@ import numpy as np
 from tracer.bundle import Bundle
 from tracer.bvh import build
 from tracer.camera import View, scene_view
-from tracer.plan import Need, hidden_solids, needs
+from tracer.plan import Need, hidden_solids, is_open, needs, open_solids
 from tracer.scene import Material, Object, Scene, SceneError, Shape
 from tracer.shapes import CODES
 from tracer.shapes.cone import Cone
@@ -21,7 +21,6 @@ from tracer.shapes.planar import NEAR
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
-from tracer.shapes.triangle import Triangle
 from tracer.vector import Vector, cross, tame, unit
 
 SURFACE = np.dtype(
@@ -81,9 +80,6 @@ LIGHT = np.dtype(
 )
 
 
-OPEN = (Polygon, Triangle, Cone, Disc)  # shapes that have no inside
-
-
 class Arrays(NamedTuple):
     """The world as kernels see it. Every scene has the same types, so none has to wait for a compiler."""
 
@@ -117,7 +113,8 @@ class World:
     @property
     def notes(self) -> list[str]:
         """What an author will hardly have meant, though it is no fault."""
-        return hidden_solids([self.scene.objects[k] for k in self.solids])
+        solids = [self.scene.objects[k] for k in self.solids]
+        return hidden_solids(solids) + open_solids(solids)
 
     def __repr__(self) -> str:
         scene = self.scene
@@ -216,10 +213,9 @@ def _name(shape: Any) -> str:
 
 def _object(item: Object, material: int, rank: int) -> tuple[Any, ...]:
     shape = item.shape
-    closed = shape.is_closed() if isinstance(shape, Mesh) else not isinstance(shape, OPEN)
     normal = _flat_normal(shape)
     u, v = _axes(normal) if normal else ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    return (material, rank, closed, normal is not None, u, v)
+    return (material, rank, not is_open(shape), normal is not None, u, v)
 
 
 def _flat_normal(shape: Any) -> Vector | None:

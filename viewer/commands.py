@@ -80,6 +80,8 @@ def render(options: Namespace) -> int:
                 progress=progress,
             )
     write_picture(options.output, image.pixels)
+    if options.tolerance is not None:
+        print(f"a pixel's rays that were cut carry at most {image.residual['max']:.3g} of the weight: {bounded(image)}")
     image.seconds["compile"] += compiling
     if options.stats:
         stats = {
@@ -96,6 +98,12 @@ def render(options: Namespace) -> int:
         }
         write_atomically(options.stats, (json.dumps(stats, indent=1) + "\n").encode("utf-8"))
     return 0
+
+
+def bounded(image: tracer.Image) -> str:
+    if not math.isfinite(image.bound):
+        return "nothing bounds the light they miss"
+    return f"at most {image.bound:.3g} of light is missing"
 
 
 def plan(options: Namespace) -> int:

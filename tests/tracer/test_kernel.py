@@ -1,12 +1,13 @@
 """The rules of DESIGN's "what the numbers mean": limits, cuts, thin sheets, media, Fresnel's shares."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import GLASS, MATTE, MIRROR, ball, box, ends, kinds, plane, sheet, world_of
+from tests.scenes import GLASS, MATTE, MIRROR, ball, box, cone, disc, ends, kinds, plane, sheet, world_of
 from tracer.nodes import SHADOW
 from tracer.scene import Checker, Light, Material
 
@@ -263,3 +264,14 @@ def test_solid_that_another_hides_is_named() -> None:
         assert ("water ball" in {tree.object_name(i) for i in range(len(tree))}) == (not said)
     apart = world_of(outer, ball((0, 0, 0.6), 0.5, water, "water ball"))
     assert apart.notes == []
+
+
+def test_open_surface_of_glass_is_named() -> None:
+    """Light that enters a cylinder of a cone and two discs through one of them is in glass for good."""
+    glass = Material("glass", transmit=1.0, ior=1.5)
+    side = cone((0, 0, 0), 1.0, (0, 1, 0), 1.0, glass, "side")
+    lids = disc((0, 1, 0), (0, 1, 0), 1.0, glass, "top"), disc((0, 0, 0), (0, -1, 0), 1.0, glass, "bottom")
+    world = world_of(side, *lids)
+    assert [note.split('"')[1] for note in world.notes] == ["side", "top", "bottom"]
+    assert tracer.trace(world, ray=((0.1, 3, 0), (0.2, -1, 0)), depth=3).nodes["n1"][-1] == 1.5
+    assert world_of(replace(side, thin=True), ball(material=glass), box((3, 3, 3), (4, 4, 4), glass)).notes == []
