@@ -68,6 +68,24 @@ def test_unstable_bounce_knows_when_its_digits_are_gone() -> None:
     assert error[10] == pytest.approx(error[9] * (2 + math.sqrt(3)), rel=0.2, abs=0.0)
 
 
+@pytest.mark.parametrize("slope", [1.0, 1e-3, 1e-9])
+def test_error_of_a_first_hit_is_that_of_its_closed_form(slope: float) -> None:
+    """On a floor under the angle of cosine c, way t, a lamp above it at L; all squares in u^2.
+
+    A turn of 2 moves the hit by 2 t, slid along the ray into the floor by 1/c; the hit lies 2 of its way aside, over c.
+    Towards the lamp it turns by what is moved across, over L; and by 2 of its own.
+    """
+    floor = plane((0, 0, 0), (0, 1, 0), Material("floor", diffuse=1.0))
+    world = world_of(floor, lights=[Light("lamp", position=(0.0, 4.0, 0.0))])
+    tree = tracer.trace(world, ray=((-1, slope, 0), (1, -slope, 0)), depth=0)
+    t, c = math.hypot(1.0, slope), slope / math.hypot(1.0, slope)
+    way = 1.0 + slope + t
+    moved = 4.0 * t * t * (1.0 + c**-2) + 12.0 * (way / c) ** 2
+    assert tree.nodes["error"][0] == pytest.approx(U * math.sqrt(moved), rel=1e-9, abs=0.0)
+    across = moved - 4.0 * (way / c) ** 2
+    assert tree.nodes["turn"][1] == pytest.approx(U * math.sqrt(across / 16.0 + 12.0), rel=1e-9, abs=0.0)
+
+
 @pytest.mark.parametrize("gap", [1.0, 8.0])
 def test_errors_of_a_straight_bounce_are_those_of_its_closed_form(gap: float) -> None:
     """To and fro across a gap L between two mirrors: a ray turned by e meets its k-th wall aside by k L e.

@@ -173,6 +173,16 @@ def test_the_same_glass_twice_is_met_once() -> None:
     assert [double.object_name(i) for i in range(2)] == ["one", "one"]
 
 
+def test_what_was_entered_unseen_is_still_around_after_a_reflection() -> None:
+    """Into glass at z = 0, into water within it at z = 1, unseen; back from z = 2, and out of the glass at its side."""
+    glass = box((-1, -9, 0), (1, 9, 2), Material("glass", reflect=0.5, transmit=0.5, ior=1.5), "glass", priority=1)
+    water = box((-5, -9, 1), (5, 9, 5), Material("water", transmit=1.0, ior=1.33), "water")
+    tree = tracer.trace(world_of(glass, water), ray=((-1.3, 0, -1), (1, 0, 1)), depth=2)
+    (back,) = (row for k, row in enumerate(tree.nodes) if tree.kind(k) == "reflection" and row["depth"] == 2)
+    assert back["point"][0] == 1.0 and 1.0 < back["point"][2] < 2.0
+    assert (back["n1"], back["n2"]) == (1.5, 1.33)
+
+
 def test_opaque_thing_in_glass_is_seen_through_it() -> None:
     core = ball((0, 0, 0), 0.5, MATTE, "core")
     tree = tracer.trace(world_of(ball(material=GLASS, name="glass"), core), ray=((0, 0, 5), (0, 0, -1)), depth=3)

@@ -7,11 +7,14 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import MATTE, world_of
+from tests.scenes import MATTE, random_cone, world_of
+from tracer.rays import make_ray
 from tracer.scene import Object, Shape
+from tracer.shapes import intersect
 from tracer.shapes.disc import Disc
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
+from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
 from tracer.vector import vector
 
@@ -63,3 +66,34 @@ def test_distance_to_a_face_is_right_to_the_last_digit(kind: str, size: float) -
         assert abs(found - t) <= math.ulp(row["t"])
         near = min(np.abs(a.astype(float)).sum(), 4.0 * (np.abs(origin).sum() + row["t"]))
         assert abs(n @ (p - a)) <= 4 * U * math.sqrt(n @ n) * (np.abs(row["point"]).sum() + near)
+
+
+@pytest.mark.parametrize("kind", ["plane", "polygon", "triangle", "disc", "ball", "cone"])
+def test_asked_whether_it_is_met_a_shape_says_what_it_says_when_asked_where(kind: str) -> None:
+    """A light may be as near as the surface but for a rounding, and the ray may pass at the rim."""
+    random = np.random.default_rng(5)
+    met = 0
+    for k in range(150):
+        if kind == "cone":
+            shape: Shape = random_cone(random, k)
+        elif kind == "ball":
+            shape = Sphere(vector(random.normal(size=3).tolist()), 1.5)
+        else:
+            shape = face(kind, random, 1.5)[0]
+        if isinstance(shape, Disc):
+            shape = Disc(shape.center, shape.normal, 1.5)
+        world = world_of(Object(shape, MATTE)).arrays
+        origin = 4.0 * random.normal(size=3)
+        way = random.normal(size=3) - origin
+        if isinstance(shape, Disc | Sphere) and k % 2:
+            rim = np.cross(random.normal(size=3), shape.normal if isinstance(shape, Disc) else shape.center - origin)
+            way = shape.center + 1.5 * rim / np.linalg.norm(rim) - origin
+        ray = make_ray(
+            vector(origin.tolist()), vector((way / np.linalg.norm(way)).tolist()), -1, 0.0, np.abs(origin).sum()
+        )
+        t = intersect(world, world.surfaces[0], ray, 0.0, math.inf, True)
+        for end in [math.inf, *(t * (1.0 + j * U) for j in range(-6, 7))]:
+            whether = intersect(world, world.surfaces[0], ray, 0.0, end, False) < end
+            assert whether == (t < end)
+        met += t < math.inf
+    assert met > 5

@@ -202,6 +202,18 @@ def test_nothing_behind_the_light_shades() -> None:
     assert ends(tree) == ["surface", "lit"]
 
 
+@pytest.mark.parametrize("panes", [0, MOST_CROSSINGS + 1])
+def test_nor_does_what_the_light_lies_in(panes: int) -> None:
+    """A pane at its very height is not on the way to it, whether what is on the way is gathered or gone through."""
+    clear, dim = Material("clear", transmit=1.0), Material("dim", transmit=0.5)
+    below = [Object(Polygon(square(1.0 + 0.1 * k)), clear, f"pane {k}", thin=True) for k in range(panes)]
+    lamp = Light("lamp", position=(0.0, 5.0, 0.0))
+    pane = Object(Polygon(square(5.0)), dim, "dim", thin=True)
+    world = world_of(plane((0, 0, 0), (0, 1, 0)), *below, pane, lights=[lamp])
+    tree = tracer.trace(world, ray=((0, 0.5, 0), (0, -1, 0)), depth=0)
+    assert tree.nodes["factor"][1].tolist() == [1.0] * 3
+
+
 @pytest.mark.parametrize("height", [1e-300, 1e-170, 1e-160, 1e-154, 1e-140, 1.0, 1e140, 1e149])
 def test_light_at_any_distance_shines_as_bright(height: float) -> None:
     """Its squares may be out of range: the direction is a unit vector all the same."""

@@ -143,7 +143,9 @@ def test_corner_of_a_room_keeps_rays_in(pieces: int, first: int) -> None:
         world = world_of(*objects, background=(1, 1, 1))
         for k in range(300):
             target = np.array([0.0, 0.0, 0.0])
-            target[k % 3] = 0.0 if k % 2 else 3.0 * random.random()  # the corner itself, or a point of an edge
+            target[k % 3] = (
+                0.0 if k % 2 else 10.0 ** random.uniform(-1, 5)
+            )  # the corner itself, or any point of an edge
             origin = random.uniform(1, 4, 3)
             d = target - origin
             tree = tracer.trace(world, ray=(tuple(turn @ origin), tuple(turn @ d)), depth=10)
@@ -257,6 +259,9 @@ def test_ray_that_leaves_a_ball_outwards_does_not_meet_it_again(inward: float) -
     assert sphere.again(world, surface, out) == math.inf
     within = make_ray((1.0, 0.0, 0.0), (-inward, 1.0, -0.5 * inward), 0, -1.0, 1.0)
     assert sphere.again(world, surface, within) == 2.0 * inward
+    # And one that goes in does leave, at once if its direction is turned outward.
+    turned = make_ray((1.0, 0.0, 0.0), (inward, 1.0, 0.5 * inward), 0, -1.0, 1.0)
+    assert sphere.again(world, surface, turned) == 5e-324
 
 
 def test_box_on_a_plane_meets_a_ray_where_the_plane_does() -> None:
