@@ -100,7 +100,7 @@ def make_parser() -> Parser:
     return parser
 
 
-SCENE_HELP = "a .toml, .obj, .ply, .stl or .glb file, or a lesson's name"
+SCENE_HELP = "a .toml, .nff, .obj, .ply, .stl or .glb file, or a lesson's name"
 
 
 def _add_depth(parser: argparse.ArgumentParser) -> None:

@@ -4,11 +4,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tracer.formats.meshes import SUFFIXES, read_mesh_scene
+from tracer.formats.nff import SUFFIX, read_nff
 from tracer.formats.toml import read_scene
 from tracer.scene import Scene, SceneError
 
 READERS: dict[str, Callable[[Path], Scene]] = {
     ".toml": read_scene,
+    SUFFIX: read_nff,
     **dict.fromkeys(SUFFIXES, read_mesh_scene),
 }
 
