@@ -14,6 +14,7 @@ from tracer.scene import middle_and_radius
 from tracer.vector import tame, unit
 from tracer.world import World
 
+ENDLESS = 3.0  # times the camera's way to what it looks at: what has such a radius is part of the surroundings
 FOV = math.radians(35)
 CLOSEST, FARTHEST = 0.02, 60.0  # distance to the target
 STEEPEST = math.radians(89)
@@ -34,12 +35,25 @@ class Frame:
         view = world.view()
         if not len(world.bounds):
             return Frame(np.add(view.eye, view.forward), 1.0)
-        middle, radius = middle_and_radius(world.bounds)
+        middle, radius = middle_and_radius(_in_proportion(world))
         return Frame(middle, radius if radius > 0.0 else 1.0)
 
     def inside(self, points: np.ndarray | tuple) -> np.ndarray:
         """World points (..., 3) in this frame."""
         return (np.asarray(points, float) - self.middle) / self.radius
+
+
+def _in_proportion(world: World) -> np.ndarray:
+    """The boxes (n, 2, 3) of what a scene is about: not those far larger than the camera's way to what it looks at.
+
+    A floor without an end in sight, or the Earth, would leave nothing else to be seen.
+    """
+    camera, boxes = world.scene.camera, world.bounds
+    if camera.position is None or camera.look_at is None:
+        return boxes
+    sizes = 0.5 * np.linalg.norm(boxes[:, 1] - boxes[:, 0], axis=1)
+    fitting = sizes <= ENDLESS * math.dist(camera.position, camera.look_at)
+    return boxes[fitting] if fitting.any() else boxes
 
 
 @dataclass
