@@ -14,7 +14,7 @@ from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
-from tracer.vector import VectorLike
+from tracer.vector import VectorLike, as_floats
 
 Shape = Sphere | Plane | Polygon | Triangle | Box | Cone | Disc
 
@@ -38,13 +38,13 @@ def ball(
 
 
 def plane(point: Sequence[float], normal: Sequence[float], material: Material = MATTE, name: str = "plane") -> Object:
-    return Object(Plane(_three(point), _three(normal)), material, name)
+    return Object(Plane(as_floats(point), as_floats(normal)), material, name)
 
 
 def box(
     low: Sequence[float], high: Sequence[float], material: Material = MATTE, name: str = "box", **more: object
 ) -> Object:
-    return Object(Box(_three(low), _three(high)), material, name, **more)  # type: ignore[arg-type]
+    return Object(Box(as_floats(low), as_floats(high)), material, name, **more)  # type: ignore[arg-type]
 
 
 def cone(
@@ -55,7 +55,7 @@ def cone(
     material: Material = MATTE,
     name: str = "cone",
 ) -> Object:
-    return Object(Cone(_three(base), float(base_radius), _three(apex), float(apex_radius)), material, name)
+    return Object(Cone(as_floats(base), float(base_radius), as_floats(apex), float(apex_radius)), material, name)
 
 
 def random_cone(random: np.random.Generator, k: int) -> Cone:
@@ -70,7 +70,7 @@ def random_cone(random: np.random.Generator, k: int) -> Cone:
 def disc(
     center: VectorLike, normal: VectorLike, radius: float, material: Material = MATTE, name: str = "disc"
 ) -> Object:
-    return Object(Disc(_three(center), _three(normal), float(radius)), material, name)
+    return Object(Disc(as_floats(center), as_floats(normal), float(radius)), material, name)
 
 
 def world_of(*objects: Object, lights: Sequence[Light] = (), **options: object) -> tracer.World:
@@ -97,12 +97,7 @@ def ends(tree: tracer.RayTree) -> list[str | None]:
 
 
 def polygon(corners: Iterable[Iterable[float]], material: Material = MATTE, name: str = "face") -> Object:
-    return Object(Polygon(tuple(_three(list(corner)) for corner in corners)), material, name)
-
-
-def _three(values: VectorLike) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in values)
-    return (x, y, z)
+    return Object(Polygon(tuple(as_floats(list(corner)) for corner in corners)), material, name)
 
 
 def sheet(height: float, material: Material) -> Object:

@@ -88,9 +88,14 @@ def missing(tree: RayTree) -> str:
         carry = f"stopped at the limit of rays: {carry}"
     elif tree.tolerance is not None and tree.residual > tree.tolerance:
         carry = f"stopped by depth or weight, before the tolerance was reached: {carry}"
-    if math.isinf(tree.bound):
-        return f"{carry}, and nothing bounds the light they miss"
-    return f"{carry}: at most {number(tree.bound)} of light is missing"
+    return f"{carry}{light_missing(tree.bound)}"
+
+
+def light_missing(bound: float) -> str:
+    """The end of a sentence about rays that were cut."""
+    if math.isinf(bound):
+        return ", and nothing bounds the light they miss"
+    return f": at most {number(bound)} of light is missing"
 
 
 DEEPEST = 60  # levels that are indented: a tree of a million would be no wider than long

@@ -79,12 +79,11 @@ def hidden_solids(ranked: list[Object]) -> list[str]:
     return notes
 
 
-def open_solids(solids: list[Object]) -> list[str]:
-    """Where a medium begins at a surface that has no inside, a line each: light that enters there may never leave."""
+def open_notes(opened: list[Object]) -> list[str]:
+    """Of media that begin at a surface without an inside, a line each: light that enters there may never leave."""
     return [
         f'"{_name(item)}" is open: light that enters through it stays in its medium; make it thin, or a closed mesh'
-        for item in solids
-        if is_open(item.shape)
+        for item in opened
     ]
 
 

@@ -21,7 +21,7 @@ from tracer.digits import errors_of
 from tracer.limits import MAX_NODES, MODELS, make_limits
 from tracer.media import WORD
 from tracer.nodes import BLOCKED, ENDS, KINDS, PUBLIC, SHADOW, SURFACE
-from tracer.outline import outline
+from tracer.outline import digits_left, outline
 from tracer.scene import Scene
 from tracer.tile import CENTER, Area, Samples, Workspace, eye_view, run
 from tracer.vector import Vector, tame, unit
@@ -99,7 +99,7 @@ class RayTree:
         size = max(row["t"], np.abs(row["point"]).max())
         if not size > row["error"]:
             return 0
-        return min(15, int(math.log10(size / row["error"])))
+        return min(15, digits_left(size, row["error"]))
 
     def light_name(self, i: int) -> str | None:
         j = self.nodes["light"][i]

@@ -23,6 +23,11 @@ def vector(row: Any) -> Vector:
     return (row[0], row[1], row[2])
 
 
+def as_floats(a: VectorLike) -> Vector:
+    """Three numbers of any kind as Python's own."""
+    return (float(a[0]), float(a[1]), float(a[2]))
+
+
 @compiled
 def store(row: Any, a: Vector) -> None:
     """Write a vector into a row of an array."""

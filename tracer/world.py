@@ -11,7 +11,7 @@ import numpy as np
 from tracer.bundle import Bundle
 from tracer.bvh import build
 from tracer.camera import View, scene_view
-from tracer.plan import Need, hidden_solids, is_open, needs, open_solids
+from tracer.plan import Need, hidden_solids, is_open, needs, open_notes
 from tracer.scene import Material, Object, Scene, SceneError, Shape
 from tracer.shapes import CODES
 from tracer.shapes.cone import Cone
@@ -113,8 +113,9 @@ class World:
     @property
     def notes(self) -> list[str]:
         """What an author will hardly have meant, though it is no fault."""
-        solids = [self.scene.objects[k] for k in self.solids]
-        return hidden_solids(solids) + open_solids(solids)
+        objects, closed = self.scene.objects, self.arrays.objects["closed"]
+        solids = [objects[k] for k in self.solids]
+        return hidden_solids(solids) + open_notes([objects[k] for k in self.solids if not closed[k]])
 
     def __repr__(self) -> str:
         scene = self.scene

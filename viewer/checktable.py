@@ -2,7 +2,6 @@
 
 import difflib
 import json
-import sys
 import textwrap
 import time
 from collections.abc import Callable, Sequence
@@ -45,19 +44,16 @@ def chosen(names: Sequence[str]) -> list[Case]:
     return found
 
 
-def check(cases: Sequence[Case], explain: bool, as_json: bool, put: Callable[[str], None]) -> int:
+def check(
+    cases: Sequence[Case],
+    explain: bool,
+    as_json: bool,
+    put: Callable[[str], None],
+    run: Callable[[Sequence[Case]], list[Result]] = run_all,
+) -> int:
     """Run the cases and print them; 1 where one falls short."""
     began = time.perf_counter()
-    watched = sys.stderr.isatty() and not as_json
-
-    def tell(result: Result) -> None:
-        if watched:
-            sys.stderr.write(f"\r\x1b[K{result.case.id} ...")
-            sys.stderr.flush()
-
-    results = run_all(cases, tell)
-    if watched:
-        sys.stderr.write("\r\x1b[K")
+    results = run(cases)
     if as_json:
         put(json.dumps(to_dict(results), indent=1, allow_nan=False, ensure_ascii=False) + "\n")
     elif explain:

@@ -6,12 +6,13 @@ import math
 import sys
 import time
 from argparse import Namespace
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import tracer
 from tracer.formats import READERS
 from tracer.jit import is_cached
+from tracer.outline import light_missing, number
 from tracer.render import fill_cache
 from tracer.tile import trace_area
 from viewer import lesson
@@ -81,7 +82,8 @@ def render(options: Namespace) -> int:
             )
     write_picture(options.output, image.pixels)
     if options.tolerance is not None:
-        print(f"a pixel's rays that were cut carry at most {image.residual['max']:.3g} of the weight: {bounded(image)}")
+        most = number(image.residual["max"])
+        print(f"a pixel's rays that were cut carry at most {most} of the weight{light_missing(image.bound)}")
     image.seconds["compile"] += compiling
     if options.stats:
         stats = {
@@ -100,12 +102,6 @@ def render(options: Namespace) -> int:
     return 0
 
 
-def bounded(image: tracer.Image) -> str:
-    if not math.isfinite(image.bound):
-        return "nothing bounds the light they miss"
-    return f"at most {image.bound:.3g} of light is missing"
-
-
 def plan(options: Namespace) -> int:
     path, _ = find(options.scene)
     with faults():
@@ -118,11 +114,18 @@ def plan(options: Namespace) -> int:
 
 
 def check(options: Namespace) -> int:
+    from tracer.measure.case import Case, Result
+    from tracer.measure.check import run_all
     from viewer import checktable
 
     cases = checktable.chosen(options.cases)
     compile_once()
-    return checktable.check(cases, options.explain, options.json, put)
+
+    def watched(cases: Sequence[Case]) -> list[Result]:
+        with Progress("checking") as progress:
+            return run_all(cases, progress)
+
+    return checktable.check(cases, options.explain, options.json, put, watched)
 
 
 def view(options: Namespace) -> int:

@@ -173,6 +173,7 @@ def test_every_fault_is_said_with_its_line(tmp_path: Path) -> None:
         (VIEW.replace("40 30", "40.5 30"), "scene.nff: line 1: resolution must be two whole numbers, got 40.5 30"),
         (VIEW.replace("at 0 0.5 0", "at 1 2 8"), "scene.nff: line 1: v: look_at must differ from position, "
          "got [1, 2, 8] for both"),
+        ("l 0 0 9 -1 0 0\n", "scene.nff: line 1: light: color must be three numbers [r, g, b] >= 0, got [-1, 0, 0]"),
         ("f 1 1 1 1 0 0 0 0\np 4 0 0 0 1 0 0 1 1 1 0 1 0\n", "scene.nff: line 2: polygon: vertices must lie in one "
          "plane (to 1e-05 of the polygon's size), got vertices[0] off it by 0.2 of that size"),
     ],

@@ -3,7 +3,6 @@
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import tracer
@@ -286,19 +285,3 @@ def test_extreme_but_allowed_numbers_stay_numbers() -> None:
         world = world_of(ball((0, 0, 0), scale))
         tree = tracer.trace(world, ray=((0, 0, 5 * scale), (0, 0, -1)), depth=1)
         assert tree.nodes["t"][0] == pytest.approx(4 * scale, rel=1e-15, abs=0.0)
-
-
-@pytest.mark.parametrize(
-    ("center", "radius", "camera"),
-    [
-        ((1e9, 0.0, 0.0), 1e-12, Camera()),  # no double is so near to it
-        ((0.0, 0.0, 0.0), 1.0, Camera(position=(0.0, 0.0, 0.0))),  # it stands where it is to look
-        ((0.0, 0.0, 0.0), 1.0, Camera(position=(0.0, 5.0, 0.0))),  # straight down, along `up`
-        ((0.0, 0.0, 0.0), 1e-150, Camera(up=(0.0, 1e-150, 0.0))),
-    ],
-)
-def test_what_is_left_open_of_a_camera_always_gives_one(center: tuple, radius: float, camera: Camera) -> None:
-    view = world_of(ball(center, radius), camera=camera).view()
-    axes = np.array([view.forward, np.divide(view.right, np.linalg.norm(view.right)), view.up])
-    axes[2] /= np.linalg.norm(view.up)
-    assert np.abs(axes @ axes.T - np.eye(3)).max() <= 8 * 2.0**-53

@@ -17,18 +17,19 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from tracer import fields
+from tracer.formats.words import Fault, Word, Words
 from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, SceneError, Shape
 from tracer.shapes.cone import Cone
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.planar import unit_normal
 from tracer.shapes.polygon import FLATNESS, Polygon
 from tracer.shapes.sphere import Sphere
-from tracer.vector import Vector
+from tracer.vector import Vector, as_floats, tame, unit
 
 SUFFIX = ".nff"
 ENTITIES = {
@@ -39,15 +40,6 @@ VIEW = {"from": 3, "at": 3, "up": 3, "angle": 1, "hither": 1, "resolution": 2}
 
 BENT = 1e-3  # of its size: a polygon whose printed corners lie no farther off its plane is meant to be flat
 MOST_CORNERS = 10**6
-
-
-class Word(NamedTuple):
-    text: str
-    line: int
-
-
-class Fault(Exception):
-    """What is wrong with an entity, said with its line."""
 
 
 @dataclass
@@ -71,24 +63,15 @@ def read_nff(path: Path) -> Scene:
         text = path.read_bytes().decode("utf-8")
     except UnicodeDecodeError as error:
         raise SceneError([f"{path}: byte {error.start}: an NFF file is text, got something else"]) from None
-    return Reader(path, words(text)).scene()
-
-
-def words(text: str) -> list[Word]:
-    return [
-        Word(word, number)
-        for number, line in enumerate(text.splitlines(), 1)
-        for word in line.partition("#")[0].split()
-    ]
+    return Reader(path, Words(text)).scene()
 
 
 class Reader:
     """Reads entity after entity; after a fault it goes on at the next one, so that all faults are found at once."""
 
-    def __init__(self, path: Path, words: list[Word]) -> None:
+    def __init__(self, path: Path, words: Words) -> None:
         self.path = path
         self.words = words
-        self.at = 0
         self.faults: list[str] = []
         self.camera, self.image, self.background = Camera(), Image(), Background()
         self.lights: list[tuple[Vector, Vector | None]] = []
@@ -97,14 +80,13 @@ class Reader:
         self.run: Patches | None = None
 
     def scene(self) -> Scene:
-        while self.at < len(self.words):
-            word = self.words[self.at]
-            self.at += 1
+        while self.words.left():
+            word = self.words.take()
             try:
                 self._entity(word)
             except Fault as fault:
                 self.faults.append(f"{self.path}: line {word.line}: {fault}")
-                self._skip()
+                self.words.skip(ENTITIES)
         self._end_run()
         if not self.faults and not self.shapes:
             self.faults.append(f"{self.path}: a scene needs at least one object (s, p, pp or c), got none")
@@ -120,34 +102,25 @@ class Reader:
             path=self.path,
         )
 
-    def _skip(self) -> None:
-        """On to what can be the next entity: its letter, or on a later line any word that is no number."""
-        here = self.words[min(self.at, len(self.words) - 1)].line
-        while self.at < len(self.words):
-            word = self.words[self.at]
-            if word.text in ENTITIES or (word.line > here and not is_number(word.text)):
-                return
-            self.at += 1
-
     def _entity(self, word: Word) -> None:
+        number, vector = self.words.number, self.words.vector
         match word.text:
             case "v":
                 self._view()
             case "b":
-                self.background = self._checked(Background(self._vector("r g b of the background")), "background")
+                self.background = self._checked(Background(vector("r g b of the background")), "background")
             case "l":
-                position = self._vector("the position of a light")
-                self.lights.append((position, self._vector("r g b of a light") if self._number_follows() else None))
+                self._light()
             case "f":
                 self._fill()
             case "s":
-                center, radius = self._vector("the centre of a sphere"), self._number("the radius of a sphere")
+                center, radius = vector("the centre of a sphere"), number("the radius of a sphere")
                 self._add(Sphere(center, abs(radius)), "sphere")
             case "p" | "pp":
                 self._polygon(word.text == "pp")
             case "c":
-                base, base_radius = self._vector("the base of a cone"), self._number("its radius")
-                apex, apex_radius = self._vector("the apex of a cone"), self._number("its radius")
+                base, base_radius = vector("the base of a cone"), number("its radius")
+                apex, apex_radius = vector("the apex of a cone"), number("its radius")
                 if base_radius * apex_radius < 0.0:
                     raise Fault(f"a cone's radii must have one sign, got {base_radius:g} and {apex_radius:g}")
                 self._add(Cone(base, abs(base_radius), apex, abs(apex_radius)), "cone")
@@ -157,10 +130,9 @@ class Reader:
 
     def _view(self) -> None:
         found: dict[str, list[float]] = {}
-        while self.at < len(self.words) and self.words[self.at].text in VIEW:
-            name = self.words[self.at].text
-            self.at += 1
-            found[name] = [self._number(f"{name} of v") for _ in range(VIEW[name])]
+        while self.words.next_in(VIEW):
+            name = self.words.take().text
+            found[name] = [self.words.number(f"{name} of v") for _ in range(VIEW[name])]
         missing = [name for name in VIEW if name not in found and name != "hither"]
         if missing:
             raise Fault(f"v must have {', '.join(VIEW)}, got none of {', '.join(missing)}")
@@ -173,13 +145,19 @@ class Reader:
             raise Fault(f"angle must be > 0 and < 180, got {angle:g}")
         # From the middle of the top row of pixels to that of the bottom one; ours goes from edge to edge.
         edge = math.tan(0.5 * math.radians(angle)) * height / max(1.0, height - 1.0)
-        eye, middle, up = (_vector(found[name]) for name in ("from", "at", "up"))
+        eye, middle, up = (as_floats(found[name]) for name in ("from", "at", "up"))
         self.camera = self._checked(Camera(eye, middle, up, 2.0 * math.degrees(math.atan(edge))), "v")
 
+    def _light(self) -> None:
+        position = self.words.vector("the position of a light")
+        color = self.words.vector("r g b of a light") if self.words.number_follows() else None
+        self._checked(Light(position=position, color=color or (1.0, 1.0, 1.0)), "light")
+        self.lights.append((position, color))
+
     def _fill(self) -> None:
-        color = self._vector("r g b of f")
+        color = self.words.vector("r g b of f")
         names = ("Kd", "Ks", "shine", "T", "ior")
-        diffuse, mirror, shine, transmit, ior = (self._number(f"{name} of f") for name in names)
+        diffuse, mirror, shine, transmit, ior = (self.words.number(f"{name} of f") for name in names)
         # Files write 0 for what has no meaning: the power of a highlight that is none, the index of what is opaque.
         material = Material(
             color=color,
@@ -193,21 +171,21 @@ class Reader:
         self.material = self._checked(material, "f")
 
     def _polygon(self, smooth: bool) -> None:
-        count = self._number("the number of corners")
+        count = self.words.number("the number of corners")
         if not (count.is_integer() and 3 <= count <= MOST_CORNERS):
             raise Fault(f"a polygon must have a whole number of corners from 3 to {MOST_CORNERS}, got {count:g}")
         points: list[Vector] = []
         normals: list[Vector] = []
         for _ in range(int(count)):
-            points.append(self._vector("a corner of a polygon"))
+            points.append(self.words.vector("a corner of a polygon"))
             if smooth:
-                normals.append(self._vector("a normal of a patch"))
+                normals.append(self.words.vector("a normal of a patch"))
         if smooth and not all(any(normal) for normal in normals):
             raise Fault("a normal of a patch must not be 0 0 0")
         if not unit_normal(np.array(points)).any():
             return  # nothing can be seen of it: generators leave such slivers where a patch runs to a point
         if len(points) == 3 or smooth:
-            self._checked(Polygon(tuple(points[:3])), "polygon", planar=False)
+            self._checked(Polygon(tuple(points)), "polygon", planar=False)
             self._patch(points, normals)
         else:
             self._add(Polygon(tuple(flattened(points))), "polygon")
@@ -222,7 +200,7 @@ class Reader:
         for k in range(1, len(points) - 1):
             self.run.corners += [points[0], points[k], points[k + 1]]
             if smooth:
-                self.run.normals += [_unit(normals[i]) for i in (0, k, k + 1)]
+                self.run.normals += [unit(tame(normals[i])) for i in (0, k, k + 1)]
 
     def _end_run(self) -> None:
         if self.run:
@@ -252,32 +230,6 @@ class Reader:
             raise Fault(f"{name}: {'; '.join(faults)}")
         return part
 
-    def _number_follows(self) -> bool:
-        return self.at < len(self.words) and is_number(self.words[self.at].text)
-
-    def _number(self, what: str) -> float:
-        if self.at >= len(self.words):
-            raise Fault(f"{what} must be a number, got the end of the file")
-        found = self.words[self.at].text
-        if not is_number(found):
-            raise Fault(f'{what} must be a number, got "{found}"')
-        number = float(found)
-        if not math.isfinite(number):
-            raise Fault(f"{what} must be a finite number, got {found}")
-        self.at += 1
-        return number
-
-    def _vector(self, what: str) -> Vector:
-        return (self._number(what), self._number(what), self._number(what))
-
-
-def is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
-
 
 def flattened(points: list[Vector]) -> list[Vector]:
     """Corners that were printed with few digits, put into their plane; those that are bent on purpose as they are."""
@@ -288,14 +240,4 @@ def flattened(points: list[Vector]) -> list[Vector]:
     size = np.linalg.norm(corners - middle, axis=1).max()
     if not 0.25 * FLATNESS * size < np.abs(heights).max() < BENT * size:
         return points
-    return [_vector(corner) for corner in corners - np.outer(heights, normal)]
-
-
-def _vector(numbers: Any) -> Vector:
-    x, y, z = numbers
-    return (float(x), float(y), float(z))
-
-
-def _unit(a: Vector) -> Vector:
-    size = math.hypot(*a)
-    return (a[0] / size, a[1] / size, a[2] / size)
+    return [as_floats(corner) for corner in corners - np.outer(heights, normal)]

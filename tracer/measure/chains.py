@@ -143,10 +143,9 @@ CASES = (
         "E1",
         "two mirrors face to face: the height after 100 000 bounces",
         parallel,
-        "Moving each start 1e-4 off its mirror along the normal shortens every crossing by that much: the ray "
-        "gains too "
-        "little height, 1e-4 of a step a bounce, always the same way. After 10 000 bounces it is 1e-3 too low. A start "
-        "that stays on its mirror has only rounding to lose.",
+        "Moving each start 1e-4 off its mirror along the normal shortens every crossing by that much: the ray gains "
+        "too little height, 1e-4 of a step a bounce, always the same way. After 10 000 bounces it is 1e-3 too low. A "
+        "start that stays on its mirror has only rounding to lose.",
     ),
     Case(
         "E2",
@@ -190,11 +189,9 @@ CASES = (
         "E8",
         "between two mirrored balls: each bounce multiplies the distance from the axis",
         unstable,
-        "A ray at 1e-6 beside the axis leaves it as 1, 3, 11, 41, 153, ... times that, 3.7 fold a bounce. "
-        "Errors grow "
-        "as fast as the thing itself: a start moved by 1e-4 along the normal is 1e-4 in relation after each "
-        "bounce, and "
-        "it never gets better. Rounding alone leaves 15 digits.",
+        "A ray at 1e-6 beside the axis leaves it as 1, 3, 11, 41, 153, ... times that, 3.7 fold a bounce. Errors grow "
+        "as fast as the thing itself: a start moved by 1e-4 along the normal is 1e-4 in relation after each bounce, "
+        "and it never gets better. Rounding alone leaves 15 digits.",
     ),
     Case(
         "E9",

@@ -46,12 +46,12 @@ CASES: tuple[Case, ...] = tuple(
 )
 
 
-def run_all(cases: Sequence[Case] = CASES, done: Callable[[Result], None] = lambda result: None) -> list[Result]:
-    """Every case's result; `done` is told of each as it comes."""
+def run_all(cases: Sequence[Case] = CASES, progress: Callable[[float], None] = lambda share: None) -> list[Result]:
+    """Every case's result; `progress` gets the finished share."""
     results = []
     for case in cases:
         results.append(run(case))
-        done(results[-1])
+        progress(len(results) / len(cases))
     return results
 
 

@@ -7,27 +7,27 @@ from decimal import Decimal
 
 from tracer.measure import textbook
 from tracer.measure.case import DIGITS, Case, Reading, U, decimal, exactly
-from tracer.measure.stages import DARK, box, glass, path, plane, vector, world
+from tracer.measure.precise import dot, point
+from tracer.measure.stages import DARK, box, glass, path, plane, world
 from tracer.scene import Object
 from tracer.shapes.triangle import Triangle
-from tracer.vector import Vector
+from tracer.vector import Vector, as_floats
 
 FLAT = ((-1e6, 0.0, -1e6), (1e6, 0.0, -1e6), (0.0, 0.0, 1e6))
 
 
 def triangle(corners: Sequence[Sequence[float]]) -> Object:
-    a, b, c = (vector(corner) for corner in corners)
+    a, b, c = (as_floats(corner) for corner in corners)
     return Object(Triangle((a, b, c)), DARK, "triangle")
 
 
 def distance(origin: Sequence[float], direction: Sequence[float], corners: Sequence[Sequence[float]]) -> Decimal:
     """To the plane of a triangle, with 50 digits: n.(a - o) / n.d with n = (b - a) x (c - a)."""
-    a, b, c = ([decimal(float(x)) for x in corner] for corner in corners)
-    o, d = [decimal(x) for x in origin], [decimal(x) for x in direction]
+    a, b, c = (point(as_floats(corner)) for corner in corners)
+    o, d = point(origin), point(direction)
     p, q = [y - x for x, y in zip(a, b, strict=True)], [y - x for x, y in zip(a, c, strict=True)]
     n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
-    height = sum((n[k] * (a[k] - o[k]) for k in range(3)), Decimal(0))
-    return DIGITS.divide(height, sum((n[k] * d[k] for k in range(3)), Decimal(0)))
+    return DIGITS.divide(dot(n, [x - y for x, y in zip(a, o, strict=True)]), dot(n, d))
 
 
 def reading(

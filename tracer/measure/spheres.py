@@ -7,6 +7,7 @@ from decimal import Decimal
 
 from tracer.measure import textbook
 from tracer.measure.case import DIGITS, Case, Reading, U, decimal, root
+from tracer.measure.precise import dot, point
 from tracer.measure.stages import MATTE, ball, glass, path, world
 
 
@@ -14,11 +15,9 @@ def roots(
     origin: Sequence[float], direction: Sequence[float], center: Sequence[float], radius: float
 ) -> tuple[Decimal, Decimal]:
     """Both distances with 50 digits, of numbers taken as they are."""
-    f = [decimal(o) - decimal(c) for o, c in zip(origin, center, strict=True)]
-    d = [decimal(x) for x in direction]
-    a = sum((x * x for x in d), Decimal(0))
-    b = sum((x * y for x, y in zip(f, d, strict=True)), Decimal(0))
-    c = sum((x * x for x in f), Decimal(0)) - decimal(radius) ** 2
+    f = [o - c for o, c in zip(point(origin), point(center), strict=True)]
+    d = point(direction)
+    a, b, c = dot(d, d), dot(f, d), dot(f, f) - decimal(radius) ** 2
     half = root(b * b - a * c)
     return DIGITS.divide(-b - half, a), DIGITS.divide(-b + half, a)
 

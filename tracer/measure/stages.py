@@ -7,7 +7,7 @@ from tracer.shapes.box import Box
 from tracer.shapes.plane import Plane
 from tracer.shapes.sphere import Sphere
 from tracer.tree import RayTree, trace
-from tracer.vector import Vector
+from tracer.vector import Vector, as_floats
 from tracer.world import World, prepare
 
 MATTE = Material("matte", diffuse=1.0)
@@ -20,22 +20,18 @@ def glass(n: float, name: str = "glass") -> Material:
     return Material(name, transmit=1.0, ior=n)
 
 
-def vector(a: Sequence[float]) -> Vector:
-    return (float(a[0]), float(a[1]), float(a[2]))
-
-
 def ball(center: Sequence[float], radius: float, material: Material, name: str = "ball", priority: int = 0) -> Object:
-    return Object(Sphere(vector(center), float(radius)), material, name, priority)
+    return Object(Sphere(as_floats(center), float(radius)), material, name, priority)
 
 
 def plane(point: Sequence[float], normal: Sequence[float], material: Material, name: str = "plane") -> Object:
-    return Object(Plane(vector(point), vector(normal)), material, name)
+    return Object(Plane(as_floats(point), as_floats(normal)), material, name)
 
 
 def box(
     low: Sequence[float], high: Sequence[float], material: Material, name: str = "box", priority: int = 0
 ) -> Object:
-    return Object(Box(vector(low), vector(high)), material, name, priority)
+    return Object(Box(as_floats(low), as_floats(high)), material, name, priority)
 
 
 def world(

@@ -24,7 +24,7 @@ from tracer.pairs import (
     two_product,
 )
 from tracer.rays import Ray
-from tracer.vector import Vector, VectorLike, add, dot, scale, subtract, vector
+from tracer.vector import Vector, add, as_floats, dot, scale, subtract, vector
 
 # Rounding errors of n.(a - o): three products, three differences and two sums, and as many again in the point of the
 # surface the ray leaves; each at most 2^-53 of |a| + |o| in the 1-norm.
@@ -224,7 +224,3 @@ def pack_normal(rows: Any, area: PairVector) -> None:
         rows["normal"][..., k] = n = high / size
         product, error = two_product(n, size)
         rows["low"][..., k] = ((high - product) - error + low) / size
-
-
-def as_floats(a: VectorLike) -> Vector:
-    return (float(a[0]), float(a[1]), float(a[2]))
