@@ -58,7 +58,7 @@ class Words:
 
     def skip(self, names: Container[str]) -> None:
         """After a fault, on to one of these names, or on a later line to any word that is no number."""
-        here = self.words[min(self.at, len(self.words) - 1)].line
+        here = self.words[self.at - 1].line  # of the last word that was read
         while self.left() and not self.next_in(names):
             word = self.words[self.at]
             if word.line > here and not is_number(word.text):
