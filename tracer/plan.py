@@ -51,7 +51,7 @@ def needs(scene: Scene, surfaces: int, boxes: int) -> tuple[Need, ...]:
             f'shadows = "{scene.tracing.shadows}"' if glass else _which(glass, "transmits"),
         ),
         Need("checker", any(m.checker for m in materials), _checkered(materials)),
-        Need("hierarchy", boxes > 1, f"{_count(surfaces, 'surface')}, {_count(boxes, 'box', 'boxes')}"),
+        Need("hierarchy", boxes > 0, f"{_count(surfaces, 'surface')}, {_count(boxes, 'box', 'boxes')}"),
         Need("mesh library", bool(meshes), _which(meshes, "comes from a mesh file")),
         Need("vertex normals", bool(smooth), _which(smooth, "has normals at its vertices")),
     )
