@@ -237,9 +237,7 @@ def next_of(parts: Any, count: int) -> int:
 
 
 @compiled
-def halve(
-    reach: Any, middles: Any, other: Any, order: Any, level: int, this: Any, second: Any, room: Room
-) -> None:
+def halve(reach: Any, middles: Any, other: Any, order: Any, level: int, this: Any, second: Any, room: Room) -> None:
     """Leave some of the surfaces in `this`, and put the others into `second`."""
     first, last = this.first, this.last
     axis, extent = 0, -1.0
