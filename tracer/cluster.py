@@ -20,7 +20,7 @@ from tracer.jit import machine, versions
 from tracer.job import Mismatch, Remote, Task, difference
 from tracer.render import warm
 
-CONNECTING = 10  # seconds for the scheduler to answer
+CONNECTING = 5  # seconds for the scheduler to answer
 WAITING = 120.0  # seconds for a first worker to appear
 RETRIES = 3  # of a call that failed
 SCHEMES = ("tcp", "tls", "ws", "wss", "ucx")
@@ -38,10 +38,9 @@ class ClusterError(RuntimeError):
 class Cluster(Remote):
     """A Dask client as an executor of tiles."""
 
-    def __init__(self, client: Any, threads: int, notes: list[str]) -> None:
+    def __init__(self, client: Any, threads: int) -> None:
         self.client = client
         self.threads = threads
-        self.notes = notes  # what may keep its images from having the same last bits as ours
         self.inner = client.get_executor(pure=False, retries=RETRIES)
         self.abandoned = abandoned
 
@@ -76,11 +75,15 @@ def abandoned() -> bool:
 
 @contextlib.contextmanager
 def connect(
-    address: str, say: Callable[[str], None] = lambda text: None, waiting: float = WAITING
+    address: str,
+    say: Callable[[str], None] = lambda doing: None,
+    note: Callable[[str], None] = lambda line: None,
+    waiting: float = WAITING,
 ) -> Iterator[Cluster]:
     """The cluster at a scheduler's address. ClusterError where there is none, or its workers are not as we are.
 
-    `say` is told what there is to wait for. When the context is left, calls that still run are cancelled.
+    `say` is told what is being done; `note` of what may surprise: that there is no worker yet, that last bits may
+    differ. When the context is left, calls that still run are cancelled.
     """
     address = checked(address)
     try:
@@ -89,7 +92,7 @@ def connect(
     except ImportError:
         raise ClusterError('a cluster needs the extra "dask": python -m pip install "raytree[dask]"') from None
     logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what it would say comes back as our one line
-    say(f"connecting to {address}")
+    say(f"connect to {address}")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of Dask's versions; ours are compared below
@@ -97,10 +100,15 @@ def connect(
     except (OSError, ValueError, TypeError) as error:
         raise ClusterError(f"{address}: no Dask scheduler answers: {_line(error)}") from None
     try:
-        wait_for_worker(client, address, say, waiting)
-        notes = compare(client)
-        warm_up(client, say)
-        yield Cluster(client, sum(client.nthreads().values()), notes)
+        if not client.nthreads():
+            note(f"{address} has no worker yet: waiting for one, at most {waiting:g} s")
+            say("wait for a worker")
+            wait_for_worker(client, address, waiting)
+        for line in compare(client):
+            note(line)
+        say("prepare the tracer on the cluster, the first time in about half a minute")
+        warm_up(client)
+        yield Cluster(client, sum(client.nthreads().values()))
     except Mismatch as error:
         raise ClusterError(f"{address}: a worker that came later has {error}") from None
     except KilledWorker as error:
@@ -111,13 +119,11 @@ def connect(
         client.close(timeout=2)
 
 
-def wait_for_worker(client: Any, address: str, say: Callable[[str], None], waiting: float) -> None:
-    if not client.nthreads():
-        say(f"no worker at {address} yet, waiting for one")
-        try:
-            client.wait_for_workers(1, timeout=waiting)
-        except TimeoutError:
-            raise ClusterError(f"{address}: no worker came within {waiting:g} s") from None
+def wait_for_worker(client: Any, address: str, waiting: float) -> None:
+    try:
+        client.wait_for_workers(1, timeout=waiting)
+    except TimeoutError:
+        raise ClusterError(f"{address}: no worker came within {waiting:g} s") from None
 
 
 def compare(client: Any) -> list[str]:
@@ -141,10 +147,9 @@ def described() -> tuple[dict[str, str], dict[str, str]]:
     return versions(), machine()
 
 
-def warm_up(client: Any, say: Callable[[str], None]) -> None:
+def warm_up(client: Any) -> None:
     """Let one worker of each machine compile the kernels, for the others there to load."""
     first = {re.sub(r":\d+$", "", worker): worker for worker in client.nthreads()}
-    say("preparing the tracer on the cluster; the first time that takes about half a minute")
     options = {"allow_other_workers": True, "retries": RETRIES, "pure": False}
     client.gather([client.submit(warm, workers=[worker], **options) for worker in first.values()])
 

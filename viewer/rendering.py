@@ -82,9 +82,7 @@ def executor_of(address: str | None, progress: Progress) -> Iterator[tuple[Execu
 
     began = time.perf_counter()
     try:
-        with connect(address, progress.say) as cluster:
-            for note in cluster.notes:
-                progress.put(f"note: {note}")
+        with connect(address, progress.say, lambda line: progress.put(f"note: {line}")) as cluster:
             progress.say("render")
             yield cluster, time.perf_counter() - began
     except ClusterError as error:
