@@ -91,7 +91,8 @@ def connect(
         from distributed.comm.core import CommClosedError
     except ImportError:
         raise ClusterError('a cluster needs the extra "dask": python -m pip install "raytree[dask]"') from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what it would say comes back as our one line
+    for library in ("distributed", "tornado"):
+        logging.getLogger(library).setLevel(logging.CRITICAL)  # what they would say comes back as our one line
     say(f"connect to {address}")
     try:
         with warnings.catch_warnings():

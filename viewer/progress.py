@@ -69,11 +69,12 @@ class Progress:
             now = time.perf_counter()
             if now - self.began >= self.patience:
                 with self.writing:
-                    self._show(now)
+                    self.show(now)
             if self.over.wait(TICK):
                 return
 
-    def _show(self, now: float) -> None:
+    def show(self, now: float) -> None:
+        """On a terminal in place of the line before; in a log where another tenth is done."""
         if self.terminal:
             self._write(CLEAR + self.line(now))
             self.shown = True

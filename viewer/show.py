@@ -47,7 +47,9 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: Namespace, targe
         raise Unusable(str(reason)) from None
     try:
         app.session.open(path, lesson, options.depth, options.pixel, options.model)
-        with Progress(COMPILING, at_once=True) if app.session.warmup.compiles else Progress("load the scene") as progress:
+        with (
+            Progress(COMPILING, at_once=True) if app.session.warmup.compiles else Progress("load the scene") as progress
+        ):
             app.settle(say=progress.say, progress=progress)
             if app.session.faults:
                 raise Unusable(*app.session.faults)
