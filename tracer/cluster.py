@@ -24,6 +24,7 @@ CONNECTING = 5  # seconds for the scheduler to answer
 WAITING = 120.0  # seconds for a first worker to appear
 RETRIES = 3  # of a call that failed
 SCHEMES = ("tcp", "tls", "ws", "wss", "ucx")
+LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")  # which Dask sets one by one
 LARGEST = "8 GiB"  # of a world that is sent without Dask's advice to send it otherwise
 
 
@@ -91,33 +92,46 @@ def connect(
         from distributed.comm.core import CommClosedError
     except ImportError:
         raise ClusterError('a cluster needs the extra "dask": python -m pip install "raytree[dask]"') from None
-    for library in ("distributed", "tornado"):
-        logging.getLogger(library).setLevel(logging.CRITICAL)  # what they would say comes back as our one line
     say(f"connect to {address}")
+    with contextlib.ExitStack() as stack:
+        stack.enter_context(quiet())
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of Dask's versions; ours are compared below
+                client: Any = Client(address, timeout=CONNECTING, set_as_default=False)
+        except (OSError, ValueError, TypeError) as error:
+            raise ClusterError(f"{address}: no Dask scheduler answers: {_line(error)}") from None
+        stack.callback(client.close, timeout=2)
+        try:
+            if not client.nthreads():
+                note(f"{address} has no worker yet: waiting for one, at most {waiting:g} s")
+                say("wait for a worker")
+                wait_for_worker(client, address, waiting)
+            for line in compare(client):
+                note(line)
+            say("prepare the tracer on the cluster, the first time in about half a minute")
+            warm_up(client)
+            yield Cluster(client, sum(client.nthreads().values()))
+        except Mismatch as error:
+            raise ClusterError(f"{address}: a worker that came later has {error}") from None
+        except KilledWorker as error:
+            raise ClusterError(f"{address}: one worker after the other was killed at it: {_line(error)}") from None
+        except (CancelledError, asyncio.CancelledError, CommClosedError, TimeoutError) as error:
+            raise ClusterError(f"{address}: the scheduler was lost: {_line(error)}") from None
+
+
+@contextlib.contextmanager
+def quiet() -> Iterator[None]:
+    """What Dask would log comes back as our one line."""
+    loggers = [logging.getLogger(name) for name in LOGGERS]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL)
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of Dask's versions; ours are compared below
-            client: Any = Client(address, timeout=CONNECTING, set_as_default=False)
-    except (OSError, ValueError, TypeError) as error:
-        raise ClusterError(f"{address}: no Dask scheduler answers: {_line(error)}") from None
-    try:
-        if not client.nthreads():
-            note(f"{address} has no worker yet: waiting for one, at most {waiting:g} s")
-            say("wait for a worker")
-            wait_for_worker(client, address, waiting)
-        for line in compare(client):
-            note(line)
-        say("prepare the tracer on the cluster, the first time in about half a minute")
-        warm_up(client)
-        yield Cluster(client, sum(client.nthreads().values()))
-    except Mismatch as error:
-        raise ClusterError(f"{address}: a worker that came later has {error}") from None
-    except KilledWorker as error:
-        raise ClusterError(f"{address}: one worker after the other was killed at it: {_line(error)}") from None
-    except (CancelledError, asyncio.CancelledError, CommClosedError, TimeoutError) as error:
-        raise ClusterError(f"{address}: the scheduler was lost: {_line(error)}") from None
+        yield
     finally:
-        client.close(timeout=2)
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
 
 
 def wait_for_worker(client: Any, address: str, waiting: float) -> None:

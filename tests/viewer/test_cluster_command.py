@@ -1,8 +1,10 @@
 """`raytree render --dask` as a user types it, in a process of its own, on a cluster of two."""
 
 import json
+import re
 import signal
 import subprocess
+import sys
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,7 +14,7 @@ import pytest
 from distributed.diagnostics.plugin import SchedulerPlugin
 
 from tests.tracer.test_cluster import local_cluster
-from tests.viewer.pseudo_terminal import RAYTREE
+from tests.viewer.pseudo_terminal import RAYTREE, on_a_terminal
 from tests.viewer.test_cli import raytree
 
 
@@ -99,4 +101,31 @@ def test_unreachable_scheduler_is_one_line(tmp_path: Path) -> None:
     assert run.returncode == 2
     assert run.stderr.startswith("tcp://127.0.0.1:9: no Dask scheduler answers: ")
     assert len(run.stderr.splitlines()) == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def dask(program: str, *arguments: str) -> subprocess.Popen:
+    """One of Dask's own programs."""
+    command = [sys.executable, "-m", f"distributed.cli.dask_{program}", *arguments, "--dashboard-address", ":0"]
+    return subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+
+
+def test_lost_scheduler_is_one_line(tmp_path: Path) -> None:
+    """The scheduler is killed in the middle of an image: that is said at once, and nothing is written."""
+    scheduler = dask("scheduler", "--host", "127.0.0.1", "--port", "0")
+    assert scheduler.stderr
+    address = next(found[1] for line in scheduler.stderr if (found := re.search(r"Scheduler at:\s+(tcp://\S+)", line)))
+    worker = dask("worker", address, "--nthreads", "1", "--no-nanny")
+    try:
+        arguments = ["render", "glass-ball", "-o", "image.npy", "--size", "8000x6000", "--dask", address]
+        with on_a_terminal(arguments, tmp_path) as terminal:
+            terminal.wait_for(r"render glass-ball \d+ %")
+            scheduler.kill()
+            assert terminal.wait() == 2
+    finally:
+        for process in (scheduler, worker):
+            process.kill()
+            process.communicate()
+    assert terminal.said.split("\x1b[K")[-1].startswith(f"{address}: the scheduler was lost")
+    assert terminal.said.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
