@@ -71,7 +71,9 @@ def obstruction(world: Any, ray: Ray, end: float, glass_blocks: bool, space: Any
 
 
 @compiled
-def look_at(world: Any, s: int, ray: Ray, glass_blocks: bool, known: tuple[float, int], space: Any) -> tuple[float, int]:
+def look_at(
+    world: Any, s: int, ray: Ray, glass_blocks: bool, known: tuple[float, int], space: Any
+) -> tuple[float, int]:
     """(how far to look on, count) after surface s has been looked at."""
     end, count = known
     if distance(world, s, ray, 0.0, -1, SMALLEST, end, False) >= end:
