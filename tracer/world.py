@@ -149,9 +149,8 @@ def prepare(scene: Scene) -> World:
     solids = _ranked(scene)
     ranks = {k: rank for rank, k in enumerate(solids)}
     surfaces, corners, smooth, bounds = _surfaces(scene)
-    boxed = np.asarray(np.isfinite(bounds).all(axis=(1, 2)))
-    if np.count_nonzero(boxed) <= FLAT:
-        boxed[:] = False
+    finite = np.asarray(np.isfinite(bounds).all(axis=(1, 2)))
+    boxed = finite & (np.count_nonzero(finite) > FLAT)
     nodes, blocks, unit = build(_padded(bounds), _triangles(surfaces), boxed)
     arrays = Arrays(
         surfaces=surfaces,
@@ -171,7 +170,7 @@ def prepare(scene: Scene) -> World:
         blocks=blocks,
         per_unit=np.array([1.0 / unit]),
     )
-    return World(scene, Bundle(arrays), bounds[bounded], needs(scene, len(surfaces), len(nodes)), tuple(solids))
+    return World(scene, Bundle(arrays), bounds[finite], needs(scene, len(surfaces), len(nodes)), tuple(solids))
 
 
 def _ranked(scene: Scene) -> list[int]:
