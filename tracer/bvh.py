@@ -39,7 +39,7 @@ BLOCK = np.dtype(
 # What a search has put off, and where the ray enters its box.
 WAITING = np.dtype([("child", np.int64), ("near", np.float64)])
 
-FLAT = 8  # so few surfaces are tried one by one
+FLAT = 3  # so few surfaces are tried one by one: measured, `python -m benchmarks flat`
 BINS = 16
 FILL = 6  # triangles that a block will hardly have fewer of
 HALVING = 24  # the level from which on surfaces are parted by their number: so no hierarchy is deeper than

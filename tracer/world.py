@@ -170,7 +170,9 @@ def prepare(scene: Scene) -> World:
         blocks=blocks,
         per_unit=np.array([1.0 / unit]),
     )
-    return World(scene, Bundle(arrays), bounds[finite], needs(scene, len(surfaces), len(nodes)), tuple(solids))
+    return World(
+        scene, Bundle(arrays), bounds[finite], needs(scene, len(surfaces), len(nodes), len(blocks)), tuple(solids)
+    )
 
 
 def _ranked(scene: Scene) -> list[int]:
