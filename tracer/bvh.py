@@ -22,15 +22,15 @@ KINDS = 4
 BOXES, SURFACE, TRIANGLES = range(3)
 
 # Eight triangles in their order: `corners` x, y and z of the first corners, of the second, of the third, seen from
-# `base`, in the hierarchy's unit. They only say where the ray may pass inside: at most `doubt` is rounded off them.
+# `anchor`, in the hierarchy's unit. They only say where the ray may pass inside: at most `doubt` is rounded off them.
 BLOCK = np.dtype(
     [
         ("corners", np.float32, (9, WIDTH)),
         ("surface", np.int32, WIDTH),
         ("lanes", np.int64),  # those in use, bit by bit
-        ("base", np.float64, 3),
+        ("anchor", np.float64, 3),
         ("reach", np.float64),  # the largest |x| + |y| + |z| of a corner
-        ("edge", np.float64),  # the longest edge
+        ("edge", np.float64),  # the longest |x| + |y| + |z| of an edge
         ("doubt", np.float64),
     ],
     align=True,
@@ -39,7 +39,7 @@ BLOCK = np.dtype(
 # What a search has put off, and where the ray enters its box.
 WAITING = np.dtype([("child", np.int64), ("near", np.float64)])
 
-FLAT = 8  # so few surfaces are tried one by one
+FLAT = 3  # so few surfaces are tried one by one: measured, `python -m benchmarks flat`
 BINS = 16
 FILL = 6  # triangles that a block will hardly have fewer of
 HALVING = 24  # the level from which on surfaces are parted by their number: so no hierarchy is deeper than
@@ -108,33 +108,19 @@ def build(bounds: np.ndarray, triangles: np.ndarray | None = None, which: np.nda
         reach[:, 4:7] = np.nextafter((-bounds[:, 1] / unit).astype(np.float32), np.float32(-np.inf))
         middles[:, 0:3] = reach[:, 0:3] - reach[:, 4:7]
         middles[:, 4:7] = -middles[:, 0:3]
-    nodes, members = np.zeros(len(order), NODE), np.full((len(order), WIDTH), -1, np.int32)
+    nodes, blocks = np.zeros(len(order), NODE), np.zeros(len(order) - np.count_nonzero(other[order]), BLOCK)
+    corners = np.full((n, 3, 3), np.nan) if triangles is None else triangles
     room = Room.make()
-    part_all(reach, middles, other, nodes.view(np.recarray), members, order, room)
-    return Hierarchy(nodes[: room.used[0]].copy(), blocks_of(members[: room.used[1]], triangles, unit), unit)
-
-
-def blocks_of(members: np.ndarray, triangles: np.ndarray | None, unit: float) -> np.ndarray:
-    """The blocks of triangles whose numbers are `members` (n, WIDTH), -1 for none, which are the last ones."""
-    blocks = np.zeros(len(members), BLOCK)
-    if triangles is None or not len(members):
-        return blocks
-    blocks["surface"] = members
-    blocks["lanes"] = 2 ** np.count_nonzero(members >= 0, axis=1) - 1
-    corners = triangles[np.where(members >= 0, members, members[:, :1])] / unit
-    blocks["reach"] = np.abs(corners).sum(axis=3).max(axis=(1, 2))
-    edges = corners - np.roll(corners, 1, axis=2)
-    blocks["edge"] = np.sqrt((edges * edges).sum(axis=3)).max(axis=(1, 2))
-    blocks["base"] = base = corners[:, 0, 0]
-    arms = corners - base[:, None, None]
-    blocks["corners"] = np.moveaxis(arms, 1, -1).reshape(-1, 9, WIDTH)
-    blocks["doubt"] = 2.0**-22 * np.abs(arms).max(axis=(1, 2, 3))
-    return blocks
+    with np.errstate(under="ignore"):
+        part_all(reach, middles, other, corners, unit, nodes.view(np.recarray), blocks.view(np.recarray), order, room)
+    return Hierarchy(nodes[: room.used[0]].copy(), blocks[: room.used[1]].copy(), unit)
 
 
 @kernel
-def part_all(reach: Any, middles: Any, other: Any, nodes: Any, members: Any, order: Any, room: Room) -> None:
-    """Fill `nodes` and the `members` of blocks, permute `order`."""
+def part_all(
+    reach: Any, middles: Any, other: Any, corners: Any, unit: float, nodes: Any, blocks: Any, order: Any, room: Room
+) -> None:
+    """Fill `nodes` and `blocks`, permute `order`."""
     todo, parts, used = room.todo, room.parts, room.used
     clear(todo[0])
     for s in order:
@@ -164,8 +150,7 @@ def part_all(reach: Any, middles: Any, other: Any, nodes: Any, members: Any, ord
                 box.child[k] = KINDS * order[first] + SURFACE
             elif n <= WIDTH and parts[k].others == 0:
                 box.child[k] = KINDS * used[1] + TRIANGLES
-                for i in range(n):
-                    members[used[1], i] = order[first + i]
+                fill(blocks[used[1]], corners, unit, order, first, n)
                 used[1] += 1
             else:
                 box.child[k] = KINDS * used[0] + BOXES
@@ -173,6 +158,30 @@ def part_all(reach: Any, middles: Any, other: Any, nodes: Any, members: Any, ord
                 todo[waiting] = parts[k]
                 waiting += 1
                 used[0] += 1
+
+
+@compiled
+def fill(block: Any, corners: Any, unit: float, order: Any, first: int, count: int) -> None:
+    """Put `count` triangles into a block; the first of them stands in the lanes left, too, but is not asked there."""
+    block.lanes = (1 << count) - 1
+    size = 0.0
+    for a in range(3):
+        block.anchor[a] = corners[order[first], 0, a] / unit
+    for k in range(WIDTH):
+        s = order[first + k] if k < count else order[first]
+        block.surface[k] = s
+        for i in range(3):
+            reach, edge = 0.0, 0.0
+            for a in range(3):
+                x, before = corners[s, i, a] / unit, corners[s, i - 1, a] / unit
+                arm = x - block.anchor[a]
+                block.corners[3 * i + a, k] = arm
+                size = max(size, abs(arm))
+                reach += abs(x)
+                edge += abs(x - before)
+            block.reach = max(block.reach, reach)
+            block.edge = max(block.edge, edge)
+    block.doubt = 2.0**-22 * size
 
 
 @compiled

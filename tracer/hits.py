@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from tracer.jit import compiled, routine
+from tracer.jit import compiled, natural, routine
 from tracer.pairs import SMALLEST
 from tracer.rays import Ray
 from tracer.shapes import again, intersect
@@ -26,10 +26,11 @@ def distance(
     `above` is the number after `floor`. Not `exactly`: only whether there is one will be asked.
     """
     least = floor if s > floor_id else above
-    if world.surfaces[s].twin == ray.start:
-        t = again(world, world.surfaces[s], ray)
+    surface = world.surfaces[natural(s)]
+    if surface.twin == ray.start:
+        t = again(world, surface, ray)
         return t if t >= least else math.inf
-    return intersect(world, world.surfaces[s], ray, least, ceiling, exactly)
+    return intersect(world, surface, ray, least, ceiling, exactly)
 
 
 @compiled

@@ -69,7 +69,7 @@ def keep(a: Any, row: Any) -> None:
 
 def first_of(bits: int) -> int:
     """The number of the lowest bit that is set; there must be one."""
-    return (bits & -bits).bit_length() - 1
+    return (int(bits) & -int(bits)).bit_length() - 1
 
 
 @type_callable(lanes)

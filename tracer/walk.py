@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from tracer.bvh import BOXES, KINDS, TRIANGLES
-from tracer.jit import compiled, routine
+from tracer.jit import compiled, natural, routine
 from tracer.lanes import alike, first_of, keep, lanes, larger, no_more, smaller
 from tracer.pairs import U
 from tracer.rays import Ray
@@ -66,7 +66,7 @@ def walker(visit: Callable[..., Any], nearest_first: bool) -> Callable[..., Any]
     @routine
     def walk(world: Any, ray: Ray, asked: Any, known: Any, space: Any) -> Any:
         for k in range(len(world.unboxed)):
-            known = visit(world, world.unboxed[k], ray, asked, known, space)
+            known = visit(world, world.unboxed[natural(k)], ray, asked, known, space)
             if known[0] < 0.0:
                 return known
         if len(world.nodes) == 0:
@@ -78,10 +78,10 @@ def walker(visit: Callable[..., Any], nearest_first: bool) -> Callable[..., Any]
         while True:
             kind, number = child % KINDS, child // KINDS
             if kind == BOXES:
-                node = world.nodes[number]
+                node = world.nodes[natural(number)]
                 met, near = enter(node.planes, way, OUTWARD * (per_unit * known[0]))
                 if met != 0 and met & (met - 1) == 0:
-                    child = node.child[first_of(met)]
+                    child = node.child[natural(first_of(met))]
                     continue
                 if nearest_first:
                     keep(near, space.near)
@@ -90,25 +90,25 @@ def walker(visit: Callable[..., Any], nearest_first: bool) -> Callable[..., Any]
                     k = first_of(met)
                     met &= met - 1
                     if nearest_first:
-                        put(stack, base, depth, node.child[k], space.near[k])
+                        put(stack, base, depth, node.child[natural(k)], space.near[natural(k)])
                     else:
-                        stack[depth].child = node.child[k]
+                        stack[natural(depth)].child = node.child[natural(k)]
                     depth += 1
             else:
-                met = within(world.blocks[number], ray, per_unit) if kind == TRIANGLES else 1
+                met = within(world.blocks[natural(number)], ray, per_unit) if kind == TRIANGLES else 1
                 while met != 0:
-                    s = world.blocks[number].surface[first_of(met)] if kind == TRIANGLES else number
+                    s = world.blocks[natural(number)].surface[natural(first_of(met))] if kind == TRIANGLES else number
                     met &= met - 1
                     known = visit(world, s, ray, asked, known, space)
                     if known[0] < 0.0:
                         return known
             if nearest_first:
-                while depth > 0 and stack[depth - 1].near > OUTWARD * (per_unit * known[0]):
+                while depth > 0 and stack[natural(depth - 1)].near > OUTWARD * (per_unit * known[0]):
                     depth -= 1
             if depth == 0:
                 return known
             depth -= 1
-            child = stack[depth].child
+            child = stack[natural(depth)].child
 
     return walk
 
@@ -117,7 +117,9 @@ def walker(visit: Callable[..., Any], nearest_first: bool) -> Callable[..., Any]
 def put(stack: Any, base: int, depth: int, child: int, near: float) -> None:
     """Lay something onto the stack, below what is nearer and above `base`."""
     k = depth
-    while k > base and stack[k - 1].near < near:
-        stack[k].child, stack[k].near = stack[k - 1].child, stack[k - 1].near
+    while k > base and stack[natural(k - 1)].near < near:
+        here, below = stack[natural(k)], stack[natural(k - 1)]
+        here.child, here.near = below.child, below.near
         k -= 1
-    stack[k].child, stack[k].near = child, near
+    here = stack[natural(k)]
+    here.child, here.near = child, near

@@ -45,7 +45,7 @@ OBJECT = np.dtype(
     [
         ("material", np.int32),
         ("solid", np.int32),  # its rank among the transparent solids, -1 for what bounds no medium
-        ("closed", np.bool_),  # whether it has an inside that a point can be tested for
+        ("closed", np.bool_),  # whether this solid has an inside that a point can be tested for
         ("tiled", np.bool_),  # whether a checker lies along its own two axes
         ("u", np.float64, 3),
         ("v", np.float64, 3),
@@ -143,19 +143,21 @@ def prepare(scene: Scene) -> World:
     faults = scene.faults()
     if faults:
         raise SceneError(faults)
-    materials = list(dict.fromkeys(item.material for item in scene.objects))
+    materials: dict[Material, int] = {}
+    for item in scene.objects:
+        materials.setdefault(item.material, len(materials))
     solids = _ranked(scene)
     ranks = {k: rank for rank, k in enumerate(solids)}
     surfaces, corners, smooth, bounds = _surfaces(scene)
-    bounded = np.isfinite(bounds).all(axis=(1, 2))
-    few = np.count_nonzero(bounded) <= FLAT
-    nodes, blocks, unit = build(_padded(bounds), _triangles(surfaces), np.zeros_like(bounded) if few else bounded)
+    finite = np.asarray(np.isfinite(bounds).all(axis=(1, 2)))
+    boxed = finite & (np.count_nonzero(finite) > FLAT)
+    nodes, blocks, unit = build(_padded(bounds), _triangles(surfaces), boxed)
     arrays = Arrays(
         surfaces=surfaces,
         corners=corners,
         smooth=smooth,
         objects=np.array(
-            [_object(item, materials.index(item.material), ranks.get(k, -1)) for k, item in enumerate(scene.objects)],
+            [_object(item, materials[item.material], ranks.get(k, -1)) for k, item in enumerate(scene.objects)],
             OBJECT,
         ),
         materials=np.array([_material(material) for material in materials], MATERIAL),
@@ -163,12 +165,14 @@ def prepare(scene: Scene) -> World:
         indices=np.array([scene.objects[k].material.ior for k in solids], np.float64),
         background=np.array(scene.background.color, np.float64),
         ambient=np.array(scene.tracing.ambient, np.float64),
-        unboxed=(np.arange(len(bounds)) if few else np.flatnonzero(~bounded)).astype(np.int32),
+        unboxed=np.flatnonzero(~boxed).astype(np.int32),
         nodes=nodes,
         blocks=blocks,
         per_unit=np.array([1.0 / unit]),
     )
-    return World(scene, Bundle(arrays), bounds[bounded], needs(scene, len(surfaces), len(nodes)), tuple(solids))
+    return World(
+        scene, Bundle(arrays), bounds[finite], needs(scene, len(surfaces), len(nodes), len(blocks)), tuple(solids)
+    )
 
 
 def _ranked(scene: Scene) -> list[int]:
@@ -227,7 +231,7 @@ def _object(item: Object, material: int, rank: int) -> tuple[Any, ...]:
     shape = item.shape
     normal = _flat_normal(shape)
     u, v = _axes(normal) if normal else ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    return (material, rank, not is_open(shape), normal is not None, u, v)
+    return (material, rank, rank >= 0 and not is_open(shape), normal is not None, u, v)
 
 
 def _flat_normal(shape: Any) -> Vector | None:

@@ -72,7 +72,7 @@ def test_hierarchy_holds_every_surface_once_inside_its_boxes() -> None:
             if kind == TRIANGLES:
                 block = tree.blocks[number]
                 inside = block["surface"][: int(block["lanes"]).bit_length()]
-                placed = block["base"] + block["corners"].reshape(3, 3, WIDTH).transpose(2, 0, 1)[: len(inside)]
+                placed = block["anchor"] + block["corners"].reshape(3, 3, WIDTH).transpose(2, 0, 1)[: len(inside)]
                 assert np.abs(placed - corners[inside] / tree.unit).max() <= block["doubt"]
             seen += list(inside)
             assert (bounds[inside, 0] > box_low * tree.unit).all()  # by a float32 at least

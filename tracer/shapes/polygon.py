@@ -15,7 +15,7 @@ from tracer.jit import compiled
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
 from tracer.shapes.planar import is_beside, may_cross, newell, outline_slack, pack_normal, plane_distance, unit_normal
-from tracer.vector import Vector, vector
+from tracer.vector import Vector
 
 NAME = "polygon"
 

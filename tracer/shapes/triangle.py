@@ -77,8 +77,8 @@ def within(block: Any, ray: Ray, per_unit: float) -> int:
 
     None is dropped that `intersect` would find: the slack is that of corners rounded off, and of `outline_slack`.
     """
-    base, o = block.base, scale(per_unit, ray.turned)
-    origin = (o[0] - base[ray.axis], o[1] - base[ray.across], o[2] - base[ray.up])
+    anchor, o = block.anchor, scale(per_unit, ray.turned)
+    origin = (o[0] - anchor[ray.axis], o[1] - anchor[ray.across], o[2] - anchor[ray.up])
     ax, ay = sheared_lanes(ray, origin, block.corners, 0)
     bx, by = sheared_lanes(ray, origin, block.corners, 3)
     cx, cy = sheared_lanes(ray, origin, block.corners, 6)
