@@ -11,6 +11,7 @@ import asyncio
 import contextlib
 import logging
 import re
+import time
 import warnings
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Future
@@ -22,6 +23,7 @@ from tracer.render import warm
 
 CONNECTING = 5  # seconds for the scheduler to answer
 WAITING = 120.0  # seconds for a first worker to appear
+LOOKING = 5.0  # seconds between looks for more workers
 RETRIES = 3  # of a call that failed
 SCHEMES = ("tcp", "tls", "ws", "wss", "ucx")
 LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")  # which Dask sets one by one
@@ -39,9 +41,9 @@ class ClusterError(RuntimeError):
 class Cluster(Remote):
     """A Dask client as an executor of tiles."""
 
-    def __init__(self, client: Any, threads: int) -> None:
+    def __init__(self, client: Any) -> None:
         self.client = client
-        self.threads = threads
+        self.look()
         self.inner = client.get_executor(pure=False, retries=RETRIES)
         self.abandoned = abandoned
 
@@ -51,7 +53,14 @@ class Cluster(Remote):
         with settings({"distributed.admin.large-graph-warning-threshold": LARGEST}):
             return self.client.submit(received, task, pure=False)
 
+    def look(self) -> None:
+        """How many threads there are by now."""
+        self.threads = sum(self.client.nthreads().values())
+        self.looked = time.monotonic()
+
     def submit(self, fn: Callable[..., Any], /, *args: Any, **options: Any) -> Future:
+        if time.monotonic() - self.looked > LOOKING:
+            self.look()
         return self.inner.submit(fn, *args, **options)
 
 
@@ -111,7 +120,7 @@ def connect(
                 note(line)
             say("prepare the tracer on the cluster, the first time in about half a minute")
             warm_up(client)
-            yield Cluster(client, sum(client.nthreads().values()))
+            yield Cluster(client)
         except Mismatch as error:
             raise ClusterError(f"{address}: a worker that came later has {error}") from None
         except KilledWorker as error:

@@ -94,6 +94,8 @@ def trace_passes(
         running: set[Future[list[Traced]]] = set()
         try:
             while True:
+                if isinstance(executor, Remote):
+                    threads = max(threads, executor.threads)
                 while waiting and len(running) < AHEAD * threads and not cancelled():
                     future = executor.submit(trace_tiles, task, waiting.popleft(), *ways)
                     running.add(future)

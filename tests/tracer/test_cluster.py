@@ -89,6 +89,19 @@ def test_any_executor_traces_the_same_bits(world: tracer.World) -> None:
     assert_same(image, tracer.render(world, (100, 70)))
 
 
+def test_workers_that_come_later_are_given_work(cluster: Any, world: tracer.World) -> None:
+    with connect(cluster.scheduler_address) as executor:
+        assert executor.threads == 2
+        cluster.scale(3)
+        cluster.wait_for_workers(3)
+        executor.look()
+        assert executor.threads == 3
+        image = tracer.render(world, executor=executor)
+        assert set(executor.client.run(kernels).values()) == {1}
+        cluster.scale(2)
+    assert image.threads == 3
+
+
 class Assassin(SchedulerPlugin):
     """Kills the first worker that has finished a tile."""
 
