@@ -1,6 +1,7 @@
 """`raytree render --dask` as a user types it, in a process of its own, on a cluster of two."""
 
 import json
+import os
 import re
 import signal
 import subprocess
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from distributed import Client
 from distributed.diagnostics.plugin import SchedulerPlugin
 
 from tests.tracer.test_cluster import local_cluster
@@ -82,6 +84,30 @@ def test_interrupt_cancels_what_the_cluster_does(cluster: Any, tmp_path: Path) -
     assert b"Traceback" not in said
     assert list(tmp_path.iterdir()) == []
     assert witness.forgotten.wait(30)
+
+
+def executing() -> int:
+    """On a worker: how many calls its threads are in."""
+    from distributed import get_worker
+
+    return get_worker().state.executing_count
+
+
+def test_interrupt_frees_threads_that_are_in_the_middle_of_a_tile(cluster: Any, tmp_path: Path) -> None:
+    """Two tiles that would take hours, one a worker: once cancelled, both workers take other work."""
+    arguments = ["glass-ball", "-o", "image.npy", "--size", "32x16", "--tolerance", "0"]
+    with Client(cluster) as client:
+        command = [RAYTREE, "render", *arguments, "--dask", cluster.scheduler_address]
+        process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE)
+        while sum(client.run(executing).values()) < 2 or "trace_tiles" not in str(client.processing()):
+            assert process.poll() is None
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        assert process.returncode == 130
+        pids = client.run(os.getpid)
+        assert client.gather([client.submit(os.getpid, workers=[worker], pure=False) for worker in pids]) == [
+            *pids.values()
+        ]
 
 
 def test_a_cluster_without_workers_is_waited_for(tmp_path: Path) -> None:
