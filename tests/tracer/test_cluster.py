@@ -1,6 +1,7 @@
 """Past one machine, on a real cluster of two processes: the same bits, whatever happens to a worker."""
 
 import os
+import pickle
 import shutil
 import signal
 import subprocess
@@ -20,8 +21,11 @@ from distributed.diagnostics.plugin import SchedulerPlugin
 import tracer
 from tests.scenes import ball, world_of
 from tracer.cluster import ClusterError, connect
+from tracer.job import Job, trace_tiles
+from tracer.limits import make_limits
 from tracer.scene import Image, Light, Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
+from tracer.tile import Area, trace_area
 
 ROOT = Path(__file__).parent.parent.parent
 
@@ -81,6 +85,21 @@ def test_cluster_traces_the_same_bits(cluster: Any, world: tracer.World, options
     assert image.threads == 2
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
+
+
+def test_what_came_over_a_wire_is_traced_as_it_is(world: tracer.World) -> None:
+    """Arrays may then be read-only and lie at odd addresses: aligned they must be, and nothing is compiled for it."""
+    job = Job(world, world.view(), make_limits(world, records=False))
+    sent: list[pickle.PickleBuffer] = []
+    head = pickle.dumps(job.task, protocol=5, buffer_callback=sent.append)
+    came = [memoryview(b"?" + buffer.raw().tobytes())[1:] for buffer in sent]
+    task = pickle.loads(head, buffers=came)
+    assert len(came) > 8
+    (tile,) = trace_tiles(task, [Area(150, 100, 170, 120, 1, 0)])
+    assert tile.pixels is not None
+    assert (tile.pixels == tracer.render(world).pixels[100:120, 150:170]).all()
+    assert len(trace_area.signatures) == 1
+    assert all(value.flags.aligned for value in vars(task.arrays)["_fields"])
 
 
 def test_any_executor_traces_the_same_bits(world: tracer.World) -> None:
