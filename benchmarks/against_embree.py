@@ -1,7 +1,8 @@
 """First hits on a mesh of 327 680 triangles against Embree's, one ray at a time on one thread each.
 
-Embree (I. Wald et al., "Embree: A Kernel Framework for Efficient CPU Ray Tracing", SIGGRAPH 2014) by the package embreex.
-It counts in single precision, we in double. Both are told the same rays and corners, and must meet the same triangles.
+Embree (I. Wald et al., "Embree: A Kernel Framework for Efficient CPU Ray Tracing", SIGGRAPH 2014) by the package
+embreex. It counts in single precision, we in double. Both are told the same rays and corners, and must meet the same
+triangles.
 """
 
 import time

@@ -1,11 +1,11 @@
-"""Our time for an image against POV-Ray's: 512x512, depth 4, weights down to 1/255, scene by scene and over all of them.
+"""Our time for an image against POV-Ray's: 512x512, depth 4, weights down to 1/255, scene by scene and together.
 
 And, as a part of its own, how many rays each program follows where nothing is cut.
 """
 
 import statistics
 
-from benchmarks.entries import entries
+from benchmarks.entries import Entry, entries
 from benchmarks.figure import Figure, Spread, compared
 from benchmarks.race import need_povray
 from benchmarks.task import Options, Task
@@ -17,7 +17,7 @@ TOGETHER = 2.5
 def times(options: Options) -> list[Task]:
     ratios: dict[str, list[list[float]]] = {}
 
-    def race(entry) -> list[Figure]:
+    def race(entry: Entry) -> list[Figure]:
         need_povray()
         ours, theirs = entry.race().times(options.runs)
         kind = "a folder's scenes" if entry.file else "made scenes"
@@ -40,7 +40,7 @@ def times(options: Options) -> list[Task]:
 
 
 def counts(options: Options) -> list[Task]:
-    def count(entry) -> list[Figure]:
+    def count(entry: Entry) -> list[Figure]:
         need_povray()
         ours, theirs = entry.count().counts()
         pairs = (

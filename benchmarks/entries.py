@@ -1,7 +1,7 @@
 """Whose images are compared: the scenes made here, and a folder's NAME.nff with NAME.pov beside it or in `pov`.
 
-What such suites write for POV-Ray is its language of version 3.1, with its own defaults: five levels with the camera's, and
-rays that weigh less than 1/255 are not followed. Our own source for the made scenes says the same.
+A folder's POV-Ray source is taken for its language of version 3.1, with its defaults: five levels with the camera's,
+and rays that weigh less than 1/255 are not followed. Our own source for the made scenes says the same.
 """
 
 import tempfile
@@ -34,7 +34,7 @@ class Entry:
         return Race(scene, povray.write_scene(scene, DEPTH, SIZE, LEAST), SIZE, DEPTH, LEAST)
 
     def count(self) -> Race:
-        """With nothing cut. POV-Ray also counts the rays that are too deep to be traced: so one level less is the same."""
+        """With nothing cut. POV-Ray also counts the rays that are too deep to be traced: it gets one level less."""
         if self.file:
             return Race(tracer.load(self.file), EVERY_RAY + self.pov_source(), SIZE, DEPTH, 0.0, ("+MV3.1",))
         scene = self.made()

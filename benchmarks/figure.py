@@ -50,8 +50,10 @@ class Figure:
 
     @staticmethod
     def from_dict(row: dict[str, Any]) -> "Figure":
-        spreads = {name: Spread(**row[name]) for name in ("ours", "theirs", "ratio") if row[name]}
-        return Figure(**{key: value for key, value in row.items() if key != "met"} | spreads)
+        fields = {key: value for key, value in row.items() if key != "met"}
+        for name in ("ours", "theirs", "ratio"):
+            fields[name] = Spread(**row[name]) if row[name] else None
+        return Figure(**fields)
 
 
 def in_turn(runs: int, *measures: Callable[[], float]) -> list[list[float]]:
@@ -60,8 +62,18 @@ def in_turn(runs: int, *measures: Callable[[], float]) -> list[list[float]]:
     return [list(values) for values in zip(*rounds[1:], strict=True)]
 
 
-def compared(part: str, what: str, unit: str, ours: Sequence[float], than: str, theirs: Sequence[float], **more: Any):
-    """A figure whose ratio is ours over theirs, run by run; of times as fast where `faster`."""
-    inverse = more.pop("faster", False)
-    ratios = [b / a if inverse else a / b for a, b in zip(ours, theirs, strict=True)]
-    return Figure(part, what, unit, Spread.of(ours), than, Spread.of(theirs), Spread.of(ratios), **more)
+def compared(
+    part: str,
+    what: str,
+    unit: str,
+    ours: Sequence[float],
+    than: str,
+    theirs: Sequence[float],
+    *,
+    faster: bool = False,
+    wanted: float | None = None,
+    at_least: bool = True,
+) -> Figure:
+    """A figure whose ratio is ours over theirs, run by run; theirs over ours where times say how much `faster`."""
+    ratios = [b / a if faster else a / b for a, b in zip(ours, theirs, strict=True)]
+    return Figure(part, what, unit, Spread.of(ours), than, Spread.of(theirs), Spread.of(ratios), wanted, at_least)

@@ -1,7 +1,7 @@
 """A fractal mountain of small triangles, and four glass balls that hang over it.
 
 Heights by halving: every new point is the mean of its neighbours plus chance, and chance shrinks with the distance
-(Fournier, Fussell & Carpenter, "Computer Rendering of Stochastic Models", CACM 25(6), 1982; here as diamonds and squares).
+(Fournier, Fussell & Carpenter, "Computer Rendering of Stochastic Models", CACM 25(6), 1982; here diamonds and squares).
 """
 
 import numpy as np

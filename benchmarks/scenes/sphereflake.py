@@ -1,7 +1,7 @@
 """Sphereflake: a mirror ball with nine balls of a third of its radius on it, each of those with nine, and so on.
 
-The nine sit where in the closest packing of equal balls the neighbours are (six about the middle, three on top), so that
-none meets another of the nine, and the side towards the parent is free. Level L has 9^L balls.
+The nine sit where in the closest packing of equal balls the neighbours are (six about the middle, three on top), so
+that none meets another of the nine, and the side towards the parent is free. Level L has 9^L balls.
 """
 
 import math
