@@ -32,12 +32,13 @@ def test_tracer_never_imports_the_viewer_nor_its_libraries() -> None:
 
 
 def test_one_place_knows_each_library() -> None:
-    """Numba: `jit` and `bundle`; glfw: `window`; trimesh: `formats.meshes`."""
+    """Numba: `jit` and `bundle`; glfw: `window`; trimesh: `formats.meshes`; Dask: `cluster`."""
     homes = {
         "numba": {"tracer/jit.py", "tracer/bundle.py", "tracer/lanes.py"},
         "llvmlite": {"tracer/bundle.py", "tracer/lanes.py"},
         "glfw": {"viewer/window.py"},
         "trimesh": {"tracer/formats/meshes.py"},
+        "distributed": {"tracer/cluster.py"},
     }
     for library, home in homes.items():
         users = {str(path.relative_to(ROOT)) for path in SOURCES if library in {n.split(".")[0] for n in imports(path)}}
@@ -46,7 +47,8 @@ def test_one_place_knows_each_library() -> None:
 
 def test_importing_the_tracer_brings_no_window_and_no_mesh_library() -> None:
     program = (
-        "import sys, tracer; print(sorted({'moderngl', 'glfw', 'imgui_bundle', 'trimesh', 'PIL'} & set(sys.modules)))"
+        "import sys, tracer, tracer.cluster\n"
+        "print(sorted({'moderngl', 'glfw', 'imgui_bundle', 'trimesh', 'PIL', 'dask'} & set(sys.modules)))"
     )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "[]"

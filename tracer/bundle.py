@@ -26,6 +26,7 @@ class Bundle:
 
     def __init__(self, fields: NamedTuple, writable: bool = False, ragged: tuple[str, ...] = ()) -> None:
         self._fields = fields
+        self._options = (writable, ragged)
         table: list[int] = []
         entries: list[Entry] = []
         for name, value in fields._asdict().items():
@@ -43,10 +44,22 @@ class Bundle:
         self.address = self._table.ctypes.data
         self.numba_type = BundleType(tuple(entries))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """In another process it has other addresses: it is made anew, of what it was made of."""
+        return (_received, (self._fields, *self._options))
+
     def __getattr__(self, name: str) -> Any:
         value = getattr(self._fields, name)
         # With its fields as attributes, as compiled code has them: so kernels run as plain Python too.
         return value.view(np.recarray) if isinstance(value, np.ndarray) and value.dtype.names else value
+
+
+def _received(fields: NamedTuple, writable: bool, ragged: tuple[str, ...]) -> Bundle:
+    """A Bundle of arrays that came over a wire: they lie at any address, and kernels count on aligned ones."""
+    aligned = {
+        name: np.require(a, requirements="A") for name, a in fields._asdict().items() if isinstance(a, np.ndarray)
+    }
+    return Bundle(fields._replace(**aligned), writable, ragged)
 
 
 class Entry(NamedTuple):

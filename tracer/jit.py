@@ -8,16 +8,19 @@ a change in the entry point's own file only and would go on using stale code of 
 
 import hashlib
 import os
+import platform
 import shutil
 import tempfile
 from collections.abc import Callable
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 import numba
 import platformdirs
 from numba import types
+from numba.core.registry import cpu_target
 from numba.extending import lower_builtin, register_jitable, type_callable
 
 P = ParamSpec("P")
@@ -123,13 +126,38 @@ def is_cached(entry: Any) -> bool:
 
 
 @cache
+def source_digest() -> str:
+    """Of every source of this package: two with the same one trace the same."""
+    digest = hashlib.sha256()
+    for source in sorted(Path(__file__).parent.rglob("*.py")):
+        digest.update(source.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+@cache
+def versions() -> dict[str, str]:
+    """What makes the machine code: processes where these are the same trace the same, on one kind of machine."""
+    return {
+        "raytree": f"{version('raytree')}/{source_digest()}",
+        **{name: version(name) for name in ("numba", "llvmlite", "numpy")},
+    }
+
+
+@cache
+def machine() -> dict[str, str]:
+    """What else an image's last bits depend on."""
+    code: Any = cpu_target.target_context
+    _, cpu, features = code.codegen().magic_tuple()
+    return {
+        "processor": f"{cpu}/{hashlib.sha256(features.encode()).hexdigest()[:8]}",
+        "C library": " ".join(filter(None, platform.libc_ver())) or platform.platform(),  # has the power of highlights
+    }
+
+
+@cache
 def cache_folder() -> Path:
     """Where machine code of exactly these sources is kept: the user's cache folder, else a temporary one."""
-    sources = sorted(Path(__file__).parent.rglob("*.py"))
-    digest = hashlib.sha256()
-    for source in sources:
-        digest.update(source.read_bytes())
-    name = f"kernels-{digest.hexdigest()[:16]}"
+    name = f"kernels-{source_digest()}"
     for parent in (platformdirs.user_cache_path("raytree"), Path(tempfile.gettempdir()) / "raytree"):
         folder = parent / name
         try:

@@ -1,4 +1,4 @@
-"""The image: every pixel's tree, tile by tile on a pool of threads, of each tree only the colour kept.
+"""The image: every pixel's tree, tile by tile on a pool of threads or a cluster, of each tree only the colour kept.
 
 Tiles write disjoint pixels and no sum crosses a tile's border, so the image has the same bits for any number of threads
 and any order of tiles. Passes from coarse to fine trace no pixel twice.
@@ -6,33 +6,35 @@ and any order of tiles. Passes from coarse to fine trace no pixel twice.
 
 import math
 import os
+import threading
 import time
 from collections import deque
 from collections.abc import Callable, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor
-from dataclasses import dataclass, field
-from queue import Empty, SimpleQueue
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from contextlib import nullcontext
+from dataclasses import dataclass
+from queue import SimpleQueue
 
 import numpy as np
 
 from tracer.bound import brightest
 from tracer.bvh import FLAT
-from tracer.camera import View
 from tracer.jit import is_compiled
-from tracer.limits import MAX_NODES, Limits, make_limits
+from tracer.job import SMALL_TILE, TILE, Cancelled, Job, Remote, Traced, never, passes, trace_tiles
+from tracer.limits import MAX_NODES, make_limits
 from tracer.nodes import KINDS
 from tracer.scene import Material, Object, Scene
 from tracer.shapes.sphere import Sphere
-from tracer.tile import CENTER, Area, Samples, Workspace, run, trace_area
-from tracer.tree import checked_size, solids_at, trace, words
+from tracer.tile import CENTER, Area, Samples, trace_area
+from tracer.tree import checked_size, trace
 from tracer.world import World, prepare
 
-TILE = 64  # pixels a side: some milliseconds of work, so that cancelling is quick and threads end together
 COARSE_TO_FINE = (8, 4, 2, 1)
+AHEAD = 2  # calls a thread: one it works on, one that waits
+MOST_TILES = 16  # that another process is sent at a time, for a message costs a millisecond
 
 Progress = Callable[[float], None]
 Finished = Callable[[Area, float], None]
-Cancelled = Callable[[], bool]
 
 
 class Stopped(Exception):
@@ -60,101 +62,56 @@ class Image:
         return f"<Image {width}x{height}: {sum(self.rays.values())} rays in {self.seconds['trace']:.3f} s>"
 
 
-@dataclass(eq=False)
-class Job:
-    """An image in the making: what is to be traced, and the pixels so far."""
-
-    world: World
-    view: View
-    limits: Limits
-    samples: Samples = CENTER
-    pixels: np.ndarray = field(init=False)
-    rays: np.ndarray = field(init=False)
-    residuals: dict[Area, np.ndarray] = field(init=False)
-    eye_solids: np.ndarray = field(init=False)
-    spaces: SimpleQueue[Workspace] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.pixels = np.zeros((self.view.height, self.view.width, 3))
-        self.rays = np.zeros(len(KINDS), np.int64)
-        self.residuals = {}
-        self.eye_solids = solids_at(self.world, self.view.eye)
-        self.spaces = SimpleQueue()
-
-    def work(self, waiting: deque[Area], finished: SimpleQueue[Area | None], cancelled: Cancelled) -> Workspace:
-        """Trace one waiting tile after another, on whatever thread; None is the last that `finished` is told."""
-        try:
-            space = self.spaces.get_nowait()
-        except Empty:
-            space = Workspace(words(self.world))
-        try:
-            while waiting and not cancelled():
-                try:
-                    area = waiting.popleft()
-                except IndexError:  # another thread was faster
-                    break
-                residuals = space.arrays.residuals
-                residuals[:] = 0.0
-                run(self.world.arrays, self.view, self.limits, self.samples, area, self.eye_solids, self.pixels, space)
-                self.residuals[area] = residuals.copy()
-                finished.put(area)
-        finally:
-            finished.put(None)
-        return space
-
-    def keep(self, space: Workspace) -> None:
-        """Add what a thread has counted; its workspace is free for the next."""
-        self.rays += space.arrays.rays
-        space.arrays.rays[:] = 0
-        self.spaces.put(space)
-
-
-def passes(width: int, height: int, steps: Sequence[int] = (1,)) -> list[list[Area]]:
-    """The tiles of an image, pass by pass; `steps` halve from one to the next, down to 1."""
-    before = (0, *steps)
-    return [
-        [
-            Area(left, top, min(left + TILE, width), min(top + TILE, height), step, traced)
-            for top in range(0, height, TILE)
-            for left in range(0, width, TILE)
-        ]
-        for step, traced in zip(steps, before, strict=False)
-    ]
-
-
 def trace_passes(
     job: Job,
     all_passes: Sequence[Sequence[Area]],
     executor: Executor,
     threads: int,
     finished: Finished = lambda area, share: None,
-    cancelled: Cancelled = lambda: False,
+    cancelled: Cancelled = never,
 ) -> None:
     """Trace the tiles of each pass in their order; Stopped where `cancelled` turns true.
 
     A pass begins when the one before has ended: a coarse square must not fall onto a finer one. `finished` is told of
     each tile and of the share done, on this thread.
     """
+    here = isinstance(executor, ThreadPoolExecutor)
+    if not here and len(all_passes) > 1:
+        raise ValueError("several passes need threads of this process: a finer pass leaves the pixels of a coarser one")
     total = sum(len(areas) for areas in all_passes)
-    done = 0
+    done = due = 0
+    ended = threading.Event()  # where this thread is interrupted the others are to end, too
+    task = executor.share(job.task) if isinstance(executor, Remote) else job.task
+    if here:
+        ways = (job.pixels, lambda: ended.is_set() or cancelled())
+    else:
+        ways = (None, executor.abandoned if isinstance(executor, Remote) else never)
     for areas in all_passes:
-        waiting = deque(areas)
-        news: SimpleQueue[Area | None] = SimpleQueue()
-        workers = [executor.submit(job.work, waiting, news, cancelled) for _ in range(min(threads, len(areas)))]
-        running = len(workers)
+        due += len(areas)
+        at_once = 1 if here else min(MOST_TILES, -(-len(areas) // (4 * threads)))
+        waiting = deque(areas[k : k + at_once] for k in range(0, len(areas), at_once))
+        news: SimpleQueue[Future[list[Traced]]] = SimpleQueue()
+        running: set[Future[list[Traced]]] = set()
         try:
-            while running:
-                area = news.get()
-                if area is None:
-                    running -= 1
-                else:
+            while True:
+                while waiting and len(running) < AHEAD * threads and not cancelled():
+                    future = executor.submit(trace_tiles, task, waiting.popleft(), *ways)
+                    running.add(future)
+                    future.add_done_callback(news.put)
+                if not running:
+                    break
+                future = news.get()
+                running.remove(future)
+                for traced in future.result():
+                    job.keep(traced)
                     done += 1
-                    finished(area, done / total)
+                    finished(traced.area, done / total)
         finally:
-            waiting.clear()  # where this thread is interrupted the others are to end, too
-        for worker in workers:
-            job.keep(worker.result())
-        if done < total and cancelled():
+            if running:
+                ended.set()
+            for future in running:
+                future.cancel()
+        if done < due:
             raise Stopped
 
 
@@ -169,10 +126,14 @@ def render(
     tolerance: float | None = None,
     max_nodes: int = MAX_NODES,
     model: str | None = None,
+    executor: Executor | None = None,
     progress: Progress = lambda share: None,
-    cancelled: Cancelled = lambda: False,
+    cancelled: Cancelled = never,
 ) -> Image:
     """The scene's image. Size, depth and model are the scene's by default, threads as many as there are processors.
+
+    Tiles go to an `executor` where one is given, `threads` calls at a time: any of `concurrent.futures`, or a cluster
+    (`tracer.cluster`). The pixels are the same.
 
     One sample is the pixel's centre; more are the mean of the sampler's first points. `progress` gets the finished
     share, and where `cancelled` turns true, Stopped is raised within a tile's time. With a `tolerance` the rays that a
@@ -180,26 +141,25 @@ def render(
     """
     if samples < 1:
         raise ValueError(f"samples must be >= 1, got {samples}")
-    threads = threads or processors()
-    compiling = warm()
+    elsewhere = isinstance(executor, Remote)
+    threads = threads or (executor.threads if elsewhere else processors())
+    compiling = 0.0 if elsewhere else warm()
     view = world.view(checked_size(size))
     limits = make_limits(world, depth, min_weight, tolerance, max_nodes, model, records=False)
     job = Job(world, view, limits, CENTER if samples == 1 else Samples(0, samples))
     began = time.perf_counter()
-    with ThreadPoolExecutor(threads) as executor:
-        trace_passes(
-            job, passes(view.width, view.height), executor, threads, lambda area, share: progress(share), cancelled
-        )
+    tiles = passes(view.width, view.height, side=TILE if tolerance is None else SMALL_TILE)
+    with nullcontext(executor) if executor else ThreadPoolExecutor(threads) as pool:
+        trace_passes(job, tiles, pool, threads, lambda area, share: progress(share), cancelled)
     tracing = time.perf_counter() - began
-    figures = list(job.residuals.values())
-    largest = float(max(figure[0] for figure in figures))
+    largest = float(max(figure[0] for figure in job.residuals))
     return Image(
         pixels=job.pixels,
         seconds={"compile": compiling, "trace": tracing},
         rays={kind: int(n) for kind, n in zip(KINDS, job.rays, strict=True)},
         residual={
             "max": largest,
-            "mean": math.fsum(figure[1] for figure in figures) / (view.width * view.height),
+            "mean": math.fsum(figure[1] for figure in job.residuals) / (view.width * view.height),
         },
         threads=threads,
         size=(view.width, view.height),

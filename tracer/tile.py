@@ -4,6 +4,7 @@ An image is all its tiles; a click is the tile of one pixel, whose table is then
 pixel of a view that sees nothing else.
 """
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -48,6 +49,10 @@ class Samples(NamedTuple):
 
 CENTER = Samples(-1, 1)
 
+ENOUGH = (
+    2**20
+)  # rays, after which the kernel comes back within a tile, so that it can be stopped: some tenths of a second
+
 
 class Space(NamedTuple):
     """What a thread writes while it traces: room for one tree, and what is counted."""
@@ -60,7 +65,7 @@ class Space(NamedTuple):
     crossed: np.ndarray  # glass on the way to a light
     counted: np.ndarray  # rays of this pixel that have no row (any more), by kind; then all of them
     rays: np.ndarray  # traced so far, by kind
-    tree: np.ndarray  # rows and residual of the last tree
+    tree: np.ndarray  # rows and residual of the last tree; -1 rows where the table was too short for it
     residuals: np.ndarray  # largest and sum over the pixels so far
 
 
@@ -100,14 +105,18 @@ def trace_area(
     resume: int,
     eye_solids: Any,
     pixels: Any,
+    corner: tuple[int, int],
     space: Bundle,
 ) -> int:
     """Trace the area's pixels in reading order, from number `resume` on, into `pixels` (height, width, 3).
 
-    Returns the number of the pixel whose tree the table was too short for, or how many there are.
+    `corner` is the pixel of the image, (x, y), that stands first in `pixels`. Returns how many pixels are done: all, or
+    fewer where the next tree is too large for the table, or after ENOUGH rays.
     """
     number = 0
     residuals = space.residuals
+    left, top = corner
+    most = total(space.rays) + ENOUGH
     for y in range(area.top, area.bottom, area.step):
         for x in range(area.left, area.right, area.step):
             number += 1
@@ -115,13 +124,15 @@ def trace_area(
                 continue
             if area.traced > 0 and x % area.traced == 0 and y % area.traced == 0:
                 continue
+            if total(space.rays) >= most:
+                return number - 1
             color, residual = trace_pixel(world, view, limits, samples, x, y, eye_solids, space)
             if residual < 0.0:
                 return number - 1
             residuals[0] = max(residuals[0], residual)
             residuals[1] += residual
-            for j in range(y, min(y + area.step, pixels.shape[0])):
-                for i in range(x, min(x + area.step, pixels.shape[1])):
+            for j in range(y - top, min(y - top + area.step, pixels.shape[0])):
+                for i in range(x - left, min(x - left + area.step, pixels.shape[1])):
                     store(pixels[j, i], color)
     return number
 
@@ -154,6 +165,7 @@ def trace_pixel(
         else:
             count = trace_tree(world, limits, space)
         if count < 0:
+            space.tree[0] = -1
             return (total, -1.0)
         residual = count_rays(space, count)
         space.tree[0] = count
@@ -180,6 +192,14 @@ def count_rays(space: Bundle, count: int) -> float:
     return cut[0] + cut[1]
 
 
+@compiled
+def total(counts: Any) -> int:
+    number = 0
+    for k in range(len(counts)):
+        number += counts[k]
+    return number
+
+
 def run(
     world: Bundle,
     view: View,
@@ -189,15 +209,21 @@ def run(
     eye_solids: np.ndarray,
     pixels: np.ndarray,
     workspace: Workspace,
-) -> None:
-    """`trace_area` until it is through, with as much room as its trees need."""
+    corner: tuple[int, int] = (0, 0),
+    cancelled: Callable[[], bool] = lambda: False,
+) -> bool:
+    """`trace_area` until it is through, with as much room as its trees need; False where it was cancelled."""
     columns = -(-(area.right - area.left) // area.step)
     lines = -(-(area.bottom - area.top) // area.step)
     number = 0
-    while number < columns * lines:
-        number = trace_area(world, view, limits, samples, area, number, eye_solids, pixels, workspace.bundle)
-        if number < columns * lines:
+    while True:
+        number = trace_area(world, view, limits, samples, area, number, eye_solids, pixels, corner, workspace.bundle)
+        if number == columns * lines:
+            return True
+        if workspace.arrays.tree[0] < 0:
             workspace.grow()
+        elif cancelled():
+            return False
 
 
 def eye_view(eye: Vector, direction: Vector) -> View:

@@ -58,16 +58,28 @@ class App:
             drawn = time.perf_counter()
             took = drawn - now
 
-    def settle(self, frames: int = 3) -> None:
-        """Draw until everything is there: the scene, the first full image, the tree."""
+    def settle(
+        self,
+        frames: int = 3,
+        say: Callable[[str], None] = lambda doing: None,
+        progress: Callable[[float], None] = lambda share: None,
+    ) -> None:
+        """Draw until everything is there: the scene, the first full image, the tree.
+
+        `say` is told what is waited for, `progress` the share of the image.
+        """
         session = self.session
+        session.image.changed = lambda: progress(session.image.picture.share if session.image.picture else 0.0)
         session.warmup.wait()
+        say("load the scene")
         while session.loading:
             with contextlib.suppress(Exception):
                 session.loading.exception()
             session.update()
+        say("render the image")
         session.update()
         session.image.wait()
+        say("draw the viewer")
         for _ in range(frames):
             self.frame()
 

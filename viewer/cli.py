@@ -2,12 +2,15 @@
 
 import argparse
 import difflib
+import os
 import re
 import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 from typing import NoReturn
+
+from viewer.interrupt import Interrupted, interruptible
 
 COMMANDS = ("view", "trace", "render", "plan", "check", "lessons")
 FORMATS = ("text", "json", "csv", "dot")
@@ -31,6 +34,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         close = difflib.get_close_matches(given[0], COMMANDS, 1)
         parser.error(f'no command "{given[0]}": did you mean "raytree {close[0] if close else f"view {given[0]}"}"?')
     options = parser.parse_args(_joined(given))
+    try:
+        with interruptible():
+            return run(options)
+    except Interrupted as asked:
+        print("stopped", file=sys.stderr, flush=True)
+        os._exit(asked.status)  # at once: a thread in a library's C code would be waited for, and none is needed
+
+
+def run(options: argparse.Namespace) -> int:
     from viewer import commands
     from viewer.files import Unusable
 
@@ -40,9 +52,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except Unusable as unusable:
         print(unusable, file=sys.stderr)
         return 2
-    except KeyboardInterrupt:
-        print("stopped", file=sys.stderr)
-        return 130
     except BrokenPipeError:  # the reader of our output has seen enough
         sys.stderr.close()
         return 0
@@ -79,13 +88,18 @@ def make_parser() -> Parser:
     )
     trace.add_argument("-o", "--output", type=Path, metavar="FILE", help="write there instead of the terminal")
 
-    render = commands.add_parser("render", help="the scene's image into a file")
-    render.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
-    render.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png, .npy or .exr")
+    render = commands.add_parser("render", help="a scene's image into a file, or the images of several into a folder")
+    render.add_argument("scene", nargs="+", metavar="SCENE", help=SCENE_HELP)
+    render.add_argument(
+        "-o", "--output", required=True, metavar="FILE|FOLDER/", help=".png, .npy or .exr; a folder for several scenes"
+    )
+    render.add_argument("--format", choices=("png", "npy", "exr"), help="of the files in a folder, png by default")
     _add_limits(render)
     render.add_argument("--size", type=pair("x"), metavar="WxH", help="of the image, the scene's own by default")
     render.add_argument("--samples", type=at_least(1), default=1, metavar="N", help="a pixel; 1 is its centre")
-    render.add_argument("--threads", type=at_least(1), metavar="N", help="as many as processors by default")
+    where = render.add_mutually_exclusive_group()
+    where.add_argument("--threads", type=at_least(1), metavar="N", help="as many as processors by default")
+    where.add_argument("--dask", metavar="tcp://HOST:PORT", help="trace on the Dask cluster of this scheduler")
     render.add_argument("--stats", type=Path, metavar="FILE.json", help="times, ray counts and what was left out")
 
     plan = commands.add_parser("plan", help="what a scene needs of the tracer, and what is left out")

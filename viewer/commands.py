@@ -1,8 +1,6 @@
 """What the commands do: each takes the parsed arguments and returns the exit status."""
 
 import contextlib
-import json
-import math
 import sys
 import time
 from argparse import Namespace
@@ -12,12 +10,14 @@ from pathlib import Path
 import tracer
 from tracer.formats import READERS
 from tracer.jit import is_cached
-from tracer.outline import light_missing, number
 from tracer.render import fill_cache
 from tracer.tile import trace_area
 from viewer import lesson
 from viewer.files import Unusable, check_writable, write_atomically
 from viewer.lesson import Lesson
+from viewer.progress import Progress
+
+COMPILING = "prepare the tracer: its formulas are compiled, only this once, in about half a minute"
 
 
 def lessons(options: Namespace) -> int:
@@ -32,8 +32,7 @@ def trace(options: Namespace) -> int:
     path, _ = find(options.scene)
     compile_once()
     with faults():
-        world = tracer.prepare(tracer.load(path))
-        put_notes(world)
+        world = prepared(path)
         ray = (options.ray[:3], options.ray[3:]) if options.ray else None
         tree = tracer.trace(
             world,
@@ -54,59 +53,15 @@ def trace(options: Namespace) -> int:
 
 
 def render(options: Namespace) -> int:
-    from viewer.picture import check_format, write_picture
+    from viewer.rendering import render
 
-    check_format(options.output)
-    for path in filter(None, (options.output, options.stats)):
-        check_writable(path)
-    path, _ = find(options.scene)
-    compiling = compile_once()
-    with faults():
-        began = time.perf_counter()
-        scene = tracer.load(path)
-        loaded = time.perf_counter()
-        world = tracer.prepare(scene)
-        put_notes(world)
-        prepared = time.perf_counter()
-        with Progress("rendering") as progress:
-            image = tracer.render(
-                world,
-                options.size,
-                options.samples,
-                options.depth,
-                options.threads,
-                min_weight=options.min_weight,
-                tolerance=options.tolerance,
-                model=options.model,
-                progress=progress,
-            )
-    write_picture(options.output, image.pixels)
-    if options.tolerance is not None:
-        most = number(image.residual["max"])
-        print(f"a pixel's rays that were cut carry at most {most} of the weight{light_missing(image.bound)}")
-    image.seconds["compile"] += compiling
-    if options.stats:
-        stats = {
-            "seconds": {"load": loaded - began, "prepare": prepared - loaded, **image.seconds},
-            "rays": image.rays,
-            "threads": image.threads,
-            "size": list(image.size),
-            "samples": image.samples,
-            "depth": image.depth,
-            "tolerance": image.tolerance,
-            "residual": image.residual,
-            "bound": image.bound if math.isfinite(image.bound) else None,
-            "left_out": image.left_out,
-        }
-        write_atomically(options.stats, (json.dumps(stats, indent=1) + "\n").encode("utf-8"))
-    return 0
+    return render(options)
 
 
 def plan(options: Namespace) -> int:
     path, _ = find(options.scene)
     with faults():
-        world = tracer.prepare(tracer.load(path))
-        put_notes(world)
+        world = prepared(path)
     width = max(len(need.name) for need in world.needs)
     lines = [f"{need.name:{width}}  {'needed' if need.needed else 'left out':8}  {need.why}" for need in world.needs]
     put("\n".join(lines) + "\n")
@@ -122,7 +77,7 @@ def check(options: Namespace) -> int:
     compile_once()
 
     def watched(cases: Sequence[Case]) -> list[Result]:
-        with Progress("checking") as progress:
+        with Progress("check") as progress:
             return run_all(cases, progress)
 
     return checktable.check(cases, options.explain, options.json, put, watched)
@@ -160,18 +115,24 @@ def faults() -> Iterator[None]:
         raise Unusable(f"raytree: {error}") from None
 
 
-def put_notes(world: tracer.World) -> None:
-    for note in world.notes:
-        print(f"note: {note}", file=sys.stderr)
+def prepared(path: Path) -> tracer.World:
+    """The scene in a file, ready to be traced, its notes said."""
+    with Progress(f"load {path.name}") as progress:
+        scene = tracer.load(path, progress)
+        progress.say(f"prepare {path.name}")
+        world = tracer.prepare(scene)
+        for note in world.notes:
+            progress.put(f"note: {note}")
+    return world
 
 
 def compile_once() -> float:
     """On the very first start on a machine compile all kernels, and say why nothing is to be seen; the seconds."""
     if is_cached(trace_area):
         return 0.0
-    print("preparing the tracer: its formulas are compiled, only this once", file=sys.stderr, flush=True)
     began = time.perf_counter()
-    fill_cache()
+    with Progress(COMPILING, at_once=True):
+        fill_cache()
     return time.perf_counter() - began
 
 
@@ -195,29 +156,3 @@ def put(text: str) -> None:
     """To the terminal, in UTF-8 whatever the system's own encoding is."""
     sys.stdout.buffer.write(text.encode("utf-8"))
     sys.stdout.buffer.flush()
-
-
-class Progress:
-    """One line on a terminal, once something takes over a second: the share done and the time left."""
-
-    def __init__(self, doing: str) -> None:
-        self.doing = doing
-        self.began = time.perf_counter()
-        self.shown = 0.0
-
-    def __enter__(self) -> "Progress":
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        if self.shown:
-            sys.stderr.write("\r\x1b[K")
-            sys.stderr.flush()
-
-    def __call__(self, share: float) -> None:
-        now = time.perf_counter()
-        passed = now - self.began
-        if passed > 1.0 and now - self.shown > 0.2 and share > 0.0 and sys.stderr.isatty():
-            self.shown = now
-            left = passed * (1.0 - share) / share
-            sys.stderr.write(f"\r\x1b[K{self.doing}: {100 * share:.0f} %, {left:.0f} s left")
-            sys.stderr.flush()

@@ -291,4 +291,4 @@ class Session:
     def close(self) -> None:
         self.warmup.close()
         self.image.close()
-        self.loader.shutdown(cancel_futures=True)
+        self.loader.shutdown(wait=False, cancel_futures=True)

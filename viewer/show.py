@@ -7,10 +7,11 @@ import platformdirs
 
 import tracer
 from viewer.app import App
-from viewer.commands import compile_once, faults, put
+from viewer.commands import COMPILING, compile_once, faults, prepared, put
 from viewer.files import Unusable, check_writable
 from viewer.lesson import Lesson
 from viewer.picture import write_picture
+from viewer.progress import Progress
 from viewer.session import Session
 from viewer.window import NoWindow, Offscreen, Window
 
@@ -46,10 +47,13 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: Namespace, targe
         raise Unusable(str(reason)) from None
     try:
         app.session.open(path, lesson, options.depth, options.pixel, options.model)
-        app.settle()
-        if app.session.faults:
-            raise Unusable(*app.session.faults)
-        write_picture(target, app.surface.grab())
+        with (
+            Progress(COMPILING, at_once=True) if app.session.warmup.compiles else Progress("load the scene") as progress
+        ):
+            app.settle(say=progress.say, progress=progress)
+            if app.session.faults:
+                raise Unusable(*app.session.faults)
+            write_picture(target, app.surface.grab())
     finally:
         app.close()
 
@@ -59,7 +63,7 @@ def without_display(path: Path, lesson: Lesson | None, options: Namespace, reaso
     put(f"{reason}.\n")
     compile_once()
     with faults():
-        world = tracer.prepare(tracer.load(path))
+        world = prepared(path)
         image = world.scene.image
         pixel = options.pixel or (lesson and lesson.pixel) or (image.width // 2, image.height // 2)
         depth = options.depth if options.depth is not None else lesson and lesson.depth

@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -97,6 +96,21 @@ def test_render_in_every_format(tmp_path: Path, worlds: dict[str, tracer.World])
     assert "vertex normals" in found["left_out"]
 
 
+def test_several_scenes_are_rendered_into_a_folder(tmp_path: Path, worlds: dict[str, tracer.World]) -> None:
+    """One that has a fault is named and left out; the others are made."""
+    (tmp_path / "bad.toml").write_text('format = 1\n[[object]]\nshape = "sphere"\ncenter = [0, 0, 0]\nradius = -1\n')
+    arguments = ["two-lights", "bad.toml", "scale", "-o", "figures/", "--format", "npy", "--size", "40x30"]
+    run = raytree("render", *arguments, "--stats", "stats.json", cwd=tmp_path)
+    assert run.returncode == 2
+    assert run.stderr == "bad.toml: object[0]: radius must be > 0, got -1\n"
+    assert sorted(path.name for path in (tmp_path / "figures").iterdir()) == ["scale.npy", "two-lights.npy"]
+    for name in ("two-lights", "scale"):
+        expected = tracer.render(worlds[name], (40, 30)).pixels
+        assert np.load(tmp_path / "figures" / f"{name}.npy").tobytes() == expected.tobytes()
+    figures = json.loads((tmp_path / "stats.json").read_text())["images"]
+    assert [figure["image"] for figure in figures] == ["figures/two-lights.npy", "figures/scale.npy"]
+
+
 def test_plan_says_what_is_left_out_and_why(capsysbinary: pytest.CaptureFixture) -> None:
     assert main(["plan", "mirror-balls"]) == 0
     lines = capsysbinary.readouterr().out.decode().splitlines()
@@ -127,6 +141,17 @@ def test_plan_says_what_is_left_out_and_why(capsysbinary: pytest.CaptureFixture)
         (["render", "mirror-balls", "-o", "no/such/folder/image.png"], "folder not found"),
         (["render", "mirror-balls", "-o", "image.png", "--samples", "0"], "a whole number >= 1"),
         (["render", "mirror-balls", "-o", "image.png", "--size", "0x4"], "a size from 1x1"),
+        (["render", "mirror-balls", "two-lights", "-o", "no/such/folder"], "folder not found"),
+        (
+            ["render", "mirror-balls", "mirror-balls", "-o", "all"],
+            "2 scenes would be written to the same file: mirror-b",
+        ),
+        (["render", "mirror-balls", "-o", "image.png", "--format", "npy"], "--format is for images in a folder"),
+        (
+            ["render", "mirror-balls", "-o", "image.png", "--dask", "nowhere"],
+            'must be like tcp://host:8786, got "nowhere"',
+        ),
+        (["render", "mirror-balls", "-o", "image.png", "--dask", "a:1", "--threads", "2"], "not allowed with argument"),
         (["view", "mirror-balls", "--screenshot", "shot.jpg"], "a screenshot must be a .png file"),
         (["view", "mirror-balls", "--screenshot", "shot.png", "--pixel", "-3,1"], "within 0,0 .. 799,599, got -3,1"),
         (["view", "mirror-balls", "--screenshot", "shot.png", "--pixel", "9999,1"], "got 9999,1"),
@@ -161,36 +186,6 @@ def test_every_fault_of_a_scene_is_a_line(tmp_path: Path) -> None:
             'scene.toml: object[0] "ball": center must be three numbers [x, y, z], got [0, 0]',
             'scene.toml: object[0] "ball": radius must be > 0, got -1',
         ]
-
-
-def test_interrupted_rendering_leaves_the_old_file(tmp_path: Path) -> None:
-    """Stopped in the middle of an image that would take minutes: the old file is untouched, nothing is beside it."""
-    target = tmp_path / "image.png"
-    target.write_bytes(b"old")
-    command = [sys.executable, "-c", INTERRUPTED]
-    arguments = ["render", "glass-ball", "-o", str(target), "--size", "4000x3000", "--samples", "64"]
-    process = subprocess.Popen([*command, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    assert process.stdout
-    assert process.stdout.readline() == b"rendering\n"
-    process.send_signal(signal.SIGINT)
-    process.communicate(timeout=60)
-    assert process.returncode == 130
-    assert target.read_bytes() == b"old"
-    assert list(tmp_path.iterdir()) == [target]
-
-
-# Says when the first tiles are done, so that nothing has to be waited for by the clock.
-INTERRUPTED = """
-import sys
-from viewer import commands
-from viewer.cli import main
-inner = commands.Progress.__call__
-def told(self, share):
-    print("rendering", flush=True)
-    inner(self, share)
-commands.Progress.__call__ = told
-sys.exit(main(sys.argv[1:]))
-"""
 
 
 def test_a_name_on_the_command_line_is_the_lesson_of_that_name() -> None:

@@ -8,15 +8,21 @@ from tracer.formats.nff import SUFFIX, read_nff
 from tracer.formats.toml import read_scene
 from tracer.scene import Scene, SceneError
 
-READERS: dict[str, Callable[[Path], Scene]] = {
+Progress = Callable[[float], None]
+
+# Each is told the file and whom to tell the share of it that has been read.
+READERS: dict[str, Callable[[Path, Progress], Scene]] = {
     ".toml": read_scene,
     SUFFIX: read_nff,
     **dict.fromkeys(SUFFIXES, read_mesh_scene),
 }
 
 
-def load(path: str | Path) -> Scene:
-    """The scene in a file, its format told by its name. SceneError: every fault, one line each."""
+def load(path: str | Path, progress: Progress = lambda share: None) -> Scene:
+    """The scene in a file, its format told by its name. SceneError: every fault, one line each.
+
+    `progress` gets the share that has been read, where the format lets it be known.
+    """
     path = Path(path)
     reader = READERS.get(path.suffix.lower())
     if reader is None:
@@ -24,7 +30,7 @@ def load(path: str | Path) -> Scene:
     if path.is_dir():
         raise SceneError([f"{path}: a scene must be a file, got a folder"])
     try:
-        return reader(path)
+        return reader(path, progress)
     except FileNotFoundError:
         raise SceneError([f"{path}: file not found"]) from None
     except OSError as error:

@@ -8,6 +8,7 @@ import json
 import logging
 import math
 import struct
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -40,8 +41,8 @@ class Part:
     material: Material
 
 
-def read_mesh_scene(path: Path) -> Scene:
-    """A scene of nothing but this mesh, in light from above the camera."""
+def read_mesh_scene(path: Path, progress: Callable[[float], None]) -> Scene:
+    """A scene of nothing but this mesh, in light from above the camera. Its library reads it whole: no progress."""
     if not path.exists():
         raise FileNotFoundError(path)
     try:

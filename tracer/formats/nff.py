@@ -14,7 +14,7 @@ are seen from both sides, also those of negative radius, which the format means 
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -57,13 +57,13 @@ class Patches:
         return Mesh(Geometry(corners, np.arange(len(corners)).reshape(-1, 3), normals))
 
 
-def read_nff(path: Path) -> Scene:
+def read_nff(path: Path, progress: Callable[[float], None]) -> Scene:
     """The scene in a file. SceneError lists every fault; OSError where the file cannot be read."""
     try:
         text = path.read_bytes().decode("utf-8")
     except UnicodeDecodeError as error:
         raise SceneError([f"{path}: byte {error.start}: an NFF file is text, got something else"]) from None
-    return Reader(path, Words(text)).scene()
+    return Reader(path, Words(text)).scene(progress)
 
 
 class Reader:
@@ -79,8 +79,9 @@ class Reader:
         self.shapes: list[tuple[Shape, Material]] = []
         self.run: Patches | None = None
 
-    def scene(self) -> Scene:
+    def scene(self, progress: Callable[[float], None]) -> Scene:
         while self.words.left():
+            progress(self.words.share())
             word = self.words.take()
             try:
                 self._entity(word)

@@ -4,7 +4,7 @@ A fault is one line: `scene.toml: object[2] "ball": radius must be > 0, got -1`.
 """
 
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -38,7 +38,7 @@ OWN_KEYS = ("name", "priority", "thin")  # of an object, whatever its shape
 OBJECT_KEYS = ("shape", "material", *OWN_KEYS)
 
 
-def read_scene(path: Path) -> Scene:
+def read_scene(path: Path, progress: Callable[[float], None]) -> Scene:
     """The scene in a file. SceneError lists every fault; OSError where the file cannot be read."""
     try:
         document = tomllib.loads(path.read_bytes().decode("utf-8"))
@@ -46,7 +46,7 @@ def read_scene(path: Path) -> Scene:
         raise SceneError([f"{path}: byte {error.start}: a scene file is UTF-8 text, got something else"]) from None
     except tomllib.TOMLDecodeError as error:
         raise SceneError([f"{path}: not TOML: {str(error)[:1].lower()}{str(error)[1:]}"]) from None
-    return Reader(path).scene(document)
+    return Reader(path).scene(document, progress)
 
 
 class Reader:
@@ -59,7 +59,7 @@ class Reader:
     def fault(self, where: str, *what: str) -> None:
         self.faults += [f"{self.path}: {where}: {line}" if where else f"{self.path}: {line}" for line in what]
 
-    def scene(self, document: dict[str, Any]) -> Scene:
+    def scene(self, document: dict[str, Any], progress: Callable[[float], None]) -> Scene:
         self._format(document)
         for key in document:
             if key not in KEYS:
@@ -73,7 +73,11 @@ class Reader:
         tracing = self.table(Tracing, "tracing", document.get("tracing", {}))
         lights = [self.table(Light, *item) for item in self.tables(document, "light")]
         materials = self._materials(document)
-        objects = [part for item in self.tables(document, "object") for part in self._object(*item, materials)]
+        objects: list[Object] = []
+        tables = list(self.tables(document, "object"))
+        for k, item in enumerate(tables):
+            progress(k / len(tables))  # each may name a mesh
+            objects += self._object(*item, materials)
         if not document.get("object"):
             self.fault("", "a scene needs at least one [[object]], got none")
         if self.faults or camera is None or image is None or background is None or tracing is None:

@@ -30,6 +30,10 @@ class Words:
     def left(self) -> bool:
         return self.at < len(self.words)
 
+    def share(self) -> float:
+        """Of the words that have been read."""
+        return self.at / len(self.words)
+
     def take(self) -> Word:
         self.at += 1
         return self.words[self.at - 1]

@@ -1,0 +1,55 @@
+"""A program on a terminal of its own, to be waited for by what it says."""
+
+import contextlib
+import os
+import pty
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+RAYTREE = str(Path(sys.executable).parent / "raytree")
+
+
+class Terminal:
+    """What a raytree command says on a terminal, in the order in which it comes."""
+
+    def __init__(self, arguments: list[str], cwd: Path, environment: dict[str, str]) -> None:
+        self.end, far = pty.openpty()
+        command = [RAYTREE, *arguments]
+        self.process = subprocess.Popen(
+            command, stdin=far, stdout=far, stderr=far, cwd=cwd, env={**os.environ, **environment}
+        )
+        os.close(far)
+        self.said = ""
+
+    def read(self) -> str:
+        """More of it; nothing once the program has ended."""
+        try:
+            more = os.read(self.end, 4096).decode("utf-8", "replace")
+        except OSError:  # how Linux says that the other end is closed
+            return ""
+        self.said += more
+        return more
+
+    def wait_for(self, pattern: str) -> None:
+        while not re.search(pattern, self.said):
+            assert self.read(), f"ended without {pattern!r}, having said {self.said!r}"
+
+    def wait(self) -> int:
+        while self.read():
+            pass
+        return self.process.wait()
+
+
+@contextlib.contextmanager
+def on_a_terminal(arguments: list[str], cwd: Path, **environment: str) -> Iterator[Terminal]:
+    terminal = Terminal(arguments, cwd, environment)
+    try:
+        yield terminal
+    finally:
+        if terminal.process.poll() is None:
+            terminal.process.kill()
+            terminal.process.wait()
+        os.close(terminal.end)

@@ -1,0 +1,144 @@
+"""The work of an image, cut into tiles: a tile is a pure function of it, whichever thread or machine computes it.
+
+A `Task` is what all tiles of an image have in common; it travels to other processes once. Threads of this process write
+their pixels into the image where they belong; other processes send them back.
+"""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+from queue import Empty, SimpleQueue
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tracer.bundle import Bundle
+from tracer.camera import View
+from tracer.jit import versions
+from tracer.limits import Limits
+from tracer.nodes import KINDS
+from tracer.tile import CENTER, Area, Samples, Workspace, run
+from tracer.tree import solids_at
+from tracer.world import World
+
+TILE = 64  # pixels a side: some milliseconds of work, so that cancelling is quick and threads end together
+SMALL_TILE = 16  # where trees are followed to a tolerance: a pixel may then take a second
+
+Cancelled = Callable[[], bool]
+
+
+def never() -> bool:
+    return False
+
+
+class Mismatch(RuntimeError):
+    """A task has come to a process of other versions, which would trace other bits."""
+
+
+def difference(ours: dict[str, str], theirs: dict[str, str]) -> str:
+    """What is not the same there as here, for people; empty where all is."""
+    if theirs == ours:
+        return ""
+    return ", ".join(
+        f"{name} {theirs.get(name)} (here {ours[name]})" for name in ours if ours[name] != theirs.get(name)
+    )
+
+
+class Remote(Executor):
+    """An executor whose calls run in other processes, and what can be done to make that cheap."""
+
+    threads: int  # that can work for it at a time
+    abandoned: Cancelled  # a function of a module, asked there: whether nobody waits for the call any more
+
+    def share(self, task: "Task") -> Any:
+        """Send a task ahead; what is then to be given to each call in its place."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """All that is needed to trace any tile of one image."""
+
+    arrays: Bundle  # of the world
+    view: View
+    limits: Limits
+    samples: Samples
+    eye_solids: np.ndarray
+    made_by: dict[str, str] = field(default_factory=versions)
+    spaces: SimpleQueue[Workspace] = field(default_factory=SimpleQueue)  # of threads that are done with one
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_received, (self.arrays, self.view, self.limits, self.samples, self.eye_solids, self.made_by))
+
+
+def _received(arrays: Bundle, view: View, limits: Limits, samples: Samples, eye_solids: np.ndarray, by: Any) -> Task:
+    """What came over a wire may be read-only, for which the kernel would be compiled once more."""
+    return Task(arrays, view, limits, samples, np.array(eye_solids), by)
+
+
+class Traced(NamedTuple):
+    """A finished tile."""
+
+    area: Area
+    rays: np.ndarray  # by kind
+    residuals: np.ndarray  # largest and sum over the pixels
+    pixels: np.ndarray | None  # None: they are where they belong
+
+
+def trace_tiles(
+    task: Task, areas: Sequence[Area], image: np.ndarray | None = None, cancelled: Cancelled = never
+) -> list[Traced]:
+    """Trace these tiles into the image or, without one, into arrays of their own; those that are finished."""
+    if found := difference(task.made_by, versions()):
+        raise Mismatch(found)
+    try:
+        space = task.spaces.get_nowait()
+    except Empty:
+        space = Workspace(len(task.eye_solids))
+    done = []
+    for area in areas:
+        space.arrays.rays[:] = 0
+        space.arrays.residuals[:] = 0.0
+        pixels, corner = image, (0, 0)
+        if pixels is None:
+            pixels, corner = np.zeros((area.bottom - area.top, area.right - area.left, 3)), (area.left, area.top)
+        if cancelled() or not run(
+            task.arrays, task.view, task.limits, task.samples, area, task.eye_solids, pixels, space, corner, cancelled
+        ):
+            break
+        own = pixels if image is None else None
+        done.append(Traced(area, space.arrays.rays.copy(), space.arrays.residuals.copy(), own))
+    task.spaces.put(space)
+    return done
+
+
+class Job:
+    """An image in the making: what is to be traced, and the pixels so far."""
+
+    def __init__(self, world: World, view: View, limits: Limits, samples: Samples = CENTER) -> None:
+        self.view = view
+        self.task = Task(world.arrays, view, limits, samples, solids_at(world, view.eye))
+        self.pixels = np.zeros((view.height, view.width, 3))
+        self.rays = np.zeros(len(KINDS), np.int64)
+        self.residuals: list[np.ndarray] = []
+
+    def keep(self, traced: Traced) -> None:
+        """Take in a finished tile."""
+        area = traced.area
+        self.rays += traced.rays
+        self.residuals.append(traced.residuals)
+        if traced.pixels is not None:
+            self.pixels[area.top : area.bottom, area.left : area.right] = traced.pixels
+
+
+def passes(width: int, height: int, steps: Sequence[int] = (1,), side: int = TILE) -> list[list[Area]]:
+    """The tiles of an image, pass by pass; `steps` halve from one to the next, down to 1."""
+    before = (0, *steps)
+    return [
+        [
+            Area(left, top, min(left + side, width), min(top + side, height), step, traced)
+            for top in range(0, height, side)
+            for left in range(0, width, side)
+        ]
+        for step, traced in zip(steps, before, strict=False)
+    ]
