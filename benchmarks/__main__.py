@@ -17,7 +17,7 @@ from benchmarks.plot import as_svg
 from benchmarks.report import as_json, as_markdown, read_json
 from benchmarks.task import Options, Task
 from viewer.cli import at_least
-from viewer.commands import Progress
+from viewer.progress import Progress
 from viewer.files import Unusable, write_atomically
 
 PARTS: dict[str, Callable[[Options], list[Task]]] = {
