@@ -1,9 +1,10 @@
 """A hierarchy of boxes over the bounded surfaces, so that a ray tests only those near its way.
 
-Binary, split where the surface area heuristic expects the least work, tried at the borders of equal bins (Wald, "On
-fast Construction of SAH-based Bounding Volume Hierarchies", IRT 2007). Nodes are laid out depth first: a box's first
-half follows it, `second` says where the other half stands. Few surfaces are one leaf: the flat loop is then the
-fastest.
+A node holds eight boxes side by side, tested at once; in each is one surface or a node. A node's surfaces are parted,
+the widest part again and again, where the surface area heuristic expects the least work, tried at the borders of equal
+bins (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IRT 2007; eight wide: Wald, Benthin &
+Boulos, "Getting Rid of Packets", IRT 2008). Boxes are float32, half the memory to fetch, rounded outward; their unit is
+a power of two near the scene's size, so that a scene scaled by another one has the same boxes.
 """
 
 import math
@@ -12,184 +13,298 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tracer.jit import compiled, kernel
+from tracer.lanes import WIDTH
 
-BOX = np.dtype(
+# Of eight boxes in their order: `planes` low x, high x, low y, ...; `child` what is in each: KINDS times its number
+# and its kind. An empty box is met by no ray.
+NODE = np.dtype([("planes", np.float32, (6, WIDTH)), ("child", np.int32, WIDTH)], align=True)
+KINDS = 4
+BOXES, SURFACE, TRIANGLES = range(3)
+
+# Eight triangles in their order: `corners` x, y and z of the first corners, of the second, of the third, seen from
+# `anchor`, in the hierarchy's unit. They only say where the ray may pass inside: at most `doubt` is rounded off them.
+BLOCK = np.dtype(
     [
-        ("low", np.float64, 3),
-        ("high", np.float64, 3),
-        ("second", np.int32),  # of an inner box: its second half; of a leaf: the first of its surfaces in the order
-        ("count", np.int32),  # surfaces of a leaf, 0 for an inner box
-        ("axis", np.int32),  # along which the halves lie
+        ("corners", np.float32, (9, WIDTH)),
+        ("surface", np.int32, WIDTH),
+        ("lanes", np.int64),  # those in use, bit by bit
+        ("anchor", np.float64, 3),
+        ("reach", np.float64),  # the largest |x| + |y| + |z| of a corner
+        ("edge", np.float64),  # the longest |x| + |y| + |z| of an edge
+        ("doubt", np.float64),
     ],
     align=True,
 )
 
-# A box that a search has put off, and where the ray enters it.
-WAITING = np.dtype([("node", np.int64), ("near", np.float64)])
+# What a search has put off, and where the ray enters its box.
+WAITING = np.dtype([("child", np.int64), ("near", np.float64)])
 
-FLAT = 8  # up to so many surfaces a leaf is cheaper than two more boxes
+FLAT = 3  # so few surfaces are tried one by one: measured, `python -m benchmarks flat`
 BINS = 16
-HALVING = 40  # the level from which on a box is simply halved: so no hierarchy is deeper than
-DEEPEST = 64  # levels
+FILL = 6  # triangles that a block will hardly have fewer of
+HALVING = 24  # the level from which on surfaces are parted by their number: so no hierarchy is deeper than
+DEEPEST = 48  # levels
+MOST_WAITING = DEEPEST * (WIDTH - 1) + 1
+
+# Some surfaces: they stand in the order from `first` to before `last`. `reach` is the box about them, `middles` that
+# about their boxes' middles, twofold; both as low x y z, 0, -high x y z, 0, so that joining takes eight minima.
+PART = np.dtype(
+    [
+        ("reach", np.float32, 8),
+        ("middles", np.float32, 8),
+        ("first", np.int64),
+        ("last", np.int64),
+        ("others", np.int64),  # that are no triangles
+        ("node", np.int64),  # that it is to become
+        ("level", np.int64),
+    ],
+    align=True,
+)
 
 
-class Scratch(NamedTuple):
+class Hierarchy(NamedTuple):
+    nodes: np.ndarray
+    blocks: np.ndarray
+    unit: float
+
+
+class Room(NamedTuple):
     """Room to work in, since kernels make no arrays of their own."""
 
-    todo: np.ndarray  # stack of: first, one past the last, box waiting for its second half, level
-    bins: np.ndarray  # (BINS, 2, 3) box about the surfaces of each bin
-    counts: np.ndarray
-    cost_above: np.ndarray  # of the second half that begins with this bin
-    half: np.ndarray  # (2, 3)
+    todo: np.ndarray
+    parts: np.ndarray  # of one node
+    bins: np.ndarray
+    above: np.ndarray  # the cost of the second half that begins with this bin
+    used: np.ndarray  # nodes and blocks made so far
 
     @staticmethod
-    def make() -> "Scratch":
-        return Scratch(
-            np.zeros((DEEPEST + 1, 4), np.int64),
-            np.zeros((BINS, 2, 3)),
-            np.zeros(BINS, np.int64),
+    def make() -> "Room":
+        return Room(
+            np.zeros(MOST_WAITING, PART).view(np.recarray),
+            np.zeros(WIDTH, PART).view(np.recarray),
+            np.zeros(BINS + 1, PART).view(np.recarray),
             np.zeros(BINS),
-            np.zeros((2, 3)),
+            np.zeros(2, np.int64),
         )
 
 
-def build(bounds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(boxes, order) over the surfaces' boxes (n, 2, 3): leaves hold runs of `order`; no box for no surface."""
+def unit_of(bounds: np.ndarray) -> float:
+    """The power of two above every coordinate."""
+    return math.ldexp(1.0, min(math.frexp(float(np.abs(bounds).max(initial=0.0)))[1], 1023))
+
+
+def build(bounds: np.ndarray, triangles: np.ndarray | None = None, which: np.ndarray | None = None) -> Hierarchy:
+    """Over the surfaces' boxes (n, 2, 3), or over those `which` (n) holds for; `triangles` (n, 3, 3): their corners,
+    nan for what is no triangle."""
     n = len(bounds)
-    if n <= FLAT:
-        box = np.zeros(min(n, 1), BOX)
-        if n == 0:
-            return box, np.zeros(0, np.int32)
-        box["low"], box["high"], box["count"] = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0), n
-        return box, np.arange(n, dtype=np.int32)
-    boxes = np.zeros(2 * n, BOX).view(np.recarray)
-    order = np.arange(n, dtype=np.int32)
-    used = split_all(np.ascontiguousarray(bounds), boxes, order, Scratch.make())
-    return boxes[:used].view(np.ndarray).copy(), order
+    order = (np.arange(n) if which is None else np.flatnonzero(which)).astype(np.int32)
+    if len(order) == 0:
+        return Hierarchy(np.zeros(0, NODE), np.zeros(0, BLOCK), 1.0)
+    unit = unit_of(bounds[order])
+    other = np.ones(n, np.bool_) if triangles is None else np.isnan(triangles[:, 0, 0])
+    reach, middles = np.zeros((n, 8), np.float32), np.zeros((n, 8), np.float32)
+    with np.errstate(under="ignore", over="ignore", invalid="ignore"):
+        reach[:, 0:3] = np.nextafter((bounds[:, 0] / unit).astype(np.float32), np.float32(-np.inf))
+        reach[:, 4:7] = np.nextafter((-bounds[:, 1] / unit).astype(np.float32), np.float32(-np.inf))
+        middles[:, 0:3] = reach[:, 0:3] - reach[:, 4:7]
+        middles[:, 4:7] = -middles[:, 0:3]
+    nodes, blocks = np.zeros(len(order), NODE), np.zeros(len(order) - np.count_nonzero(other[order]), BLOCK)
+    corners = np.full((n, 3, 3), np.nan) if triangles is None else triangles
+    room = Room.make()
+    with np.errstate(under="ignore"):
+        part_all(reach, middles, other, corners, unit, nodes.view(np.recarray), blocks.view(np.recarray), order, room)
+    return Hierarchy(nodes[: room.used[0]].copy(), blocks[: room.used[1]].copy(), unit)
 
 
 @kernel
-def split_all(bounds: Any, boxes: Any, order: Any, scratch: Scratch) -> int:
-    """Fill `boxes` and permute `order`; the number of boxes."""
-    todo = scratch.todo
-    todo[0] = (0, len(order), -1, 0)
-    waiting, used = 1, 0
+def part_all(
+    reach: Any, middles: Any, other: Any, corners: Any, unit: float, nodes: Any, blocks: Any, order: Any, room: Room
+) -> None:
+    """Fill `nodes` and `blocks`, permute `order`."""
+    todo, parts, used = room.todo, room.parts, room.used
+    clear(todo[0])
+    for s in order:
+        add(todo[0], reach, middles, other, s)
+    todo[0].last = len(order)
+    waiting = 1
+    used[0] = 1
     while waiting > 0:
         waiting -= 1
-        first, last, parent, level = todo[waiting]
-        here = used
-        used += 1
-        if parent >= 0:
-            boxes[parent].second = here
-        box = boxes[here]
-        axis, start, extent = enclose(bounds, order, first, last, box)
-        cut = first
-        if last - first > 2 and extent > 0.0 and level < HALVING:
-            fill_bins(bounds, order, first, last, axis, start, extent, scratch)
-            split, cost = best_split(scratch)
-            whole = half_area(box.low, box.high)
-            if last - first > FLAT or whole + cost < (last - first) * whole:
-                cut = partition(bounds, order, first, last, axis, start, extent, split)
-        elif last - first > FLAT:
-            cut = (first + last) // 2
-        if cut == first:
-            box.second, box.count, box.axis = first, last - first, 0
-        else:
-            box.count, box.axis = 0, axis
-            todo[waiting] = (cut, last, here, level + 1)
-            todo[waiting + 1] = (first, cut, -1, level + 1)
-            waiting += 2
-    return used
+        node, level = todo[waiting].node, todo[waiting].level
+        parts[0] = todo[waiting]
+        count = 1
+        while count < WIDTH:
+            k = next_of(parts, count)
+            if k < 0:
+                break
+            halve(reach, middles, other, order, level, parts[k], parts[count], room)
+            count += 1
+        box = nodes[node]
+        for k in range(WIDTH):
+            for a in range(3):
+                box.planes[2 * a, k] = parts[k].reach[a] if k < count else math.inf
+                box.planes[2 * a + 1, k] = -parts[k].reach[4 + a] if k < count else -math.inf
+        for k in range(count):
+            first, n = parts[k].first, parts[k].last - parts[k].first
+            if n == 1:
+                box.child[k] = KINDS * order[first] + SURFACE
+            elif n <= WIDTH and parts[k].others == 0:
+                box.child[k] = KINDS * used[1] + TRIANGLES
+                fill(blocks[used[1]], corners, unit, order, first, n)
+                used[1] += 1
+            else:
+                box.child[k] = KINDS * used[0] + BOXES
+                parts[k].node, parts[k].level = used[0], level + 1
+                todo[waiting] = parts[k]
+                waiting += 1
+                used[0] += 1
 
 
 @compiled
-def middle(bounds: Any, s: int, axis: int) -> float:
-    return 0.5 * bounds[s, 0, axis] + 0.5 * bounds[s, 1, axis]
-
-
-@compiled
-def enclose(bounds: Any, order: Any, first: int, last: int, box: Any) -> tuple[int, float, float]:
-    """Set the box's corners; (axis, start, extent) of the longest side of the box about the surfaces' middles."""
-    axis, start, extent = 0, 0.0, -1.0
+def fill(block: Any, corners: Any, unit: float, order: Any, first: int, count: int) -> None:
+    """Put `count` triangles into a block; the first of them stands in the lanes left, too, but is not asked there."""
+    block.lanes = (1 << count) - 1
+    size = 0.0
     for a in range(3):
-        low, high, from_middle, to_middle = math.inf, -math.inf, math.inf, -math.inf
-        for k in range(first, last):
-            s = order[k]
-            low, high = min(low, bounds[s, 0, a]), max(high, bounds[s, 1, a])
-            m = middle(bounds, s, a)
-            from_middle, to_middle = min(from_middle, m), max(to_middle, m)
-        box.low[a], box.high[a] = low, high
-        if to_middle - from_middle > extent:
-            axis, start, extent = a, from_middle, to_middle - from_middle
-    return (axis, start, extent)
+        block.anchor[a] = corners[order[first], 0, a] / unit
+    for k in range(WIDTH):
+        s = order[first + k] if k < count else order[first]
+        block.surface[k] = s
+        for i in range(3):
+            reach, edge = 0.0, 0.0
+            for a in range(3):
+                x, before = corners[s, i, a] / unit, corners[s, i - 1, a] / unit
+                arm = x - block.anchor[a]
+                block.corners[3 * i + a, k] = arm
+                size = max(size, abs(arm))
+                reach += abs(x)
+                edge += abs(x - before)
+            block.reach = max(block.reach, reach)
+            block.edge = max(block.edge, edge)
+    block.doubt = 2.0**-22 * size
 
 
 @compiled
-def bin_of(bounds: Any, s: int, axis: int, start: float, extent: float) -> int:
-    return min(BINS - 1, int(BINS * ((middle(bounds, s, axis) - start) / extent)))
+def clear(this: Any) -> None:
+    for k in range(8):
+        this.reach[k] = math.inf
+        this.middles[k] = math.inf
+    this.first = 0
+    this.last = 0
+    this.others = 0
 
 
 @compiled
-def half_area(low: Any, high: Any) -> float:
-    x, y, z = high[0] - low[0], high[1] - low[1], high[2] - low[2]
+def join(box: Any, another: Any) -> None:
+    """Make a box cover another one, too."""
+    for k in range(8):
+        box[k] = min(box[k], another[k])
+
+
+@compiled
+def add(this: Any, reach: Any, middles: Any, other: Any, s: int) -> None:
+    join(this.reach, reach[s])
+    join(this.middles, middles[s])
+    this.others += other[s]
+
+
+@compiled
+def merge(this: Any, bins: Any, start: int, stop: int) -> None:
+    clear(this)
+    for b in range(start, stop):
+        join(this.reach, bins[b].reach)
+        join(this.middles, bins[b].middles)
+        this.others += bins[b].others
+
+
+@compiled
+def half_area(reach: Any) -> float:
+    x = -(float(reach[0]) + float(reach[4]))
+    y = -(float(reach[1]) + float(reach[5]))
+    z = -(float(reach[2]) + float(reach[6]))
     return x * y + y * z + z * x
 
 
 @compiled
-def fill_bins(
-    bounds: Any, order: Any, first: int, last: int, axis: int, start: float, extent: float, scratch: Scratch
-) -> None:
-    bins, counts = scratch.bins, scratch.counts
-    counts[:] = 0
-    bins[:, 0] = math.inf
-    bins[:, 1] = -math.inf
-    for k in range(first, last):
-        s = order[k]
-        b = bin_of(bounds, s, axis, start, extent)
-        counts[b] += 1
-        for a in range(3):
-            bins[b, 0, a] = min(bins[b, 0, a], bounds[s, 0, a])
-            bins[b, 1, a] = max(bins[b, 1, a], bounds[s, 1, a])
+def next_of(parts: Any, count: int) -> int:
+    """The part to be halved next; -1 for none.
+
+    First those that can be dissolved into the lanes left, for that saves a node: the most area for the lanes it takes.
+    Then the largest box.
+    """
+    best, most = -1, -1.0
+    dissolving = False
+    for k in range(count):
+        n = parts[k].last - parts[k].first
+        lanes = n if parts[k].others > 0 else (n + FILL - 1) // FILL
+        if (n > WIDTH or parts[k].others > 0) and lanes > 1:
+            fits = lanes - 1 <= WIDTH - count
+            size = half_area(parts[k].reach) / (lanes - 1 if fits else 1)
+            if (fits and not dissolving) or (fits == dissolving and size > most):
+                best, most, dissolving = k, size, fits
+    return best
 
 
 @compiled
-def widen(box: Any, other: Any) -> float:
-    """Make a box (2, 3) cover another one too; half the area of its surface."""
+def halve(reach: Any, middles: Any, other: Any, order: Any, level: int, this: Any, second: Any, room: Room) -> None:
+    """Leave some of the surfaces in `this`, and put the others into `second`."""
+    first, last = this.first, this.last
+    axis, extent = 0, -1.0
     for a in range(3):
-        box[0, a], box[1, a] = min(box[0, a], other[0, a]), max(box[1, a], other[1, a])
-    return half_area(box[0], box[1])
+        side = -(float(this.middles[a]) + float(this.middles[4 + a]))
+        if side > extent:
+            axis, extent = a, side
+    if extent > 0.0 and level < HALVING:
+        bins, count = room.bins, min(BINS, last - first + 2)
+        start, rate = float(this.middles[axis]), count / extent
+        for b in range(count):
+            clear(bins[b])
+        for k in range(first, last):
+            s = order[k]
+            b = min(count - 1, int(rate * (middles[s, axis] - start)))
+            add(bins[b], reach, middles, other, s)
+            bins[b].last += 1
+        split = best_split(bins, room.above, count, WIDTH if this.others == 0 else 1)
+        cut = first
+        for k in range(first, last):
+            s = order[k]
+            if min(count - 1, int(rate * (middles[s, axis] - start))) < split:
+                order[k], order[cut] = order[cut], s
+                cut += 1
+        merge(this, bins, 0, split)
+        merge(second, bins, split, count)
+    else:
+        cut = (first + last) // 2
+        clear(this)
+        clear(second)
+        for k in range(first, cut):
+            add(this, reach, middles, other, order[k])
+        for k in range(cut, last):
+            add(second, reach, middles, other, order[k])
+    this.first, this.last = first, cut
+    second.first, second.last = cut, last
 
 
 @compiled
-def best_split(scratch: Scratch) -> tuple[int, float]:
-    """(bin, cost): the first bin of the second half where area times number, summed over both halves, is least."""
-    bins, counts, cost_above, half = scratch.bins, scratch.counts, scratch.cost_above, scratch.half
-    half[0], half[1] = math.inf, -math.inf
+def best_split(bins: Any, above: Any, count: int, grain: int) -> int:
+    """The first bin of the second half where area times work, summed over both halves, is least; both hold some.
+
+    The work is the number of surfaces, `grain` of them being as much work as one.
+    """
+    half = bins[BINS]
+    clear(half)
     n = 0
-    for b in range(BINS - 1, 0, -1):
-        n += counts[b]
-        size = widen(half, bins[b])
-        cost_above[b] = n * size if n > 0 else math.inf
-    half[0], half[1] = math.inf, -math.inf
+    for b in range(count - 1, 0, -1):
+        n += bins[b].last
+        join(half.reach, bins[b].reach)
+        above[b] = (n + grain - 1) // grain * half_area(half.reach) if n > 0 else math.inf
+    clear(half)
     n, best, split = 0, math.inf, 1
-    for b in range(1, BINS):
-        n += counts[b - 1]
-        size = widen(half, bins[b - 1])
-        cost = n * size + cost_above[b] if n > 0 else math.inf
-        if cost < best:
-            best, split = cost, b
-    return (split, best)
-
-
-@compiled
-def partition(
-    bounds: Any, order: Any, first: int, last: int, axis: int, start: float, extent: float, split: int
-) -> int:
-    """Bring the surfaces of bins below `split` to the front; where the others begin."""
-    cut = first
-    for k in range(first, last):
-        s = order[k]
-        if bin_of(bounds, s, axis, start, extent) < split:
-            order[k], order[cut] = order[cut], s
-            cut += 1
-    return cut
+    for b in range(1, count):
+        n += bins[b - 1].last
+        join(half.reach, bins[b - 1].reach)
+        if n > 0 and above[b] < math.inf:
+            cost = (n + grain - 1) // grain * half_area(half.reach) + above[b]
+            if cost < best:
+                best, split = cost, b
+    return split

@@ -23,29 +23,29 @@ def is_entering(world: Any, s: int, ray: Ray, t: float) -> bool:
 
 
 @compiled
-def meet_interface(world: Any, ray: Ray, solids: Any, stack: Any) -> tuple[float, int]:
+def meet_interface(world: Any, ray: Ray, solids: Any, space: Any) -> tuple[float, int]:
     """(t, surface) of the first interface the ray shows; surface -1 for none.
 
     `solids`: (2, words); the set the ray is in just before that interface, and just behind it. Hidden surfaces on the
     way change both.
     """
     before, behind = solids[0], solids[1]
-    t, s, tied = closest(world, ray, 0.0, -1, stack)
+    t, s, tied = closest(world, ray, 0.0, -1, space)
     while s >= 0:
         if not tied and transmit(world, s) == 0.0:
             return (t, s)
-        shown, last_t, last = cross(world, ray, t, s, tied, before, behind, stack)
+        shown, last_t, last = cross(world, ray, t, s, tied, before, behind, space)
         if shown >= 0:
             return (t, shown)
         for k in range(len(before)):
             before[k] = behind[k]
-        t, s, tied = closest(world, ray, last_t, last, stack)
+        t, s, tied = closest(world, ray, last_t, last, space)
     return (t, s)
 
 
 @routine
 def cross(
-    world: Any, ray: Ray, t: float, s: int, tied: bool, before: Any, behind: Any, stack: Any
+    world: Any, ray: Ray, t: float, s: int, tied: bool, before: Any, behind: Any, space: Any
 ) -> tuple[int, float, int]:
     """(surface shown or -1, t and surface last passed): goes through all surfaces at t, solid by solid.
 
@@ -77,7 +77,7 @@ def cross(
         limit = t + (doubt(world, last, ray) if solid >= 0 else 0.0)
         if not tied and limit == t:
             break
-        here, s, _ = closest_within(world, ray, last_t, last, limit, stack)
+        here, s, _ = closest_within(world, ray, last_t, last, limit, space)
     if opaque >= 0:
         return (opaque, last_t, last)
     if solid >= 0:
@@ -88,7 +88,7 @@ def cross(
     seen = max(old, new) if min(old, new) < 0 else min(old, new)
     shown = first
     while world.objects[world.surfaces[shown].object].solid != seen:
-        _, shown, _ = closest(world, ray, t, shown, stack)
+        _, shown, _ = closest(world, ray, t, shown, space)
     return (shown, last_t, last)
 
 

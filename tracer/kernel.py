@@ -89,7 +89,7 @@ def trace_ray(world: Any, space: Any, i: int) -> None:
     solids = space.solids
     d = vector(row.direction)
     ray = make_ray(vector(row.origin), d, row.start, row.side, row.reach)
-    t, s = meet_interface(world, ray, solids[i], space.stack)
+    t, s = meet_interface(world, ray, solids[i], space)
     n1 = index_of(world, medium(solids[i, 0]))
     row.n1 = n1
     if s < 0:

@@ -91,7 +91,17 @@ def pair_vector(a: Vector) -> PairVector:
 
 @compiled
 def pair_dot(a: PairVector, b: PairVector) -> Pair:
-    return plus(plus(times(a[0], b[0]), times(a[1], b[1])), times(a[2], b[2]))
+    """The three products and their sum without an error, but for what is a rounding of a rounding (Ogita, Rump &
+    Oishi, SIAM J. Sci. Comput. 26(6), 2005)."""
+    x, y, z = two_product(a[0][0], b[0][0]), two_product(a[1][0], b[1][0]), two_product(a[2][0], b[2][0])
+    two = two_sum(x[0], y[0])
+    three = two_sum(two[0], z[0])
+    across = (
+        (a[0][0] * b[0][1] + a[0][1] * b[0][0])
+        + (a[1][0] * b[1][1] + a[1][1] * b[1][0])
+        + (a[2][0] * b[2][1] + a[2][1] * b[2][0])
+    )
+    return normal_pair(three[0], (two[1] + three[1]) + ((x[1] + y[1] + z[1]) + across))
 
 
 @compiled

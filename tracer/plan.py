@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tracer.bvh import FLAT
+from tracer.lanes import WIDTH
 from tracer.shapes.cone import Cone
 from tracer.shapes.disc import Disc
 from tracer.shapes.mesh import Mesh
@@ -28,7 +30,7 @@ class Need:
     why: str
 
 
-def needs(scene: Scene, surfaces: int, boxes: int) -> tuple[Need, ...]:
+def needs(scene: Scene, surfaces: int, nodes: int, blocks: int) -> tuple[Need, ...]:
     """Every capability, needed or left out, with the reason in the scene's own terms."""
     materials = list(dict.fromkeys(item.material for item in scene.objects))
     glass = [item for item in scene.objects if item.material.transmit > 0.0]
@@ -51,7 +53,7 @@ def needs(scene: Scene, surfaces: int, boxes: int) -> tuple[Need, ...]:
             f'shadows = "{scene.tracing.shadows}"' if glass else _which(glass, "transmits"),
         ),
         Need("checker", any(m.checker for m in materials), _checkered(materials)),
-        Need("hierarchy", boxes > 1, f"{_count(surfaces, 'surface')}, {_count(boxes, 'box', 'boxes')}"),
+        Need("hierarchy", nodes > 0, _hierarchy(surfaces, nodes, blocks)),
         Need("mesh library", bool(meshes), _which(meshes, "comes from a mesh file")),
         Need("vertex normals", bool(smooth), _which(smooth, "has normals at its vertices")),
     )
@@ -107,6 +109,14 @@ def _shadow_reason(lights: int, lit: int) -> str:
     if not lights:
         return "no light"
     return _count(lights, "light") if lit else "no surface that light makes brighter"
+
+
+def _hierarchy(surfaces: int, nodes: int, blocks: int) -> str:
+    count = _count(surfaces, "surface")
+    if not nodes:
+        return f"{count}: up to {FLAT} with an end are quicker tried one by one"
+    triangles = f" and {_count(blocks, 'block')} of triangles" if blocks else ""
+    return f"{count} in {_count(nodes, 'node')} of {WIDTH} boxes{triangles}"
 
 
 def _checkered(materials: list) -> str:

@@ -5,7 +5,7 @@ runs along one axis: a point of the scene becomes two numbers, and it lies left 
 A corner gets the same two numbers from whichever face asks, so faces that share an edge leave no gap.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tracer.jit import compiled
 from tracer.vector import Vector
@@ -16,6 +16,9 @@ class Ray(NamedTuple):
     direction: Vector  # a unit vector
     inverse: Vector  # 1/direction, component by component; infinite where that is 0
     axis: int  # the direction's largest component
+    across: int  # the next one, in the order x, y, z, x
+    up: int  # and the one after that
+    turned: Vector  # the origin in the order of these three
     shear: tuple[float, float]  # the two others over the largest
     reach: float  # the scale of the origin's rounding errors: |x| + |y| + |z| of what it was computed from
     start: int  # the surface it leaves (its `twin`), -1 for a ray from the eye
@@ -26,23 +29,33 @@ class Ray(NamedTuple):
 def make_ray(origin: Vector, direction: Vector, start: int, side: float, reach: float) -> Ray:
     x, y, z = abs(direction[0]), abs(direction[1]), abs(direction[2])
     inverse = (1.0 / direction[0], 1.0 / direction[1], 1.0 / direction[2])
-    if x >= y and x >= z:
-        axis, shear = 0, (direction[1] * inverse[0], direction[2] * inverse[0])
-    elif y >= z:
-        axis, shear = 1, (direction[2] * inverse[1], direction[0] * inverse[1])
-    else:
-        axis, shear = 2, (direction[0] * inverse[2], direction[1] * inverse[2])
-    return Ray(origin, direction, inverse, axis, shear, reach, start, side)
+    # Choices between numbers at hand, no branches: which axis it is cannot be foreseen.
+    along_x, along_y = x >= y and x >= z, y >= z
+    axis = 0 if along_x else (1 if along_y else 2)
+    across, up = turn(along_x, along_y, (1, 2, 0)), turn(along_x, along_y, (2, 0, 1))
+    o, d = origin, direction
+    turned = (
+        turn(along_x, along_y, (o[0], o[1], o[2])),
+        turn(along_x, along_y, (o[1], o[2], o[0])),
+        turn(along_x, along_y, (o[2], o[0], o[1])),
+    )
+    most = turn(along_x, along_y, inverse)
+    shear = (
+        turn(along_x, along_y, (d[1], d[2], d[0])) * most,
+        turn(along_x, along_y, (d[2], d[0], d[1])) * most,
+    )
+    return Ray(origin, direction, inverse, axis, across, up, turned, shear, reach, start, side)
 
 
 @compiled
-def sheared(ray: Ray, point: Vector) -> tuple[float, float]:
-    """Where a point lies beside the ray, which itself is at (0, 0)."""
-    x, y, z = point[0] - ray.origin[0], point[1] - ray.origin[1], point[2] - ray.origin[2]
-    if ray.axis == 0:
-        along, across, up = x, y, z
-    elif ray.axis == 1:
-        along, across, up = y, z, x
-    else:
-        along, across, up = z, x, y
+def turn(along_x: bool, along_y: bool, numbers: Any) -> Any:
+    other = numbers[1] if along_y else numbers[2]
+    return numbers[0] if along_x else other
+
+
+@compiled
+def sheared(ray: Ray, point: Any) -> tuple[float, float]:
+    """Where a point, a row of three, lies beside the ray, which itself is at (0, 0)."""
+    along = point[ray.axis] - ray.turned[0]
+    across, up = point[ray.across] - ray.turned[1], point[ray.up] - ray.turned[2]
     return (across - ray.shear[0] * along, up - ray.shear[1] * along)

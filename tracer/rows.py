@@ -63,7 +63,7 @@ def record_shadow(
     """Row i: a shadow ray to a light at distance `far`, with what stands in its way by name."""
     t, met, end = far, glass, FILTERED if glass >= 0 else LIT
     if visible == 0.0:
-        nearest, s = occluder(world, ray, far, limits.glass_blocks, space.stack)
+        nearest, s = occluder(world, ray, far, limits.glass_blocks, space)
         if nearest < far:  # else it was so much glass that nothing is left
             t, met, end = nearest, s, BLOCKED
     write_shadow(world, limits, space.table, i, parent, light, ray, t, met, end, visible, share)

@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from tracer.hits import closest, distance, entry, transmit
+from tracer.hits import closest, distance, transmit
 from tracer.jit import compiled, routine, stay_apart
 from tracer.pairs import SMALLEST
 from tracer.rays import Ray
 from tracer.vector import Vector, length, scale, subtract, unit, vector
+from tracer.walk import NO_FARTHER, walker
 
 # A transparent surface crossed on the way, and the room for so many before the slower way is taken.
 CROSSING = np.dtype([("t", np.float64), ("surface", np.int64)])
@@ -58,7 +59,7 @@ def light_through(world: Any, ray: Ray, end: float, glass_blocks: bool, space: A
     if count == OPAQUE:
         return (0.0, -1)
     if count == TOO_MANY:
-        return filter_step_by_step(world, ray, end, space.stack)
+        return filter_step_by_step(world, ray, end, space)
     return filter_at_once(world, space.crossed, count)
 
 
@@ -66,47 +67,23 @@ def light_through(world: Any, ray: Ray, end: float, glass_blocks: bool, space: A
 def obstruction(world: Any, ray: Ray, end: float, glass_blocks: bool, space: Any) -> int:
     """How many times transparent surfaces are crossed nearer than `end`, gathered in no order; OPAQUE as soon as
     anything is found that lets no light through; TOO_MANY."""
-    count = 0
-    stack = space.stack
-    for k in range(len(world.unbounded)):
-        count = gather(world, world.unbounded[k], ray, end, glass_blocks, space.crossed, count)
-        if count == OPAQUE:
-            return OPAQUE
-    depth = 0
-    node = 0 if len(world.hierarchy) > 0 and entry(world.hierarchy[0], ray, end) < math.inf else -1
-    while node >= 0:
-        box = world.hierarchy[node]
-        if box.count > 0:
-            for k in range(box.second, box.second + box.count):
-                count = gather(world, world.order[k], ray, end, glass_blocks, space.crossed, count)
-                if count == OPAQUE:
-                    return OPAQUE
-            node = -1
-        else:
-            node, other = node + 1, box.second
-            near, far = entry(world.hierarchy[node], ray, end), entry(world.hierarchy[other], ray, end)
-            if far < near:
-                near, far = far, near
-                node, other = other, node
-            if far < math.inf:
-                stack[depth].node = other
-                depth += 1
-            if near == math.inf:
-                node = -1
-        if node < 0 and depth > 0:
-            depth -= 1
-            node = stack[depth].node
-    return count
+    return search_way(world, ray, glass_blocks, (end, 0), space)[1]
 
 
 @compiled
-def gather(world: Any, s: int, ray: Ray, end: float, glass_blocks: bool, crossed: Any, count: int) -> int:
-    """The count after surface s has been looked at."""
+def look_at(
+    world: Any, s: int, ray: Ray, glass_blocks: bool, known: tuple[float, int], space: Any
+) -> tuple[float, int]:
+    """(how far to look on, count) after surface s has been looked at."""
+    end, count = known
     if distance(world, s, ray, 0.0, -1, SMALLEST, end, False) >= end:
-        return count
+        return known
     if glass_blocks or transmit(world, s) == 0.0:
-        return OPAQUE
-    return gather_glass(world, s, ray, end, crossed, count)
+        return (NO_FARTHER, OPAQUE)
+    return (end, gather_glass(world, s, ray, end, space.crossed, count))
+
+
+search_way = walker(look_at, nearest_first=False)
 
 
 @routine
@@ -151,12 +128,12 @@ def filter_at_once(world: Any, crossed: Any, count: int) -> tuple[float, int]:
 
 
 @routine
-def filter_step_by_step(world: Any, ray: Ray, end: float, stack: Any) -> tuple[float, int]:
+def filter_step_by_step(world: Any, ray: Ray, end: float, space: Any) -> tuple[float, int]:
     """The same, crossing by crossing, however many there are."""
     stay_apart()
     share, first = 1.0, -1
     last_t, last_object = -1.0, -1
-    t, s, _ = closest(world, ray, 0.0, -1, stack)
+    t, s, _ = closest(world, ray, 0.0, -1, space)
     while s >= 0 and t < end:
         this = world.surfaces[s].object
         if t != last_t or this != last_object:
@@ -164,14 +141,14 @@ def filter_step_by_step(world: Any, ray: Ray, end: float, stack: Any) -> tuple[f
         if first < 0:
             first = s
         last_t, last_object = t, this
-        t, s, _ = closest(world, ray, t, s, stack)
+        t, s, _ = closest(world, ray, t, s, space)
     return (share, first)
 
 
 @routine
-def occluder(world: Any, ray: Ray, end: float, glass_blocks: bool, stack: Any) -> tuple[float, int]:
+def occluder(world: Any, ray: Ray, end: float, glass_blocks: bool, space: Any) -> tuple[float, int]:
     """(t, surface) of the nearest one that blocks."""
-    t, s, _ = closest(world, ray, 0.0, -1, stack)
+    t, s, _ = closest(world, ray, 0.0, -1, space)
     while s >= 0 and t < end and not glass_blocks and transmit(world, s) > 0.0:
-        t, s, _ = closest(world, ray, t, s, stack)
+        t, s, _ = closest(world, ray, t, s, space)
     return (t, s)

@@ -9,11 +9,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tracer.bundle import Bundle
-from tracer.bvh import DEEPEST, WAITING
+from tracer.bvh import MOST_WAITING, WAITING
 from tracer.camera import View, pixel_direction
 from tracer.certified import OPEN, trace_heaviest_first
 from tracer.jit import compiled, kernel
 from tracer.kernel import trace_tree
+from tracer.lanes import WIDTH
 from tracer.limits import Limits
 from tracer.nodes import CAMERA, KINDS, NODE, SHADOW
 from tracer.pairs import plus
@@ -54,7 +55,8 @@ class Space(NamedTuple):
     table: np.ndarray
     solids: np.ndarray  # (rows, 2, words)
     open: np.ndarray  # rays that wait to be followed, the heaviest first
-    stack: np.ndarray  # of boxes still to be entered
+    stack: np.ndarray  # of nodes still to be entered
+    near: np.ndarray  # where the boxes of one node are entered
     crossed: np.ndarray  # glass on the way to a light
     counted: np.ndarray  # rays of this pixel that have no row (any more), by kind; then all of them
     rays: np.ndarray  # traced so far, by kind
@@ -70,7 +72,8 @@ class Workspace:
             np.zeros(rows, NODE),
             np.zeros((rows, 2, words), np.int64),
             np.zeros(2 * rows, OPEN),
-            np.zeros(DEEPEST, WAITING),
+            np.zeros(MOST_WAITING, WAITING),
+            np.zeros(WIDTH),
             np.zeros(MOST_CROSSINGS, CROSSING),
             np.zeros(len(KINDS), np.int64),
             np.zeros(len(KINDS), np.int64),

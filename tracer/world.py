@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tracer.bundle import Bundle
-from tracer.bvh import build
+from tracer.bvh import FLAT, build
 from tracer.camera import View, scene_view
 from tracer.plan import Need, hidden_solids, is_open, needs, open_notes
 from tracer.scene import Material, Object, Scene, SceneError, Shape
@@ -45,7 +45,7 @@ OBJECT = np.dtype(
     [
         ("material", np.int32),
         ("solid", np.int32),  # its rank among the transparent solids, -1 for what bounds no medium
-        ("closed", np.bool_),  # whether it has an inside that a point can be tested for
+        ("closed", np.bool_),  # whether this solid has an inside that a point can be tested for
         ("tiled", np.bool_),  # whether a checker lies along its own two axes
         ("u", np.float64, 3),
         ("v", np.float64, 3),
@@ -92,9 +92,13 @@ class Arrays(NamedTuple):
     indices: np.ndarray  # of refraction, by a solid's rank
     background: np.ndarray
     ambient: np.ndarray
-    unbounded: np.ndarray  # surfaces without end, tested by every ray
-    hierarchy: np.ndarray  # boxes over the others
-    order: np.ndarray  # the others as the boxes' leaves have them
+    unboxed: np.ndarray  # surfaces that every ray is tested against: those without end, and all where they are few
+    nodes: np.ndarray  # of the hierarchy of boxes over the others
+    blocks: np.ndarray  # of triangles in it
+    per_unit: np.ndarray  # (1,) of the hierarchy, one over its unit of length
+
+
+ENDLESS = np.array([[[-np.inf] * 3, [np.inf] * 3]])  # the bounds of what has none
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -139,20 +143,21 @@ def prepare(scene: Scene) -> World:
     faults = scene.faults()
     if faults:
         raise SceneError(faults)
-    materials = list(dict.fromkeys(item.material for item in scene.objects))
+    materials: dict[Material, int] = {}
+    for item in scene.objects:
+        materials.setdefault(item.material, len(materials))
     solids = _ranked(scene)
     ranks = {k: rank for rank, k in enumerate(solids)}
     surfaces, corners, smooth, bounds = _surfaces(scene)
-    unbounded = np.array([k for k, box in enumerate(bounds) if box is None], np.int32)
-    bounded = np.array([k for k, box in enumerate(bounds) if box is not None], np.int32)
-    boxes = np.array([box for box in bounds if box is not None]).reshape(-1, 2, 3)
-    hierarchy, order = build(_padded(boxes))
+    finite = np.asarray(np.isfinite(bounds).all(axis=(1, 2)))
+    boxed = finite & (np.count_nonzero(finite) > FLAT)
+    nodes, blocks, unit = build(_padded(bounds), _triangles(surfaces), boxed)
     arrays = Arrays(
         surfaces=surfaces,
         corners=corners,
         smooth=smooth,
         objects=np.array(
-            [_object(item, materials.index(item.material), ranks.get(k, -1)) for k, item in enumerate(scene.objects)],
+            [_object(item, materials[item.material], ranks.get(k, -1)) for k, item in enumerate(scene.objects)],
             OBJECT,
         ),
         materials=np.array([_material(material) for material in materials], MATERIAL),
@@ -160,11 +165,14 @@ def prepare(scene: Scene) -> World:
         indices=np.array([scene.objects[k].material.ior for k in solids], np.float64),
         background=np.array(scene.background.color, np.float64),
         ambient=np.array(scene.tracing.ambient, np.float64),
-        unbounded=unbounded,
-        hierarchy=hierarchy,
-        order=bounded[order],
+        unboxed=np.flatnonzero(~boxed).astype(np.int32),
+        nodes=nodes,
+        blocks=blocks,
+        per_unit=np.array([1.0 / unit]),
     )
-    return World(scene, Bundle(arrays), boxes, needs(scene, len(surfaces), len(hierarchy)), tuple(solids))
+    return World(
+        scene, Bundle(arrays), bounds[finite], needs(scene, len(surfaces), len(nodes), len(blocks)), tuple(solids)
+    )
 
 
 def _ranked(scene: Scene) -> list[int]:
@@ -173,9 +181,9 @@ def _ranked(scene: Scene) -> list[int]:
     return sorted(solids, key=lambda k: -scene.objects[k].priority)
 
 
-def _surfaces(scene: Scene) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[np.ndarray | None]]:
+def _surfaces(scene: Scene) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     blocks, corners, smooth = [], [np.zeros((0, 3))], [np.zeros((0, 3, 3))]
-    bounds: list[np.ndarray | None] = []
+    bounds: list[np.ndarray] = []
     corner_count = smooth_count = count = 0
     first_such: dict[Shape, int] = {}
     for k, item in enumerate(scene.objects):
@@ -198,8 +206,15 @@ def _surfaces(scene: Scene) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[np
             smooth.append(normals)
             smooth_count += len(normals)
         blocks.append(rows)
-        bounds += [None] if boxes is None else list(boxes)
-    return np.concatenate(blocks), np.concatenate(corners), np.concatenate(smooth), bounds
+        bounds.append(ENDLESS if boxes is None else boxes)
+    return np.concatenate(blocks), np.concatenate(corners), np.concatenate(smooth), np.concatenate(bounds)
+
+
+def _triangles(surfaces: np.ndarray) -> np.ndarray:
+    """The corners (n, 3, 3) of triangles, nan for other surfaces."""
+    corners = np.stack([surfaces["a"], surfaces["b"], surfaces["c"]], axis=1)
+    corners[surfaces["form"] != CODES["triangle"]] = np.nan
+    return corners
 
 
 def _padded(boxes: np.ndarray) -> np.ndarray:
@@ -216,7 +231,7 @@ def _object(item: Object, material: int, rank: int) -> tuple[Any, ...]:
     shape = item.shape
     normal = _flat_normal(shape)
     u, v = _axes(normal) if normal else ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    return (material, rank, not is_open(shape), normal is not None, u, v)
+    return (material, rank, rank >= 0 and not is_open(shape), normal is not None, u, v)
 
 
 def _flat_normal(shape: Any) -> Vector | None:

@@ -2,7 +2,6 @@
 
 import math
 from fractions import Fraction
-from types import SimpleNamespace
 
 import numpy as np
 from hypothesis import given, settings
@@ -10,13 +9,14 @@ from hypothesis import strategies as st
 
 import tracer
 from tests.scenes import MATTE, ball, world_of
-from tracer.bvh import FLAT, build
-from tracer.hits import entry
+from tracer.bvh import BOXES, DEEPEST, FLAT, KINDS, TRIANGLES, build
+from tracer.lanes import WIDTH
 from tracer.nodes import BACKGROUND
 from tracer.rays import make_ray
 from tracer.scene import Object
 from tracer.shapes.polygon import Polygon
 from tracer.vector import vector
+from tracer.walk import enter, way_of
 
 spread = st.floats(-10, 10)
 
@@ -30,7 +30,7 @@ def test_hierarchy_finds_what_trying_all_surfaces_finds(balls: list, rays: list)
     """The same table with and without it, to the last bit."""
     objects = [ball((x, y, z), r, MATTE, f"ball {k}") for k, (x, y, z, r) in enumerate(balls)]
     world = world_of(*objects)
-    assert len(world.arrays.hierarchy) > 1
+    assert len(world.arrays.nodes) > 0
     for ox, oy, oz, dx, dy, dz in rays:
         if max(abs(dx), abs(dy), abs(dz)) < 1e-6:
             continue
@@ -44,30 +44,41 @@ def test_hierarchy_finds_what_trying_all_surfaces_finds(balls: list, rays: list)
 
 def test_hierarchy_holds_every_surface_once_inside_its_boxes() -> None:
     random = np.random.default_rng(8)
-    low = random.uniform(-5, 5, (3000, 3))
-    bounds = np.stack([low, low + random.exponential(0.3, (3000, 3))], axis=1)
-    bounds[:200] = bounds[0]  # many at one place
-    boxes, order = build(bounds)
-    assert sorted(order.tolist()) == list(range(3000))
+    corners = random.uniform(-5, 5, (3000, 1, 3)) + random.exponential(0.3, (3000, 3, 3))
+    corners[:200] = corners[0]  # many at one place
+    bounds = np.stack([corners.min(axis=1), corners.max(axis=1)], axis=1)
+    corners[1000:2000] = np.nan  # no triangles
+    tree = build(bounds, corners)
+    for scaled in (2.0**-900, 2.0**800):
+        same = build(bounds * scaled, corners * scaled)
+        assert same.nodes.tobytes() == tree.nodes.tobytes()
+        assert same.unit == tree.unit * scaled
     seen = []
-    waiting = [(0, 0)]
+    waiting = [(0, 0, np.full(3, -np.inf), np.full(3, np.inf))]
     deepest = 0
     while waiting:
-        k, depth = waiting.pop()
+        k, depth, low, high = waiting.pop()
         deepest = max(deepest, depth)
-        row = boxes[k]
-        if row["count"]:
-            inside = order[row["second"] : row["second"] + row["count"]]
-            seen += inside.tolist()
-            assert (bounds[inside, 0] >= row["low"]).all()
-            assert (bounds[inside, 1] <= row["high"]).all()
-        else:
-            for child in (k + 1, row["second"]):
-                assert (boxes[child]["low"] >= row["low"]).all()
-                assert (boxes[child]["high"] <= row["high"]).all()
-                waiting.append((child, depth + 1))
+        planes, children = tree.nodes[k]["planes"], tree.nodes[k]["child"]
+        for lane in np.flatnonzero(planes[0] <= planes[1]):
+            box_low, box_high = planes[0::2, lane], planes[1::2, lane]
+            assert (box_low >= low).all()
+            assert (box_high <= high).all()
+            kind, number = children[lane] % KINDS, children[lane] // KINDS
+            if kind == BOXES:
+                waiting.append((number, depth + 1, box_low, box_high))
+                continue
+            inside = [number]
+            if kind == TRIANGLES:
+                block = tree.blocks[number]
+                inside = block["surface"][: int(block["lanes"]).bit_length()]
+                placed = block["anchor"] + block["corners"].reshape(3, 3, WIDTH).transpose(2, 0, 1)[: len(inside)]
+                assert np.abs(placed - corners[inside] / tree.unit).max() <= block["doubt"]
+            seen += list(inside)
+            assert (bounds[inside, 0] > box_low * tree.unit).all()  # by a float32 at least
+            assert (bounds[inside, 1] < box_high * tree.unit).all()
     assert sorted(seen) == list(range(3000))
-    assert deepest < 64
+    assert deepest < DEEPEST
 
 
 def test_of_surfaces_at_one_distance_the_files_first_is_met() -> None:
@@ -80,7 +91,7 @@ def test_of_surfaces_at_one_distance_the_files_first_is_met() -> None:
     ]
     for order in ([(k * step + first) % 12 for k in range(12)] for step in (1, 5, 7, 11) for first in range(0, 12, 2)):
         world = world_of(*(sheets[k] for k in order))
-        assert len(world.arrays.hierarchy) > 0
+        assert len(world.arrays.nodes) > 0
         tree = tracer.trace(world, ray=((0.05, 0.02, 3), (0, 0, -1)), depth=0)
         assert tree.object_name(0) == f"sheet {order[0]}"
 
@@ -101,11 +112,16 @@ def test_no_box_is_missed_that_a_ray_meets() -> None:
             o, d = Fraction(origin[axis]), Fraction(direction[axis])
             ways = sorted((Fraction(plane[axis]) - o) / d for plane in (low, high))
             near, far = max(near, ways[0]), min(far, ways[1])
-        box, way = SimpleNamespace(low=low, high=high), vector(direction.tolist())
-        assert entry(box, make_ray(vector(target.tolist()), way, -1, 0.0, 1.0), math.inf) == 0.0
+        bounds = np.stack([low, high])[None]
+        (node,), unit = build(bounds).nodes, build(bounds).unit
+        way = vector(direction.tolist())
+        inside = enter(node["planes"], way_of(make_ray(vector(target.tolist()), way, -1, 0.0, 1.0), 1 / unit), math.inf)
+        assert (inside[0], inside[1][0]) == (1, 0.0)
         if near <= far:
             met += 1
-            assert entry(box, make_ray(vector(origin.tolist()), way, -1, 0.0, 1.0), math.inf) < math.inf
+            ray = make_ray(vector(origin.tolist()), way, -1, 0.0, 1.0)
+            assert enter(node["planes"], way_of(ray, 1 / unit), math.inf)[0] == 1
+            assert enter(node["planes"], way_of(ray, 1 / unit), float(near) / unit)[0] == 1
     assert 300 < met < 1200
 
 

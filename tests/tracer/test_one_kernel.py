@@ -12,7 +12,7 @@ import pytest
 
 import tracer
 from tests.scenes import ball, box, world_of
-from tracer.bvh import split_all
+from tracer.bvh import part_all
 from tracer.limits import MODELS, make_limits
 from tracer.nodes import BACKGROUND, SHADOW
 from tracer.render import COARSE_TO_FINE, Job, passes, trace_passes
@@ -152,7 +152,7 @@ def test_one_compiled_kernel_serves_every_scene(worlds: dict[str, tracer.World])
         tracer.trace(world, (3, 3))
         tracer.render(world, (8, 6), samples=2)
     assert len(trace_area.signatures) == 1
-    assert len(split_all.signatures) == 1
+    assert len(part_all.signatures) == 1
 
 
 def test_formulas_run_as_plain_python() -> None:

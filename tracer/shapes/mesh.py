@@ -53,12 +53,16 @@ class Mesh:
 
     def is_closed(self) -> bool:
         """Whether every edge is passed once in each direction: then the mesh has an inside."""
-        _, corner = np.unique(self.geometry.vertices, axis=0, return_inverse=True)
-        faces = corner.reshape(-1)[self.geometry.faces]
-        edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-        forward, counts = np.unique(edges, axis=0, return_counts=True)
-        backward = np.unique(edges[:, ::-1], axis=0)
-        return bool((counts == 1).all()) and forward.shape == backward.shape and bool((forward == backward).all())
+        corners = self.geometry.vertices + 0.0  # -0 is 0
+        order = np.lexsort(corners.T)
+        differs = (corners[order[1:]] != corners[order[:-1]]).any(axis=1)
+        place = np.zeros(len(order), np.int64)
+        place[order[1:]] = np.cumsum(differs)
+        faces = place[self.geometry.faces]
+        start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+        forward = np.sort(start * len(order) + end)
+        backward = np.sort(end * len(order) + start)
+        return bool((forward[1:] != forward[:-1]).all()) and bool((forward == backward).all())
 
     def contains(self, p: np.ndarray) -> bool:
         """Whether the faces, seen from p, cover the whole sphere of directions: their solid angles add up to 4 pi.

@@ -128,7 +128,6 @@ def exact_normal(surface: Any) -> PairVector:
 @routine
 def exact_distance(surface: Any, ray: Ray) -> float:
     """n.(a - o) / n.d in pairs, so that neither a grazing ray nor a far point of the plane costs digits."""
-    stay_apart()
     normal = exact_normal(surface)
     height = pair_dot(normal, exact_difference(vector(surface.a), ray.origin))
     speed = pair_dot(normal, pair_vector(ray.direction))

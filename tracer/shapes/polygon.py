@@ -15,7 +15,7 @@ from tracer.jit import compiled
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
 from tracer.shapes.planar import is_beside, may_cross, newell, outline_slack, pack_normal, plane_distance, unit_normal
-from tracer.vector import Vector, vector
+from tracer.vector import Vector
 
 NAME = "polygon"
 
@@ -64,9 +64,9 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
         return math.inf
     slack = outline_slack(surface, ray)
     inside = False
-    x0, y0 = sheared(ray, vector(world.corners[surface.first + surface.count - 1]))
+    x0, y0 = sheared(ray, world.corners[surface.first + surface.count - 1])
     for k in range(surface.count):
-        x1, y1 = sheared(ray, vector(world.corners[surface.first + k]))
+        x1, y1 = sheared(ray, world.corners[surface.first + k])
         if (y0 > 0.0) != (y1 > 0.0):
             # On which side of the ray the edge passes. Rounding never turns this sign over, it can only make it 0:
             # then the edge goes through the ray itself, and that counts as inside, for either neighbour.

@@ -13,10 +13,11 @@ import numpy as np
 
 from tracer import fields
 from tracer.jit import compiled
+from tracer.lanes import alike, below, lanes, larger, smaller
 from tracer.pairs import exact_difference, pair_cross
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.planar import is_beside, may_cross, outline_slack, pack_normal, plane_distance, unit_normal
+from tracer.shapes.planar import NEAR, is_beside, may_cross, outline_slack, pack_normal, plane_distance, unit_normal
 from tracer.vector import Vector, add, cross, dot, length, scale, subtract, unit, vector
 
 NAME = "triangle"
@@ -54,9 +55,9 @@ def pack_triangles(rows: Any, corners: np.ndarray) -> None:
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     if not may_cross(surface, ray, ceiling):
         return math.inf
-    ax, ay = sheared(ray, vector(surface.a))
-    bx, by = sheared(ray, vector(surface.b))
-    cx, cy = sheared(ray, vector(surface.c))
+    ax, ay = sheared(ray, surface.a)
+    bx, by = sheared(ray, surface.b)
+    cx, cy = sheared(ray, surface.c)
     u = cx * by - cy * bx
     v = ax * cy - ay * cx
     w = bx * ay - by * ax
@@ -68,6 +69,34 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
         if not beside:
             return math.inf
     return plane_distance(world, surface, ray, floor, ceiling, exactly)
+
+
+@compiled
+def within(block: Any, ray: Ray, per_unit: float) -> int:
+    """Which of a block's triangles (see `bvh`) the ray may pass inside of, bit by bit: the same sums, eight at once.
+
+    None is dropped that `intersect` would find: the slack is that of corners rounded off, and of `outline_slack`.
+    """
+    anchor, o = block.anchor, scale(per_unit, ray.turned)
+    origin = (o[0] - anchor[ray.axis], o[1] - anchor[ray.across], o[2] - anchor[ray.up])
+    ax, ay = sheared_lanes(ray, origin, block.corners, 0)
+    bx, by = sheared_lanes(ray, origin, block.corners, 3)
+    cx, cy = sheared_lanes(ray, origin, block.corners, 6)
+    u = cx * by - cy * bx
+    v = ax * cy - ay * cx
+    w = bx * ay - by * ax
+    slack = (block.doubt + 16.0 * NEAR * (block.reach + per_unit * ray.reach)) * block.edge
+    least, most = smaller(u, smaller(v, w)), larger(u, larger(v, w))
+    return block.lanes & ~(below(least, alike(-slack)) & below(alike(slack), most))
+
+
+@compiled
+def sheared_lanes(ray: Ray, origin: Vector, corners: Any, first: int) -> tuple[Any, Any]:
+    """`sheared` of eight points whose coordinates stand from row `first` on."""
+    along = lanes(corners[first + ray.axis]) - origin[0]
+    across = lanes(corners[first + ray.across]) - origin[1]
+    up = lanes(corners[first + ray.up]) - origin[2]
+    return (across - along * ray.shear[0], up - along * ray.shear[1])
 
 
 again = planar.never
