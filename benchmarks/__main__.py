@@ -96,9 +96,15 @@ def measure(tasks: Sequence[tuple[str, Task]]) -> tuple[list[Figure], dict[str, 
             try:
                 figures += task.measure()
             except Exception as error:  # whatever it is, the others are still worth having
-                failures[f"{part}, {task.name}"] = f"{type(error).__name__}: {error}"
+                failures[f"{part}, {task.name}"] = reason(error)
             done += task.seconds
     return figures, failures
+
+
+def reason(error: Exception) -> str:
+    """In one line: a compiler's complaint has thousands."""
+    first = str(error).strip().partition("\n")[0]
+    return f"{type(error).__name__}: {first[:300]}"
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ def search_all(world: Any, origins: Any, directions: Any, space: Any, surfaces: 
         origin = vector(origins[k])
         reach = abs(origin[0]) + abs(origin[1]) + abs(origin[2])
         ray = make_ray(origin, unit(vector(directions[k])), -1, 0.0, reach)
-        _, surfaces[k], _ = closest(world, ray, 0.0, -1, space.stack)
+        _, surfaces[k], _ = closest(world, ray, 0.0, -1, space)
 
 
 class Searcher:
