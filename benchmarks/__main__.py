@@ -13,7 +13,7 @@ from benchmarks import against_embree, against_povray, click, growth, lessons, s
 from benchmarks.against_before import changes
 from benchmarks.figure import Figure
 from benchmarks.machine import machine
-from benchmarks.plot import as_svg
+from benchmarks.plot import as_svg, grouped
 from benchmarks.report import as_json, as_markdown, read_json
 from benchmarks.task import Options, Task
 from viewer.cli import at_least
@@ -50,7 +50,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         write_atomically(chosen.output / "bench.json", (as_json(*found) + "\n").encode())
         table = as_markdown(*found)
         write_atomically(chosen.output / "bench.md", table.encode())
-        if figures:
+        if grouped(figures):
             write_atomically(chosen.output / "bench.svg", as_svg(figures))
     except KeyboardInterrupt:
         print("stopped", file=sys.stderr)
