@@ -10,7 +10,7 @@ BIN := .venv/bin
 PROGRAMS := Xvfb:xvfb xdotool:xdotool openbox:openbox povray:povray setpriv:util-linux
 LIBRARIES := libEGL.so.1:libegl1 libGL.so.1:libgl1 swrast_dri.so:libgl1-mesa-dri
 
-.PHONY: run test check bench bench-stable picture clean
+.PHONY: run test check bench bench-quick bench-stable picture clean
 
 run: .venv/installed
 	@$(BIN)/raytree
@@ -24,11 +24,16 @@ check: .venv/installed-dev
 	$(BIN)/ruff check .
 	$(BIN)/pyright --pythonpath $(BIN)/python
 
-# Against POV-Ray, side by side; its figures go to out/bench.json.
-bench: .venv/installed-dev
-	@sh .ci/system-packages 'povray:povray' ''
-	@mkdir -p out
-	$(BIN)/python -m benchmarks.against_povray out/bench.json
+# Speed, side by side with POV-Ray and Embree: a table, a plot and the figures as JSON in out/. More scenes, parts, runs:
+# make bench BENCH='povray --scenes FOLDER --runs 9'
+bench: .venv/installed-bench
+	@sh .ci/system-packages '$(PROGRAMS)' '$(LIBRARIES)'
+	$(BIN)/python -m benchmarks $(BENCH)
+
+# What a change did to speed, in two minutes: against the figures of the last `make bench` where there are any.
+bench-quick: .venv/installed-bench
+	@sh .ci/system-packages '$(PROGRAMS)' '$(LIBRARIES)'
+	$(BIN)/python -m benchmarks povray embree growth --runs 3 --output out/quick $(addprefix --against ,$(wildcard out/bench.json))
 
 # What the stable formulas cost, against the textbook's in the same kernel.
 bench-stable: .venv/installed-dev
@@ -46,6 +51,10 @@ picture: .venv/installed
 
 .venv/installed-dev: .venv/installed
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[dev]'
+	@touch $@
+
+.venv/installed-bench: .venv/installed-dev
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[bench]'
 	@touch $@
 
 clean:

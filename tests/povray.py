@@ -8,7 +8,7 @@ import math
 import re
 import shutil
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -29,15 +29,15 @@ def available() -> bool:
     return shutil.which("povray") is not None
 
 
-def write_scene(scene: Scene, depth: int, size: tuple[int, int]) -> str:
-    """The scene in POV-Ray's language."""
+def write_scene(scene: Scene, depth: int, size: tuple[int, int], min_weight: float = 0.0) -> str:
+    """The scene in POV-Ray's language; each texture once, by a name, however many objects have it."""
     view = prepare(scene).view(size)
     aspect = size[0] / size[1]
     angle = 2.0 * math.degrees(math.atan(math.hypot(*view.up) * aspect))
     look_at = np.add(view.eye, view.forward)
     parts = [
         "#version 3.7;",
-        f"global_settings {{ assumed_gamma 1 max_trace_level {depth + 1} adc_bailout 0",
+        f"global_settings {{ assumed_gamma 1 max_trace_level {depth + 1} adc_bailout {min_weight!r}",
         f"  ambient_light {_rgb(scene.tracing.ambient)} }}",
         f"background {{ {_rgb(scene.background.color)} }}",
         # Right-handed: its x axis runs the other way.
@@ -47,12 +47,18 @@ def write_scene(scene: Scene, depth: int, size: tuple[int, int]) -> str:
     for light in scene.lights:
         assert light.position is not None
         parts.append(f"light_source {{ {_v(light.position)} {_rgb(light.color)} }}")
-    parts += [_object(item) for item in scene.objects]
-    return "\n".join(parts) + "\n"
+    textures: dict[str, str] = {}
+    objects = [_object(item, textures) for item in scene.objects]
+    parts += [f"#declare {name} = {texture}" for texture, name in textures.items()]
+    return "\n".join(parts + objects) + "\n"
 
 
-def _object(item: Object) -> str:
-    finish = _finish(item.shape, item.material)
+def _object(item: Object, textures: dict[str, str]) -> str:
+    """One object; a texture that `textures` does not know gets a name there."""
+    texture = _texture(item.shape, item.material)
+    finish = f"texture {{ {textures.setdefault(texture, f'T{len(textures)}')} }}"
+    if item.material.transmit > 0.0:
+        finish += f" interior {{ ior {item.material.ior!r} }}"
     match item.shape:
         case Sphere(center, radius):
             return f"sphere {{ {_v(center)}, {radius!r} {finish} }}"
@@ -71,12 +77,21 @@ def _object(item: Object) -> str:
         case Triangle(vertices):
             return f"triangle {{ {', '.join(map(_v, vertices))} {finish} }}"
         case Mesh():
-            faces = " ".join(f"triangle {{ {', '.join(map(_v, face))} }}" for face in item.shape.placed())
-            return f"mesh {{ {faces} inside_vector <0.3, 0.9, 0.2> {finish} }}"
+            return f"mesh {{ {' '.join(_faces(item.shape))} inside_vector <0.3, 0.9, 0.2> {finish} }}"
     raise TypeError(type(item.shape).__name__)
 
 
-def _finish(shape: object, material: Material) -> str:
+def _faces(mesh: Mesh) -> Iterator[str]:
+    normals = mesh.smooth()
+    if normals is None:
+        for face in mesh.placed():
+            yield f"triangle {{ {', '.join(map(_v, face))} }}"
+    else:
+        for face in np.stack([mesh.placed(), normals], axis=2):  # each corner, then its normal
+            yield f"smooth_triangle {{ {', '.join(map(_v, face.reshape(6, 3)))} }}"
+
+
+def _texture(shape: object, material: Material) -> str:
     opaque = 1.0 - material.transmit or 1.0
     pigment = f"color {_rgb(material.color)} transmit {material.transmit!r}"
     if material.checker:
@@ -93,8 +108,7 @@ def _finish(shape: object, material: Material) -> str:
         "reflection": material.reflect,
     }
     finish = " ".join(f"{name} {value!r}" for name, value in shares.items())
-    interior = f"interior {{ ior {material.ior!r} }}" if material.transmit > 0.0 else ""
-    return f"texture {{ pigment {{ {pigment} }} finish {{ {finish} }} }} {interior}"
+    return f"texture {{ pigment {{ {pigment} }} finish {{ {finish} }} }}"
 
 
 def _into_a_cell(shape: Polygon | Plane | Disc, size: float) -> np.ndarray:
@@ -111,7 +125,7 @@ def _into_a_cell(shape: Polygon | Plane | Disc, size: float) -> np.ndarray:
 
 
 def render(
-    source: str, size: tuple[int, int], folder: Path, threads: int = 2
+    source: str, size: tuple[int, int], folder: Path, threads: int = 2, options: Sequence[str] = ()
 ) -> tuple[np.ndarray, float, dict[str, int]]:
     """(linear image (height, width, 3) clipped to 0..1, its trace time in seconds, rays by kind)."""
     scene, image = folder / "scene.pov", folder / "scene.ppm"
@@ -119,7 +133,7 @@ def render(
     run = subprocess.run(
         [
             "povray", f"+I{scene}", f"+O{image}", f"+W{size[0]}", f"+H{size[1]}", f"+WT{threads}", "-D", "-A", "+FP16",
-            "File_Gamma=1.0",
+            "File_Gamma=1.0", *options,
         ],
         capture_output=True,
         text=True,

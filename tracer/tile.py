@@ -49,9 +49,8 @@ class Samples(NamedTuple):
 
 CENTER = Samples(-1, 1)
 
-ENOUGH = (
-    2**20
-)  # rays, after which the kernel comes back within a tile, so that it can be stopped: some tenths of a second
+# Rays, after which the kernel comes back within a tile, so that it can be stopped: some tenths of a second.
+ENOUGH = 2**20
 
 
 class Space(NamedTuple):

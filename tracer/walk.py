@@ -80,8 +80,18 @@ def walker(visit: Callable[..., Any], nearest_first: bool) -> Callable[..., Any]
             if kind == BOXES:
                 node = world.nodes[natural(number)]
                 met, near = enter(node.planes, way, OUTWARD * (per_unit * known[0]))
-                if met != 0 and met & (met - 1) == 0:
-                    child = node.child[natural(first_of(met))]
+                others = met & (met - 1)
+                if met != 0 and others & (others - 1) == 0:  # one or two: the most frequent, without a loop or a sort
+                    first, second = natural(first_of(met)), natural(first_of(others | 128))
+                    child, other = node.child[first], node.child[second]
+                    if others != 0:
+                        if nearest_first:
+                            keep(near, space.near)
+                            a, b = space.near[first], space.near[second]
+                            child, other = (other, child) if b < a else (child, other)
+                            stack[natural(depth)].near = max(a, b)
+                        stack[natural(depth)].child = other
+                        depth += 1
                     continue
                 if nearest_first:
                     keep(near, space.near)

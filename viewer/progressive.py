@@ -110,6 +110,9 @@ class Progressive:
 
 
 def _step_back() -> None:
-    """Let the window go first: a lower priority for this thread, where the system has one for threads."""
+    """Let the window go first: a lower priority for this thread, where the system has one for threads.
+
+    Lower than the process has: one that was started with a low priority may not raise it.
+    """
     if hasattr(os, "setpriority") and os.uname().sysname == "Linux":
-        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), 5)
+        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), os.getpriority(os.PRIO_PROCESS, 0) + 5)

@@ -4,6 +4,8 @@ import math
 from fractions import Fraction
 
 import numpy as np
+import pytest
+import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -13,7 +15,8 @@ from tracer.bvh import BOXES, DEEPEST, FLAT, KINDS, TRIANGLES, build
 from tracer.lanes import WIDTH
 from tracer.nodes import BACKGROUND
 from tracer.rays import make_ray
-from tracer.scene import Object
+from tracer.scene import Light, Material, Object
+from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.polygon import Polygon
 from tracer.vector import vector
 from tracer.walk import enter, way_of
@@ -40,6 +43,38 @@ def test_hierarchy_finds_what_trying_all_surfaces_finds(balls: list, rays: list)
             assert tree.nodes["end"][0] == BACKGROUND
         else:
             assert (tree.nodes["t"][0], tree.object_name(0)) == (best[0], f"ball {best[1]}")
+
+
+@pytest.mark.parametrize("power", [0, -300, 200])
+@pytest.mark.parametrize("away", [0.0, 1e3, 1e7])
+def test_blocks_of_triangles_drop_none_that_is_met(monkeypatch: pytest.MonkeyPatch, power: int, away: float) -> None:
+    """The same trees with them and without, to the last bit, for rays aimed at corners, at edges and between, and for
+    those that go on from there; tiny and huge, and where coordinates have lost digits."""
+    random = np.random.default_rng(power + 1000)
+    unit = 2.0**power
+    glass, mirror = Material("glass", transmit=0.6, reflect=0.3, ior=1.5), Material("mirror", reflect=0.5, diffuse=0.5)
+    objects, corners = [], []
+    for k in range(4):
+        ball = trimesh.creation.icosphere(subdivisions=1 + k % 2)
+        vertices = ball.vertices * random.uniform(0.3, 1.0, 3) + random.uniform(-1.0, 1.0, 3) + away
+        geometry = Geometry(np.array(vertices * unit), np.array(ball.faces), None)
+        objects.append(Object(Mesh(geometry), glass if k % 2 else mirror, f"stone {k}"))
+        corners.append(geometry.vertices[geometry.faces])
+    lamp = Light("lamp", position=tuple(float(x) for x in unit * (np.array([3.0, 5.0, 4.0]) + away)))
+    with_blocks = world_of(*objects, lights=[lamp])
+    assert len(with_blocks.arrays.blocks) > 20
+    monkeypatch.setattr("tracer.world.FLAT", 10**6)
+    without = world_of(*objects, lights=[lamp])
+    assert len(without.arrays.blocks) == 0
+    faces = np.concatenate(corners)
+    for k in range(300):
+        a, b, c = faces[random.integers(len(faces))]
+        shares = [(1.0, 0.0, 0.0), (0.5, 0.5, 0.0), random.dirichlet((1, 1, 1))][k % 3]
+        target = shares[0] * a + shares[1] * b + shares[2] * c
+        eye = unit * (random.normal(size=3) * 4.0 + away)
+        ray = (tuple(map(float, eye)), tuple(map(float, target - eye)))
+        trees = [tracer.trace(world, ray=ray, depth=3) for world in (with_blocks, without)]
+        assert trees[0].nodes.tobytes() == trees[1].nodes.tobytes(), ray
 
 
 def test_hierarchy_holds_every_surface_once_inside_its_boxes() -> None:

@@ -217,9 +217,10 @@ def unit_normal(corners: np.ndarray) -> np.ndarray:
 
 def pack_normal(rows: Any, area: PairVector) -> None:
     """Fill in `normal` and `low` from normals of any length above 0, numbers or arrays."""
-    (x, x_low), (y, y_low), (z, z_low) = area
-    size = np.sqrt(x * x + y * y + z * z)
-    for k, (high, low) in enumerate(((x, x_low), (y, y_low), (z, z_low))):
+    _, exponent = np.frexp(np.max(np.abs([high for high, _ in area]), axis=0))  # so that no square vanishes
+    tamed = [(np.ldexp(high, -exponent), np.ldexp(low, -exponent)) for high, low in area]
+    size = np.sqrt(sum(high * high for high, _ in tamed))
+    for k, (high, low) in enumerate(tamed):
         rows["normal"][..., k] = n = high / size
         product, error = two_product(n, size)
         rows["low"][..., k] = ((high - product) - error + low) / size

@@ -1,0 +1,109 @@
+"""The viewer in a real window, watched: a process of its own that prints what it found as JSON.
+
+`python -m benchmarks.desk SCENE RUNS`. The loop is the viewer's own (`App.run`); only its frames are timed. For frames
+without an image in the making a hand moves the mouse over the window, since the viewer draws none on its own.
+"""
+
+import json
+import statistics
+import sys
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from imgui_bundle import imgui
+
+import tracer
+from tests.viewer.screen import screen
+from viewer.app import App
+from viewer.session import Session
+from viewer.window import Window
+
+SIZE = (1280, 720)
+FRAMES = 60
+IDLE = 3.0  # seconds
+
+
+class Desk(App):
+    """The viewer, noting how long its frames take; it leaves its loop when `enough` says so after a frame."""
+
+    def __init__(self, scene: Path) -> None:
+        super().__init__(Window("raytree", SIZE), Session())
+        self.took: list[float] = []
+        self.enough: Callable[[], bool] = lambda: False
+        self.session.open(scene)
+        self.settle()
+
+    def frame(self) -> None:
+        began = time.perf_counter()
+        super().frame()
+        self.took.append(time.perf_counter() - began)
+        self.session.wants_quit = self.enough()
+
+    def watch(self, enough: Callable[[], bool]) -> list[float]:
+        """Run until there is enough; the seconds of each frame."""
+        self.took, self.enough = [], enough
+        self.session.wants_quit = False
+        self.run()
+        return self.took
+
+    def frames_at_rest(self) -> float:
+        """The median frame while a hand moves the mouse and nothing else happens."""
+
+        def moved() -> bool:
+            k = len(self.took)
+            imgui.get_io().add_mouse_pos_event(600.0 + k % 2, 200.0)
+            return k >= FRAMES
+
+        return statistics.median(self.watch(moved))
+
+    def image_in_window(self) -> tuple[float, float]:
+        """(seconds of an image, the median frame meanwhile)."""
+        session = self.session
+        session.image.forget()
+        session.update()
+        picture = session.image.picture
+        assert picture and not picture.finished
+        frames = self.watch(lambda: picture.finished)
+        return picture.seconds, statistics.median(frames)
+
+    def image_alone(self) -> float:
+        world = self.session.world
+        assert world
+        return tracer.render(world, depth=self.session.depth, model=self.session.model).seconds["trace"]
+
+    def share_at_rest(self) -> float:
+        """Of one core, while nothing happens."""
+        self.watch(lambda: len(self.took) >= 2 * FRAMES or not self._is_busy())
+        over = threading.Event()
+
+        def leave() -> None:
+            over.set()
+            self.session.wants_quit = True
+            self.surface.wake()
+
+        began, used = time.perf_counter(), time.process_time()
+        timer = threading.Timer(IDLE, leave)
+        timer.start()
+        self.watch(over.is_set)
+        timer.join()
+        return (time.process_time() - used) / (time.perf_counter() - began)
+
+
+def main() -> None:
+    screen()
+    desk = Desk(Path(sys.argv[1]))
+    found: dict[str, list[float]] = {name: [] for name in ("rest", "busy", "windowed", "alone", "idle")}
+    for run in range(int(sys.argv[2]) + 1):
+        windowed, busy = desk.image_in_window()
+        row = (desk.frames_at_rest(), busy, windowed, desk.image_alone(), desk.share_at_rest())
+        if run:  # the first only warms up
+            for values, value in zip(found.values(), row, strict=True):
+                values.append(value)
+    desk.close()
+    print(json.dumps(found))
+
+
+if __name__ == "__main__":
+    main()
