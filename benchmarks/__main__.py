@@ -17,8 +17,8 @@ from benchmarks.plot import as_svg, grouped
 from benchmarks.report import as_json, as_markdown, read_json
 from benchmarks.task import Options, Task
 from viewer.cli import at_least
-from viewer.progress import Progress
 from viewer.files import Unusable, write_atomically
+from viewer.progress import Progress
 
 PARTS: dict[str, Callable[[Options], list[Task]]] = {
     "povray": against_povray.times,

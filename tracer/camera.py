@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.jit import compiled
-from tracer.scene import Scene, middle_and_radius
+from tracer.scene import Scene
 from tracer.vector import Vector, add, cross, scale, subtract, tame, unit
 
 BESIDE = 1.1  # how much more than the whole scene a framing camera sees
@@ -42,12 +42,12 @@ def make_view(eye: Vector, look_at: Vector, up: Vector, fov: float, size: tuple[
     return View(eye, forward, scale(half, right), scale(half, cross(right, forward)), *size)
 
 
-def scene_view(scene: Scene, bounds: np.ndarray, size: tuple[int, int] | None = None) -> View:
-    """The scene's camera for an image of this size; what the author left out frames the boxes (n, 2, 3)."""
+def scene_view(scene: Scene, extent: tuple[Vector, float], size: tuple[int, int] | None = None) -> View:
+    """The scene's camera for an image of this size; what the author left out frames the scene's middle and radius."""
     camera = scene.camera
     width, height = size or (scene.image.width, scene.image.height)
-    middle, radius = middle_and_radius(bounds) if len(bounds) else (np.zeros(3), 1.0)
-    look_at = camera.look_at or _vector(middle)
+    middle, radius = extent
+    look_at = camera.look_at or middle
     position = camera.position
     if position is None:
         narrow = math.radians(camera.fov) / 2

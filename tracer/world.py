@@ -3,7 +3,7 @@
 A shape becomes one row of `surfaces`, a mesh one row a face, in the file's order: a surface's number decides ties.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,7 +12,7 @@ from tracer.bundle import Bundle
 from tracer.bvh import FLAT, build
 from tracer.camera import View, scene_view
 from tracer.plan import Need, hidden_solids, is_open, needs, open_notes
-from tracer.scene import Material, Object, Scene, SceneError, Shape
+from tracer.scene import Material, Object, Scene, SceneError, Shape, middle_and_radius
 from tracer.shapes import CODES
 from tracer.shapes.cone import Cone
 from tracer.shapes.disc import Disc
@@ -21,7 +21,7 @@ from tracer.shapes.planar import NEAR
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
-from tracer.vector import Vector, cross, tame, unit
+from tracer.vector import Vector, as_floats, cross, tame, unit
 
 SURFACE = np.dtype(
     [
@@ -98,6 +98,8 @@ class Arrays(NamedTuple):
     per_unit: np.ndarray  # (1,) of the hierarchy, one over its unit of length
 
 
+MOST_PLACES = 64  # that are kept in mind
+
 ENDLESS = np.array([[[-np.inf] * 3, [np.inf] * 3]])  # the bounds of what has none
 
 
@@ -106,8 +108,10 @@ class World:
     scene: Scene
     arrays: Bundle  # of Arrays
     bounds: np.ndarray  # (n, 2, 3): boxes about every bounded surface
+    extent: tuple[Vector, float]  # their middle and the radius about it, for a camera that is left open
     needs: tuple[Need, ...]
     solids: tuple[int, ...]  # objects that bound a medium, by rank
+    surrounding: dict[Vector, list[int]] = field(default_factory=dict)  # what `around` has found: the eye stays
 
     @property
     def left_out(self) -> list[str]:
@@ -128,12 +132,16 @@ class World:
 
     def view(self, size: tuple[int, int] | None = None) -> View:
         """The scene's camera for an image of this size, the scene's own by default."""
-        return scene_view(self.scene, self.bounds, size)
+        return scene_view(self.scene, self.extent, size)
 
     def around(self, point: Vector) -> list[int]:
         """Ranks of the transparent solids a point lies in."""
-        p = np.array(point)
-        return [rank for rank, k in enumerate(self.solids) if self.scene.objects[k].shape.contains(p)]
+        if point not in self.surrounding:
+            if len(self.surrounding) >= MOST_PLACES:
+                self.surrounding.clear()
+            p, shapes = np.array(point), [self.scene.objects[k].shape for k in self.solids]
+            self.surrounding[point] = [rank for rank, shape in enumerate(shapes) if shape.contains(p)]
+        return self.surrounding[point]
 
 
 def prepare(scene: Scene) -> World:
@@ -170,9 +178,16 @@ def prepare(scene: Scene) -> World:
         blocks=blocks,
         per_unit=np.array([1.0 / unit]),
     )
-    return World(
-        scene, Bundle(arrays), bounds[finite], needs(scene, len(surfaces), len(nodes), len(blocks)), tuple(solids)
-    )
+    found = needs(scene, len(surfaces), len(nodes), len(blocks))
+    return World(scene, Bundle(arrays), bounds[finite], _extent(scene, bounds[finite]), found, tuple(solids))
+
+
+def _extent(scene: Scene, bounds: np.ndarray) -> tuple[Vector, float]:
+    """(middle, radius) of the boxes where the camera is placed by them."""
+    if len(bounds) == 0 or (scene.camera.position and scene.camera.look_at):
+        return ((0.0, 0.0, 0.0), 1.0)
+    middle, radius = middle_and_radius(bounds)
+    return (as_floats(middle), radius)
 
 
 def _ranked(scene: Scene) -> list[int]:

@@ -18,7 +18,7 @@ from tracer.rays import make_ray
 from tracer.scene import Light, Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.polygon import Polygon
-from tracer.vector import vector
+from tracer.vector import as_floats, vector
 from tracer.walk import enter, way_of
 
 spread = st.floats(-10, 10)
@@ -60,7 +60,7 @@ def test_blocks_of_triangles_drop_none_that_is_met(monkeypatch: pytest.MonkeyPat
         geometry = Geometry(np.array(vertices * unit), np.array(ball.faces), None)
         objects.append(Object(Mesh(geometry), glass if k % 2 else mirror, f"stone {k}"))
         corners.append(geometry.vertices[geometry.faces])
-    lamp = Light("lamp", position=tuple(float(x) for x in unit * (np.array([3.0, 5.0, 4.0]) + away)))
+    lamp = Light("lamp", position=as_floats(unit * (np.array([3.0, 5.0, 4.0]) + away)))
     with_blocks = world_of(*objects, lights=[lamp])
     assert len(with_blocks.arrays.blocks) > 20
     monkeypatch.setattr("tracer.world.FLAT", 10**6)

@@ -35,8 +35,11 @@ class Mesh:
 
     def placed(self) -> np.ndarray:
         """The corners of every face, (m, 3, 3), where the author put them."""
-        vertices = self.scale * self.geometry.vertices @ turn(self.rotate).T + self.translate
-        return vertices[self.geometry.faces]
+        return self.vertices()[self.geometry.faces]
+
+    def vertices(self) -> np.ndarray:
+        """(n, 3), where the author put them."""
+        return self.scale * self.geometry.vertices @ turn(self.rotate).T + self.translate
 
     def pack(self, rows: Any) -> None:
         pack_triangles(rows, self.placed())
@@ -69,9 +72,11 @@ class Mesh:
 
         Van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983.
         """
-        if not self.is_closed():
+        vertices = self.vertices()
+        outside = (p < vertices.min(axis=0)).any() or (p > vertices.max(axis=0)).any()
+        if outside or not self.is_closed():
             return False
-        a, b, c = np.moveaxis(self.placed() - p, 1, 0)
+        a, b, c = np.moveaxis(vertices[self.geometry.faces] - p, 1, 0)
         la, lb, lc = (np.sqrt((x * x).sum(axis=1)) for x in (a, b, c))
         volume = (a * np.cross(b, c)).sum(axis=1)
         spread = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
