@@ -17,7 +17,6 @@ from numba.core import cgutils
 from numba.core.datamodel import models
 from numba.core.typing.templates import AttributeTemplate
 from numba.extending import NativeValue, infer_getattr, lower_getattr_generic, register_model, typeof_impl, unbox
-from numba.np.arrayobj import make_array, populate_array
 from numba.np.numpy_support import from_dtype
 
 
@@ -108,6 +107,8 @@ class _BundleAttributes(AttributeTemplate):
 
 @lower_getattr_generic(BundleType)
 def _read(context: Any, builder: Any, kind: BundleType, address: Any, attribute: str) -> Any:
+    from numba.np.arrayobj import make_array, populate_array  # loaded only where something is compiled
+
     entry = next(entry for entry in kind.entries if entry.name == attribute)
     word = ir.IntType(64)
     table = builder.inttoptr(address, word.as_pointer())

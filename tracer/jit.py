@@ -8,19 +8,19 @@ a change in the entry point's own file only and would go on using stale code of 
 
 import hashlib
 import os
-import platform
 import shutil
 import tempfile
 from collections.abc import Callable
 from functools import cache
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 import numba
 import platformdirs
 from numba import types
+from numba.core.caching import FunctionCache
 from numba.core.registry import cpu_target
+from numba.core.runtime import rtsys
 from numba.extending import lower_builtin, register_jitable, type_callable
 
 P = ParamSpec("P")
@@ -103,12 +103,31 @@ def _lower_product_error(context: Any, builder: Any, signature: Any, arguments: 
     return builder.fma(a, b, builder.fneg(product))
 
 
+class Kept(FunctionCache):
+    """The machine code of one kernel on disk.
+
+    To load it Numba first fills its tables of all that it can compile, which takes longer than the loading; nothing is
+    to be compiled, so it has only what machine code itself calls set up.
+    """
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        rtsys.initialize(target_context)
+        with self._guard_against_spurious_io_errors():
+            found = self._load_overload(sig, target_context)
+        if found is None:
+            target_context.refresh()
+        return found
+
+
 def kernel(function: Callable[P, R]) -> Callable[P, R]:
     """Mark an entry point: compiled at its first call with these types, then loaded from `cache_folder`."""
     before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
     numba.config.CACHE_DIR = str(cache_folder())  # type: ignore[attr-defined]
     try:
-        return numba.njit(cache=True, **OPTIONS)(function)
+        entry: Any = numba.njit(**OPTIONS)(function)
+        if hasattr(entry, "py_func"):  # and compiling is not switched off
+            entry._cache = Kept(function)
+        return entry
     finally:
         numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
 
@@ -137,6 +156,8 @@ def source_digest() -> str:
 @cache
 def versions() -> dict[str, str]:
     """What makes the machine code: processes where these are the same trace the same, on one kind of machine."""
+    from importlib.metadata import version
+
     return {
         "raytree": f"{version('raytree')}/{source_digest()}",
         **{name: version(name) for name in ("numba", "llvmlite", "numpy")},
@@ -146,6 +167,8 @@ def versions() -> dict[str, str]:
 @cache
 def machine() -> dict[str, str]:
     """What else an image's last bits depend on."""
+    import platform
+
     code: Any = cpu_target.target_context
     _, cpu, features = code.codegen().magic_tuple()
     return {

@@ -54,4 +54,5 @@ NODE = np.dtype(
     align=True,
 )
 
-PUBLIC = NODE.names[: NODE.names.index("start")]  # type: ignore[index, union-attr]
+_NAMES: tuple[str, ...] = NODE.names  # type: ignore[assignment]
+PUBLIC = np.dtype([(name, NODE[name]) for name in _NAMES[: _NAMES.index("start")]])

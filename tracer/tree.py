@@ -13,7 +13,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.lib.recfunctions import repack_fields
 
 from tracer.bound import Ledger, brightest, ledger
 from tracer.camera import View
@@ -146,7 +145,7 @@ class RayTree:
     def _node(self, i: int) -> dict[str, Any]:
         row = self.nodes[i]
         node: dict[str, Any] = {}
-        for field in PUBLIC:
+        for field in PUBLIC.names or ():
             match field:
                 case "kind":
                     node[field] = self.kind(i)
@@ -232,7 +231,9 @@ def trace(
     space = workspace.arrays
     count = int(space.tree[0])
     errors_of(world.arrays, space.table.view(np.recarray), count)
-    nodes = repack_fields(space.table[:count][list(PUBLIC)])
+    nodes = np.zeros(count, PUBLIC)
+    for name in PUBLIC.names or ():
+        nodes[name] = space.table[name][:count]
     _fill_angles(nodes, scene)
     nodes.flags.writeable = False
     residual = float(space.tree[1])
