@@ -20,7 +20,7 @@ import platformdirs
 from numba import types
 from numba.core.caching import FunctionCache
 from numba.core.registry import cpu_target
-from numba.core.runtime import rtsys
+from numba.core.runtime.nrt import rtsys
 from numba.extending import lower_builtin, register_jitable, type_callable
 
 P = ParamSpec("P")
