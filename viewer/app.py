@@ -127,7 +127,7 @@ class App:
         height = max(room.work_size.y, SMALLEST[1]) - bar.height()
         self._dock(left, top, width, height, reset)
         self._bring_forward()
-        for panel in PANELS:
+        for panel in filter(lambda panel: panel.exists(session), PANELS):
             self._panel(panel.title, lambda panel=panel: panel.draw(session, self.canvas))
         bar.draw(session, left, top + height, width)
 
