@@ -126,9 +126,9 @@ class App:
         width = max(room.work_size.x, SMALLEST[0])
         height = max(room.work_size.y, SMALLEST[1]) - bar.height()
         self._dock(left, top, width, height, reset)
-        self._bring_forward()
         for panel in filter(lambda panel: panel.exists(session), PANELS):
             self._panel(panel.title, lambda panel=panel: panel.draw(session, self.canvas))
+        self._bring_forward()  # after it has come to be
         bar.draw(session, left, top + height, width)
 
     def _bring_forward(self) -> None:

@@ -20,9 +20,10 @@ from tracer.plan import Need
 from tracer.render import Image, Job, passes, render, trace_passes, warm
 from tracer.world import World, prepare
 
-MOST_PIXELS = 30_000
-QUICK, SLOW = 0.05, 0.4  # seconds that the scene's own image may take, and any other
+MOST_PIXELS = 80_000
+QUICK, SLOW = 0.015, 0.4  # seconds that the scene's own image may take, and any other
 PROBE = 64  # pixels of the first image that is tried
+TELLING = 0.005  # seconds: less is not enough to tell by how long more pixels take
 BUDGET = 0.7  # seconds a line
 UNNOTICED = 2.0**-200  # pictures that differ by less are the same
 
@@ -155,8 +156,8 @@ def per_pixel(shot: Shot, size: Size) -> float:
     pixels = PROBE
     while True:
         probe = shrunk(size, pixels / (size[0] * size[1]))
-        took = min(shot.work(probe) for _ in range(2))
-        if took > 0.1 * QUICK or probe == size:
+        took = min(shot.work(probe) for _ in range(3))
+        if took > TELLING or probe == size:
             return took / (probe[0] * probe[1])
         pixels *= 4
 

@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-FEWEST, MOST = 3, 15  # pairs
+FEWEST, MOST = 3, 25  # pairs
 
 
 @dataclass(frozen=True)
