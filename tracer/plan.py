@@ -53,7 +53,7 @@ def needs(scene: Scene, surfaces: int, nodes: int, blocks: int) -> tuple[Need, .
         Need(
             "light through glass",
             bool(glass) and bool(scene.lights) and scene.tracing.shadows == "filter",
-            f'shadows = "{scene.tracing.shadows}"' if glass else _which(glass, "transmits"),
+            _filter_reason(scene, glass),
         ),
         Need("checker", any(m.checker for m in materials), _checkered(materials)),
         Need("hierarchy", nodes > 0, _hierarchy(surfaces, nodes, blocks)),
@@ -117,6 +117,12 @@ def _shadow_reason(lights: int, lit: int) -> str:
     if not lights:
         return "no light"
     return _count(lights, "light") if lit else "no surface that light makes brighter"
+
+
+def _filter_reason(scene: Scene, glass: list) -> str:
+    if glass and scene.lights:
+        return f'shadows = "{scene.tracing.shadows}"'
+    return "no light" if glass else _which(glass, "transmits")
 
 
 def _hierarchy(surfaces: int, nodes: int, blocks: int) -> str:

@@ -2,6 +2,7 @@
 
 import json
 import math
+import textwrap
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +17,7 @@ from viewer.needs import MODULES, start_needs, window_needs
 
 HEADS = {"image": "THE IMAGE", "frame": "A FRAME OF THE WINDOW", "start": "A START"}
 FORMAT = "raytree-plan/1"
+WIDTH = 100  # of running text
 
 
 @dataclass(frozen=True)
@@ -95,9 +97,9 @@ def _measured(plan: Plan, image: Measured, width: int) -> Iterator[str]:
 def _row(line: Saving, image: Measured, width: int) -> str:
     note = line.how
     if line.size not in (None, image.size):
-        note += f" ({_size(line.size)} pixels)"
+        note += f" ({_size(line.size)})"
     if line.changed and not line.need.needed and "another picture" not in note and "rays a pixel" not in note:
-        note += f" ({spaced(line.changed)} pixels differ)"
+        note += f" ({spaced(line.changed)} px differ)"
     added = signed(line.rays[1] - line.rays[0]) if line.rays else ""
     took = ratio = ""
     if line.turns:
@@ -107,16 +109,17 @@ def _row(line: Saving, image: Measured, width: int) -> str:
     return f"{line.need.name:{width}}{added:>17}{took:>16}{ratio:>8}   {note}".rstrip()
 
 
-def _verdict(image: Measured) -> Iterator[str]:
+def _verdict(image: Measured) -> list[str]:
     together = image.together
     assert together.rays and together.turns
     turns = together.turns
     same = "the same picture" if not together.changed else f"{spaced(together.changed)} pixels differ"
-    yield (
-        f"All at once that the image leaves out ({together.how}; {same}): {spaced(together.rays[1])} rays\n"
-        f"instead of {spaced(together.rays[0])}, {1e3 * (turns.without + turns.extra):.1f} ms instead of "
-        f"{1e3 * turns.without:.1f}, ×{turns.ratio:.2f}."
+    before, after = 1e3 * turns.without, 1e3 * (turns.without + turns.extra)
+    told = (
+        f"All at once that the image leaves out ({together.how}; {same}): {spaced(together.rays[1])} rays instead of "
+        f"{spaced(together.rays[0])}, {after:.1f} ms instead of {before:.1f}, ×{turns.ratio:.2f}."
     )
+    return textwrap.wrap(told, WIDTH)
 
 
 def spaced(count: int) -> str:

@@ -12,7 +12,7 @@ from tracer.scene import Scene
 
 def without_reflection(scene: Scene) -> Variant | str:
     other = with_tracing(with_materials(scene, lambda m: replace(m, reflect=0.0)), model="whitted")
-    return Variant("nothing reflects but totally", other)
+    return Variant("no reflection but the total one", other)
 
 
 def without_refraction(scene: Scene) -> Variant | str:

@@ -21,9 +21,9 @@ from tracer.render import Image, Job, passes, render, trace_passes, warm
 from tracer.world import World, prepare
 
 MOST_PIXELS = 80_000
-QUICK, SLOW = 0.015, 0.4  # seconds that the scene's own image may take, and any other
+QUICK, SLOW = 0.015, 0.5  # seconds that the scene's own image may take, and any other
 PROBE = 64  # pixels of the first image that is tried
-TELLING = 0.005  # seconds: less is not enough to tell by how long more pixels take
+TELLING = 0.02  # seconds: less is not enough to tell by how long more pixels take
 BUDGET = 0.7  # seconds a line
 UNNOTICED = 2.0**-200  # pictures that differ by less are the same
 

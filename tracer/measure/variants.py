@@ -92,14 +92,14 @@ def with_media(scene: Scene) -> Variant | str:
         return "no object has an inside"
     blocks = all(item.material.transmit == 0.0 for item in scene.objects)
     other = with_tracing(replace(scene, objects=objects), shadows="block" if blocks else scene.tracing.shadows)
-    return Variant("closed objects bound media, not entered", other, UNFOLLOWED)
+    return Variant("closed objects bound media", other, UNFOLLOWED)
 
 
 def with_fresnel(scene: Scene) -> Variant | str:
     if any(item.material.transmit > 0.0 for item in scene.objects):
         return Variant("Fresnel's law: another picture", with_tracing(scene, model="fresnel"))
     other = with_tracing(with_glass(scene, UNSEEN, ior=1.5), model="fresnel", shadows="block")
-    return Variant("Fresnel's shares at every hit, no rays", other, UNFOLLOWED)
+    return Variant("Fresnel's shares at every hit", other, UNFOLLOWED)
 
 
 def with_dispersion(scene: Scene) -> Variant | str:
@@ -116,7 +116,7 @@ def with_shadow_rays(scene: Scene) -> Variant | str:
         lights = tuple(replace(light, color=(0.0, 0.0, 0.0)) for light in scene.lights)
         return Variant("matte surfaces, black lamps", replace(other, lights=lights))
     lamp = Light("black", position=prepare(scene).view().eye, color=(0.0, 0.0, 0.0))
-    return Variant("matte surfaces, a black lamp in the eye", replace(other, lights=(lamp,)))
+    return Variant("matte surfaces, a black lamp", replace(other, lights=(lamp,)))
 
 
 def with_filtered_light(scene: Scene) -> Variant | str:
@@ -148,7 +148,7 @@ def with_normals(scene: Scene) -> Variant | str:
     if not any(isinstance(item.shape, Mesh) for item in scene.objects):
         return "no mesh whose vertices could have one"
     return Variant(
-        "each face's normal at its vertices",
+        "faces' own normals",
         replace(scene, objects=tuple(with_geometry(item, _own_normals) for item in scene.objects)),
     )
 
