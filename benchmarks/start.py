@@ -19,6 +19,7 @@ VIEW_MOST = 2.2
 TRACE_MOST = 2.0
 FIRST_MOST = 40.0  # seconds
 FIRST_RUNS = 2  # at most
+KEPT = {"PYTHONDONTWRITEBYTECODE": ""}  # as for users: Python keeps what it has compiled of our files, too
 VIEW_NEEDS = "numpy, numba, platformdirs, moderngl, imgui_bundle, glfw, PIL.Image"
 TRACE_NEEDS = "numpy, numba"
 
@@ -63,7 +64,9 @@ def imports(names: str) -> list[str]:
 
 def seconds(command: Sequence[str], more: Mapping[str, str] | None = None) -> float:
     began = time.perf_counter()
-    run = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **(more or {})}, check=False)
+    run = subprocess.run(
+        command, capture_output=True, text=True, env={**os.environ, **KEPT, **(more or {})}, check=False
+    )
     took = time.perf_counter() - began
     if run.returncode != 0:
         raise RuntimeError(f"{' '.join(command)}: {run.stderr.strip()[-500:]}")

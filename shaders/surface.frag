@@ -1,11 +1,11 @@
 // A surface of the scene as the tracer's local term has it: ambient, diffuse and highlight of every light, no shadows.
 // Mirrors and glass show a made-up sky in place of what they would reflect; glass is thin in the middle and dense at the
 // rim, by Fresnel's law, so that rays inside it stay readable. Where a plane has no end it fades out.
+// GLASS, MIRROR, CHECKER are defined for scenes that have such surfaces.
 #version 330
 #include "common.glsl"
 
 const int MOST_LIGHTS = 8;
-const int ROWS = 4;  // of the material texture, a column a material
 
 uniform sampler2D materials;  // color+ambient; checker color+size; diffuse, specular, shininess, reflect; transmit, ior, flat
 uniform sampler2D axes;       // of flat checkers, a column a material: u, v
@@ -29,6 +29,7 @@ in vec3 n;
 flat in int which;
 out vec4 color;
 
+#ifdef CHECKER
 // Share of one colour of the checker along one axis, averaged over the pixel's width, so that far squares do not flicker.
 float stripe(float x, float w) {
     w = max(w, 1e-6);
@@ -52,20 +53,24 @@ float checker(vec4 second, vec4 u, vec4 v) {
     return st + r - 2.0 * st * r;
 }
 
+#endif
+
+#if defined(GLASS) || defined(MIRROR)
 vec3 sky(vec3 direction) {
     return mix(sky_bottom, sky_top, smoothstep(-0.25, 0.6, dot(direction, up)));
 }
+#endif
 
 void main() {
     vec4 first = texelFetch(materials, ivec2(which, 0), 0);
-    vec4 second = texelFetch(materials, ivec2(which, 1), 0);
     vec4 terms = texelFetch(materials, ivec2(which, 2), 0);
-    vec4 glass = texelFetch(materials, ivec2(which, 3), 0);
-    bool transmits = glass.x > 0.0;
 
     vec3 base = first.rgb;
+#ifdef CHECKER
+    vec4 second = texelFetch(materials, ivec2(which, 1), 0);
     if (second.w > 0.0)
         base = mix(base, second.rgb, checker(second, texelFetch(axes, ivec2(which, 0), 0), texelFetch(axes, ivec2(which, 1), 0)));
+#endif
     vec3 v = normalize(place - eye);
     vec3 normal = normalize(n);
     if (dot(normal, v) > 0.0) normal = -normal;
@@ -79,10 +84,14 @@ void main() {
         float r_v = max(dot(reflect(-l, normal), -v), 0.0);
         shine += light_colors[j] * terms.y * pow(r_v, max(terms.z, 1.0));
     }
-    vec3 mirrored = sky(reflect(v, normal));
-    float c1 = -dot(v, normal);
     float alpha = 1.0;
-    if (transmits) {
+#if defined(GLASS) || defined(MIRROR)
+    vec3 mirrored = sky(reflect(v, normal));
+#endif
+#ifdef GLASS
+    vec4 glass = texelFetch(materials, ivec2(which, 3), 0);
+    if (glass.x > 0.0) {
+        float c1 = -dot(v, normal);
         float r0 = pow((glass.y - 1.0) / (glass.y + 1.0), 2.0);
         float fresnel = r0 + (1.0 - r0) * pow(1.0 - c1, 5.0);
         float rim = clamp(terms.w + 0.85 * fresnel + 0.30 * pow(1.0 - c1, 3.0), 0.0, 1.0);
@@ -94,8 +103,12 @@ void main() {
         float rim_line = turns > 0.02 ? edge.a * (1.0 - smoothstep(0.4, 1.4, c1 / turns)) : 0.0;
         light = mix(light, pow(edge.rgb, vec3(2.2)), rim_line);
         alpha = max(alpha, rim_line);
-    } else {
+    } else
+#endif
+    {
+#ifdef MIRROR
         light += terms.w * mirrored;
+#endif
     }
     if (ghost > 0.0) alpha = ghost;
     if (fade_from > 0.0) alpha *= 1.0 - smoothstep(fade_from, fade_to, distance(place, fade_center));

@@ -18,7 +18,7 @@ from tracer.shapes.polygon import Polygon
 from tracer.shapes.triangle import Triangle
 
 if TYPE_CHECKING:
-    from tracer.scene import Object, Scene, Shape
+    from tracer.scene import Material, Object, Scene, Shape
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ def needs(scene: Scene, surfaces: int, nodes: int, blocks: int) -> tuple[Need, .
     solids = [item for item in glass if not item.thin]
     mirrors = [item for item in scene.objects if item.material.reflect > 0.0]
     fresnel = scene.tracing.model == "fresnel"
-    lit = [m for m in materials if m.diffuse > 0.0 or m.specular > 0.0]
+    lit = [m for m in materials if shines(m)]
     meshes = [item for item in scene.objects if isinstance(item.shape, Mesh)]
     smooth = [item for item in meshes if isinstance(item.shape, Mesh) and item.shape.geometry.normals is not None]
     splitting = [item for item in solids if item.material.ior != 1.0]
@@ -46,17 +46,25 @@ def needs(scene: Scene, surfaces: int, nodes: int, blocks: int) -> tuple[Need, .
         Need("refraction", bool(glass), _which(glass, "transmits")),
         Need("media", bool(solids), _which(solids, "bounds a medium")),
         Need("fresnel", fresnel and bool(glass), 'model = "fresnel"' if fresnel else 'model = "whitted"'),
+        Need("dispersion", False, "every index is one number" if glass else _which(glass, "transmits")),
+        Need("lens, glossy samples", False, "a pinhole, and every mirror is smooth"),
         Need("shadow rays", bool(scene.lights) and bool(lit), _shadow_reason(len(scene.lights), len(lit))),
+        Need("light from behind", False, "it adds nothing to a surface" if scene.lights else "no light"),
         Need(
             "light through glass",
             bool(glass) and bool(scene.lights) and scene.tracing.shadows == "filter",
-            f'shadows = "{scene.tracing.shadows}"' if glass else _which(glass, "transmits"),
+            _filter_reason(scene, glass),
         ),
         Need("checker", any(m.checker for m in materials), _checkered(materials)),
         Need("hierarchy", nodes > 0, _hierarchy(surfaces, nodes, blocks)),
         Need("mesh library", bool(meshes), _which(meshes, "comes from a mesh file")),
         Need("vertex normals", bool(smooth), _which(smooth, "has normals at its vertices")),
     )
+
+
+def shines(material: Material) -> bool:
+    """Whether light makes a surface brighter."""
+    return material.diffuse > 0.0 or material.specular > 0.0
 
 
 def hidden_solids(ranked: list[Object]) -> list[str]:
@@ -109,6 +117,12 @@ def _shadow_reason(lights: int, lit: int) -> str:
     if not lights:
         return "no light"
     return _count(lights, "light") if lit else "no surface that light makes brighter"
+
+
+def _filter_reason(scene: Scene, glass: list) -> str:
+    if glass and scene.lights:
+        return f'shadows = "{scene.tracing.shadows}"'
+    return "no light" if glass else _which(glass, "transmits")
 
 
 def _hierarchy(surfaces: int, nodes: int, blocks: int) -> str:

@@ -144,8 +144,11 @@ class World:
         return self.surrounding[point]
 
 
-def prepare(scene: Scene) -> World:
-    """Flatten a scene. SceneError for values that are not allowed, all of them at once."""
+def prepare(scene: Scene, hierarchy: bool | None = None) -> World:
+    """Flatten a scene. SceneError for values that are not allowed, all of them at once.
+
+    The hierarchy of boxes is made where it pays, or as said: the image has the same bits.
+    """
     if not isinstance(scene, Scene):
         raise TypeError(f"a Scene is prepared, as tracer.load gives it, got {type(scene).__name__}")
     faults = scene.faults()
@@ -158,7 +161,7 @@ def prepare(scene: Scene) -> World:
     ranks = {k: rank for rank, k in enumerate(solids)}
     surfaces, corners, smooth, bounds = _surfaces(scene)
     finite = np.asarray(np.isfinite(bounds).all(axis=(1, 2)))
-    boxed = finite & (np.count_nonzero(finite) > FLAT)
+    boxed = finite & (np.count_nonzero(finite) > FLAT if hierarchy is None else hierarchy)
     nodes, blocks, unit = build(_padded(bounds), _triangles(surfaces), boxed)
     arrays = Arrays(
         surfaces=surfaces,

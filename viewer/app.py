@@ -78,18 +78,21 @@ class App:
             session.update()
         say("render the image")
         session.update()
+        self.frame()  # while the image renders: what the graphics card has to compile and to be sent is then there
         session.image.wait()
         say("draw the viewer")
         for _ in range(frames):
             self.frame()
 
     def frame(self) -> None:
+        began = time.perf_counter()
         self._take_dropped()
         self._apply_style()
         self.surface.begin()
         self._draw()
         self.surface.present()
         self._set_title()
+        self.canvas.frame_took(time.perf_counter() - began)
 
     def close(self) -> None:
         self.session.close()
@@ -138,9 +141,9 @@ class App:
         width = max(room.work_size.x, SMALLEST[0])
         height = max(room.work_size.y, SMALLEST[1]) - bar.height()
         self._dock(left, top, width, height, reset)
-        self._bring_forward()
-        for panel in PANELS:
+        for panel in filter(lambda panel: panel.exists(session), PANELS):
             self._panel(panel.title, lambda panel=panel: panel.draw(session, self.canvas))
+        self._bring_forward()  # after it has come to be
         bar.draw(session, left, top + height, width)
 
     def _bring_forward(self) -> None:

@@ -12,7 +12,8 @@ from viewer.raylines import RayLine, ray_lines
 from viewer.session import Session
 from viewer.stagelines import StageLines, frustum_lines, glass_edges, image_plane, normal_lines, style_rays
 
-REFRESH = 0.4  # seconds between the states of an unfinished image that the 3D view shows
+REFRESH = 0.4  # seconds between the states of an unfinished image that the 3D view shows, at least
+RARELY = 10.0  # times the frame that draws it anew: else a slow one would be every frame
 
 
 class Canvas:
@@ -33,6 +34,8 @@ class Canvas:
         self._drawn_key: object = None
         self._image_in_view: object = None
         self._refreshed = 0.0
+        self._drawn_anew = False  # the 3D view, in this frame
+        self._cost = 0.0  # seconds of the last frame that did
         self._plane: np.ndarray | None = None
 
     def picture(self) -> moderngl.Texture | None:
@@ -65,7 +68,13 @@ class Canvas:
             plane = ImagePlane(self._plane, image) if image is not None and self._plane is not None else None
             self.stage.draw(session.orbit, session.theme, size, scale, plane)
             self._drawn_key = key
+            self._drawn_anew = True
         return self.stage.target.texture
+
+    def frame_took(self, seconds: float) -> None:
+        if self._drawn_anew:
+            self._cost = seconds
+        self._drawn_anew = False
 
     def _key(self, size: tuple[int, int], scale: float) -> tuple:
         """Everything the 3D view depends on."""
@@ -83,7 +92,7 @@ class Canvas:
         """Which state of the image stands on the image plane: not every tile is worth drawing the scene again."""
         shown = self.session.image.picture
         now = time.monotonic()
-        if shown is None or shown.finished or now - self._refreshed > REFRESH:
+        if shown is None or shown.finished or now - self._refreshed > max(REFRESH, RARELY * self._cost):
             self._image_in_view = self._image_key
             self._refreshed = now
         return self._image_in_view

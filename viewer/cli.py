@@ -104,6 +104,10 @@ def make_parser() -> Parser:
 
     plan = commands.add_parser("plan", help="what a scene needs of the tracer, and what is left out")
     plan.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+    plan.add_argument(
+        "--measure", action="store_true", help="with and without, in turn: rays and time; some 20 seconds"
+    )
+    plan.add_argument("--json", action="store_true", help="for programs: one document")
 
     check = commands.add_parser("check", help="numbers against exact answers: cases where textbook formulas fail")
     check.add_argument("cases", nargs="*", metavar="CASE", help="names like A1, or groups like A; all by default")

@@ -59,12 +59,18 @@ def render(options: Namespace) -> int:
 
 
 def plan(options: Namespace) -> int:
-    path, _ = find(options.scene)
+    from viewer import plantable
+
+    path, found = find(options.scene)
     with faults():
         world = prepared(path)
-    width = max(len(need.name) for need in world.needs)
-    lines = [f"{need.name:{width}}  {'needed' if need.needed else 'left out':8}  {need.why}" for need in world.needs]
-    put("\n".join(lines) + "\n")
+    if options.measure:
+        compile_once()
+        with Progress("measuring") as progress:
+            made = plantable.measured(world, path, found, progress)
+    else:
+        made = plantable.listed(world, found)
+    put(plantable.as_json(made) if options.json else plantable.as_text(made))
     return 0
 
 

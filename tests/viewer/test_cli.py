@@ -193,3 +193,42 @@ def test_a_name_on_the_command_line_is_the_lesson_of_that_name() -> None:
         found = lesson.read(name)
         assert found.scene.is_file()
         assert found.pixel is not None
+
+
+def test_plan_and_statistics_leave_out_the_same(tmp_path: Path, capsysbinary: pytest.CaptureFixture) -> None:
+    for name in LESSONS:
+        assert (
+            main(["render", name, "--size", "4x3", "-o", str(tmp_path / "a.npy"), "--stats", str(tmp_path / "s")]) == 0
+        )
+        capsysbinary.readouterr()
+        assert main(["plan", name, "--json"]) == 0
+        plan = json.loads(capsysbinary.readouterr().out)
+        left_out = {need["name"] for need in plan["needs"] if not need["needed"]}
+        stats = set(json.loads((tmp_path / "s").read_text())["left_out"])
+        tracers = {need.name for need in tracer.prepare(tracer.load(lesson.read(name).scene)).needs}
+        assert stats == left_out & tracers
+
+
+@pytest.mark.parametrize("name", ["two-lights", "glass-ball"])
+def test_plan_is_measured(name: str, capsysbinary: pytest.CaptureFixture) -> None:
+    """Every line has its numbers or says why not; the window's are drawn for it."""
+    assert main(["plan", name, "--measure", "--json"]) == 0
+    plan = json.loads(capsysbinary.readouterr().out)
+    assert {"rays", "seconds", "compared"} <= set(plan["together"])
+    glassy = name == "glass-ball"
+    assert plan["together"]["changed"] == 0
+    needs = {need["name"]: need for need in plan["needs"]}
+    assert needs["glass pass, shader"]["needed"] == needs["refraction"]["needed"] == glassy
+    for need in needs.values():
+        assert need["compared"]
+        assert "seconds" in need or need["name"] in ("vertex normals", "light through glass")
+    assert needs["dispersion"]["rays"]["with"] == 3 * needs["dispersion"]["rays"]["without"]
+    assert needs["checker"]["rays"]["with"] == needs["checker"]["rays"]["without"]
+
+
+def test_measured_plan_fits_on_a_hundred_columns(capsysbinary: pytest.CaptureFixture) -> None:
+    for name in ("mirror-balls", "plates"):
+        assert main(["plan", name, "--measure"]) == 0
+        lines = capsysbinary.readouterr().out.decode().splitlines()
+        assert max(map(len, lines)) <= 100
+        assert lines[-1].endswith(".") and "×" in lines[-1]

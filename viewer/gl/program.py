@@ -1,6 +1,7 @@
 """Shader files into programs."""
 
 import re
+from collections.abc import Iterable
 from importlib.resources import files
 
 import moderngl
@@ -12,17 +13,19 @@ def source(name: str) -> str:
     return re.sub(r'#include "([^"]+)"', lambda found: source(found.group(1)), text)
 
 
-def make_program(ctx: moderngl.Context, name: str) -> moderngl.Program:
-    """The program of `NAME.vert` and `NAME.frag`."""
-    return ctx.program(vertex_shader=_version_first(f"{name}.vert"), fragment_shader=_version_first(f"{name}.frag"))
+def make_program(ctx: moderngl.Context, name: str, defined: Iterable[str] = ()) -> moderngl.Program:
+    """The program of `NAME.vert` and `NAME.frag`, with these names defined for its `#ifdef`s."""
+    vertex, fragment = (_complete(f"{name}.{stage}", defined) for stage in ("vert", "frag"))
+    return ctx.program(vertex_shader=vertex, fragment_shader=fragment)
 
 
-def _version_first(name: str) -> str:
-    """GLSL wants `#version` before all else; our files begin with what they draw."""
+def _complete(name: str, defined: Iterable[str]) -> str:
+    """GLSL wants `#version` before all else, then what is defined; our files begin with what they draw."""
     text = source(name)
     version = re.search(r"#version .*\n", text)
     assert version, f"{name} has no #version"
-    return version.group(0) + text.replace(version.group(0), "\n", 1)
+    head = version.group(0) + "".join(f"#define {word}\n" for word in sorted(defined))
+    return head + text.replace(version.group(0), "\n", 1)
 
 
 def put(program: moderngl.Program, **values: object) -> None:

@@ -10,6 +10,7 @@ import moderngl
 import numpy as np
 
 from tracer.world import World
+from viewer.gl.features import Features, features_of
 from viewer.gl.lines import Line, Lines
 from viewer.gl.program import make_program, put
 from viewer.gl.surfaces import Surfaces, make_surface_program
@@ -35,7 +36,7 @@ class Stage:
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
         self.target = Target(ctx)
-        self.surface_program = make_surface_program(ctx)
+        self.programs: dict[Features, moderngl.Program] = {}  # of surfaces, as scenes have asked for them
         self.ground = make_program(ctx, "ground")
         self.picture = make_program(ctx, "picture")
         self.empty = ctx.vertex_array(self.ground, [])
@@ -45,10 +46,14 @@ class Stage:
         self.edges = Lines(ctx)  # of cut glass
         self.surfaces: Surfaces | None = None
 
-    def set_world(self, world: World, frame: Frame) -> None:
+    def set_world(self, world: World, frame: Frame, features: Features | None = None) -> None:
+        """Show this world, with what its surfaces need, or with these features."""
         if self.surfaces:
             self.surfaces.release()
-        self.surfaces = Surfaces(self.ctx, self.surface_program, world, frame)
+        features = features_of(world.scene) if features is None else features
+        if features not in self.programs:
+            self.programs[features] = make_surface_program(self.ctx, features)
+        self.surfaces = Surfaces(self.ctx, self.programs[features], world, frame, features)
 
     def set_edges(self, lines: list[Line]) -> None:
         self.edges.set(lines)
@@ -82,7 +87,7 @@ class Stage:
         if self.surfaces:
             # Pushed back a little, so that lines that end on a surface stand before it.
             ctx.polygon_offset = 1.0, 2.0
-            self.surfaces.draw(orbit, matrix, glass=False, edge=edge)
+            self.surfaces.draw_opaque(orbit, matrix, edge)
             ctx.polygon_offset = 0.0, 0.0
         self.target.drawn.depth_mask = False
         self.edges.draw(matrix, size, scale)
@@ -90,7 +95,7 @@ class Stage:
         if plane:
             self._draw_picture(matrix, plane)
         if self.surfaces:
-            self.surfaces.draw(orbit, matrix, glass=True, edge=edge)
+            self.surfaces.draw_clear(orbit)
         ctx.depth_func = ">"
         self._draw_lines(matrix, theme, size, scale, HIDDEN)
         ctx.depth_func = "<="
@@ -116,5 +121,5 @@ class Stage:
             self.surfaces.release()
         for thing in (self.marks, self.rays, self.edges, self.empty, self.picture_array, self.target):
             thing.release()
-        for program in (self.surface_program, self.ground, self.picture):
+        for program in (*self.programs.values(), self.ground, self.picture):
             program.release()

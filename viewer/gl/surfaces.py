@@ -17,6 +17,7 @@ from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
 from tracer.world import World
+from viewer.gl.features import Features
 from viewer.gl.geometry import ball, triangles
 from viewer.gl.program import make_program, put
 from viewer.orbit import Frame, Orbit
@@ -46,8 +47,11 @@ class Group:
 class Surfaces:
     """A world's surfaces on the GPU. `release` when another world takes its place."""
 
-    def __init__(self, ctx: moderngl.Context, program: moderngl.Program, world: World, frame: Frame) -> None:
+    def __init__(
+        self, ctx: moderngl.Context, program: moderngl.Program, world: World, frame: Frame, features: Features
+    ) -> None:
         self.ctx = ctx
+        self.features = features
         self.program = program
         self.world = world
         self.frame = frame
@@ -63,25 +67,31 @@ class Surfaces:
             thing.release()
         self.owned.clear()
 
-    def draw(self, orbit: Orbit, matrix: np.ndarray, glass: bool, edge: Color) -> None:
-        """The opaque surfaces; or what one sees through: glass, farthest first, and walls from behind."""
+    def draw_opaque(self, orbit: Orbit, matrix: np.ndarray, edge: Color) -> None:
         self._set_uniforms(orbit, matrix, edge)
-        ctx = self.ctx
-        chosen = [group for group in self.groups if group.glass == glass]
-        if not glass:
-            for group in sorted(chosen, key=lambda group: group.endless):
-                self._draw_group(group, culled="back" if group.wall else None)
+        chosen = [group for group in self.groups if not group.glass]
+        for group in sorted(chosen, key=lambda group: group.endless):
+            self._draw_group(group, culled="back" if group.wall else None)
+
+    def draw_clear(self, orbit: Orbit) -> None:
+        """After the opaque ones what one sees through, if there is any: glass, farthest first; walls from behind."""
+        walls = [group for group in self.groups if group.wall and not group.glass]
+        if not walls and "GLASS" not in self.features:
             return
-        chosen.sort(key=lambda group: -float(np.linalg.norm(group.middle - orbit.eye)))
-        ctx.fbo.depth_mask = False
-        for group in chosen:
+        self._use_textures()  # what was drawn in between has used others
+        self.ctx.fbo.depth_mask = False
+        if "GLASS" in self.features:
+            self._draw_glass(orbit)
+        for group in walls:
+            self._draw_group(group, culled="front", ghost=GHOST)
+        self.ctx.fbo.depth_mask = True
+
+    def _draw_glass(self, orbit: Orbit) -> None:
+        chosen = [group for group in self.groups if group.glass]
+        for group in sorted(chosen, key=lambda group: -float(np.linalg.norm(group.middle - orbit.eye))):
             if not group.wall:
                 self._draw_group(group, culled="front")  # its far side first
                 self._draw_group(group, culled="back")
-        for group in self.groups:
-            if group.wall and not group.glass:
-                self._draw_group(group, culled="front", ghost=GHOST)
-        ctx.fbo.depth_mask = True
 
     def _draw_group(self, group: Group, culled: str | None, ghost: float = 0.0) -> None:
         if culled:
@@ -119,6 +129,9 @@ class Surfaces:
         )
         self.program["lights"].write(lights.tobytes())  # type: ignore[union-attr]
         self.program["light_colors"].write(colors.tobytes())  # type: ignore[union-attr]
+        self._use_textures()
+
+    def _use_textures(self) -> None:
         self.materials.use(0)
         self.axes.use(1)
 
@@ -225,5 +238,5 @@ def _turned(corners: np.ndarray, normals: np.ndarray, camera: np.ndarray) -> tup
     return corners, normals
 
 
-def make_surface_program(ctx: moderngl.Context) -> moderngl.Program:
-    return make_program(ctx, "surface")
+def make_surface_program(ctx: moderngl.Context, features: Features) -> moderngl.Program:
+    return make_program(ctx, "surface", features)

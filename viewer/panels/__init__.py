@@ -4,12 +4,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from viewer.panels import image, lesson, ray, scene, tree
+from viewer.session import Session
 
 
 @dataclass(frozen=True)
 class Panel:
     title: str
     draw: Callable[..., None]  # (session, canvas)
+    exists: Callable[[Session], bool] = lambda session: True
 
 
 PANELS = (
@@ -17,5 +19,5 @@ PANELS = (
     Panel(image.TITLE, image.draw),
     Panel(tree.TITLE, tree.draw),
     Panel(ray.TITLE, ray.draw),
-    Panel(lesson.TITLE, lesson.draw),
+    Panel(lesson.TITLE, lesson.draw, exists=lambda session: session.lesson is not None),
 )

@@ -1,4 +1,4 @@
-"""The lesson's text beside its scene."""
+"""The lesson's text beside its scene; a scene that belongs to no lesson has no such panel."""
 
 from imgui_bundle import imgui
 
@@ -9,11 +9,7 @@ TITLE = "Lesson"
 
 
 def draw(session: Session, canvas: Canvas) -> None:
-    if not session.lesson:
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(session.theme.muted, "This scene belongs to no lesson. The lessons stand in the menu above.")
-        imgui.pop_text_wrap_pos()
-        return
+    assert session.lesson  # else there is no such panel
     for block in session.lesson.text.split("\n\n"):
         content = " ".join(block.split())
         imgui.push_text_wrap_pos(0.0)
