@@ -90,7 +90,7 @@ def _measured(plan: Plan, image: Measured, width: int) -> Iterator[str]:
         chosen = [line for part in plan.lines.values() for line in part if line.need.needed == needed]
         if chosen:
             yield ""
-            yield f"{head:{width + 12}}{'rays':>5}{'ms':>16}{'times':>8}   {'without' if needed else 'with'}"
+            yield f"{head:{width + 9}}{'rays':>5}{'ms':>15}{'times':>8}   {'without' if needed else 'with'}"
             yield from (_row(line, image, width) for line in chosen)
 
 
@@ -106,7 +106,7 @@ def _row(line: Saving, image: Measured, width: int) -> str:
         took = f"{1e3 * line.turns.extra:+.1f}".replace("-", "−") if line.turns.tells else "0"
         took += f" ±{1e3 * line.turns.doubt:.1f}" if line.turns.doubt else "     "
         ratio = f"×{line.turns.ratio:.2f}" if line.turns.without and line.turns.tells else ""
-    return f"{line.need.name:{width}}{added:>17}{took:>16}{ratio:>8}   {note}".rstrip()
+    return f"{line.need.name:{width}}{added:>14}{took:>15}{ratio:>8}   {note}".rstrip()
 
 
 def _verdict(image: Measured) -> list[str]:

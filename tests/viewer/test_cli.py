@@ -227,8 +227,7 @@ def test_plan_is_measured(name: str, capsysbinary: pytest.CaptureFixture) -> Non
 
 
 def test_measured_plan_fits_on_a_hundred_columns(capsysbinary: pytest.CaptureFixture) -> None:
-    for name in ("mirror-balls", "plates"):
-        assert main(["plan", name, "--measure"]) == 0
-        lines = capsysbinary.readouterr().out.decode().splitlines()
-        assert max(map(len, lines)) <= 100
-        assert lines[-1].endswith(".") and "×" in lines[-1]
+    assert main(["plan", "mirror-balls", "--measure"]) == 0
+    lines = capsysbinary.readouterr().out.decode().splitlines()
+    assert max(map(len, lines)) <= 100
+    assert lines[-1].endswith(".") and "×" in lines[-1]
