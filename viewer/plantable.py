@@ -76,7 +76,7 @@ def as_text(plan: Plan) -> str:
         lines += ["", HEADS[part]]
         for line in savings:
             state = "needed" if line.need.needed else "left out"
-            lines.append(f"{line.need.name:{width}}  {state:8}  {line.need.why}")
+            lines.append(hanging(f"{line.need.name:{width}}  {state:8}  ", line.need.why))
     if plan.image is None:
         return "\n".join(lines) + "\n"
     return "\n".join([*lines, "", *_measured(plan, plan.image, width), "", *_verdict(plan.image)]) + "\n"
@@ -85,7 +85,7 @@ def as_text(plan: Plan) -> str:
 def _measured(plan: Plan, image: Measured, width: int) -> Iterator[str]:
     rays = ", ".join(f"{spaced(count)} {kind}" for kind, count in image.rays.items() if count)
     yield f"MEASURED with and without, in turn. The image: {_size(image.size)}, depth {image.depth}, one thread,"
-    yield f"{rays} rays"
+    yield from textwrap.wrap(f"{rays} rays", WIDTH)
     for needed, head in ((False, "left out: it would add"), (True, "needed: of the whole it takes")):
         chosen = [line for part in plan.lines.values() for line in part if line.need.needed == needed]
         if chosen:
@@ -106,7 +106,12 @@ def _row(line: Saving, image: Measured, width: int) -> str:
         took = f"{1e3 * line.turns.extra:+.1f}".replace("-", "−") if line.turns.tells else "0"
         took += f" ±{1e3 * line.turns.doubt:.1f}" if line.turns.doubt else "     "
         ratio = f"×{line.turns.ratio:.2f}" if line.turns.without and line.turns.tells else ""
-    return f"{line.need.name:{width}}{added:>14}{took:>15}{ratio:>8}   {note}".rstrip()
+    return hanging(f"{line.need.name:{width}}{added:>14}{took:>15}{ratio:>8}   ", note).rstrip()
+
+
+def hanging(head: str, text: str) -> str:
+    """A row whose last column goes on below itself where it is too long."""
+    return head + ("\n" + " " * len(head)).join(textwrap.wrap(text, max(20, WIDTH - len(head))))
 
 
 def _verdict(image: Measured) -> list[str]:
