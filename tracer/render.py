@@ -9,7 +9,7 @@ import os
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import nullcontext
 from dataclasses import dataclass
@@ -32,6 +32,7 @@ from tracer.world import World, prepare
 COARSE_TO_FINE = (8, 4, 2, 1)
 AHEAD = 2  # calls a thread: one it works on, one that waits
 MOST_TILES = 16  # that another process is sent at a time, for a message costs a millisecond
+MOST_HERE = 8  # and a thread, for a call costs a tenth of that
 
 Progress = Callable[[float], None]
 Finished = Callable[[Area, float], None]
@@ -88,8 +89,7 @@ def trace_passes(
         ways = (None, executor.abandoned if isinstance(executor, Remote) else never)
     for areas in all_passes:
         due += len(areas)
-        at_once = 1 if here else min(MOST_TILES, -(-len(areas) // (4 * threads)))
-        waiting = deque(areas[k : k + at_once] for k in range(0, len(areas), at_once))
+        waiting = deque(shared_out(areas, threads, MOST_HERE if here else MOST_TILES))
         news: SimpleQueue[Future[list[Traced]]] = SimpleQueue()
         running: set[Future[list[Traced]]] = set()
         try:
@@ -115,6 +115,16 @@ def trace_passes(
                 future.cancel()
         if done < due:
             raise Stopped
+
+
+def shared_out(areas: Sequence[Area], threads: int, most: int) -> Iterator[Sequence[Area]]:
+    """The tiles a call is given, fewer and fewer, so that all threads end together (guided self-scheduling:
+    Polychronopoulos & Kuck, IEEE Trans. Computers 36(12), 1987)."""
+    first = 0
+    while first < len(areas):
+        count = min(most, -(-(len(areas) - first) // (4 * threads)))
+        yield areas[first : first + count]
+        first += count
 
 
 def render(

@@ -112,10 +112,9 @@ def trace_area(
     `corner` is the pixel of the image, (x, y), that stands first in `pixels`. Returns how many pixels are done: all, or
     fewer where the next tree is too large for the table, or after ENOUGH rays.
     """
-    number = 0
+    number = rays = 0
     residuals = space.residuals
     left, top = corner
-    most = total(space.rays) + ENOUGH
     for y in range(area.top, area.bottom, area.step):
         for x in range(area.left, area.right, area.step):
             number += 1
@@ -123,13 +122,15 @@ def trace_area(
                 continue
             if area.traced > 0 and x % area.traced == 0 and y % area.traced == 0:
                 continue
-            if total(space.rays) >= most:
+            if rays >= ENOUGH:
                 return number - 1
-            color, residual = trace_pixel(world, view, limits, samples, x, y, eye_solids, space)
+            color, residual, traced = trace_pixel(world, view, limits, samples, x, y, eye_solids, space)
             if residual < 0.0:
                 return number - 1
-            residuals[0] = max(residuals[0], residual)
-            residuals[1] += residual
+            rays += traced
+            if residual > 0.0:
+                residuals[0] = max(residuals[0], residual)
+                residuals[1] += residual
             for j in range(y - top, min(y - top + area.step, pixels.shape[0])):
                 for i in range(x - left, min(x - left + area.step, pixels.shape[1])):
                     store(pixels[j, i], color)
@@ -139,8 +140,8 @@ def trace_area(
 @compiled
 def trace_pixel(
     world: Bundle, view: View, limits: Limits, samples: Samples, x: int, y: int, eye_solids: Any, space: Bundle
-) -> tuple[Vector, float]:
-    """(colour, residual): the mean over the pixel's samples; residual -1 where the table was too short for a tree."""
+) -> tuple[Vector, float, int]:
+    """(colour, residual, rays): the mean over the samples; residual -1 where the table was too short for a tree."""
     total = (0.0, 0.0, 0.0)
     lost = 0.0
     table, solids = space.table, space.solids
@@ -165,18 +166,20 @@ def trace_pixel(
             count = trace_tree(world, limits, space)
         if count < 0:
             space.tree[0] = -1
-            return (total, -1.0)
+            return (total, -1.0, 0)
         residual = count_rays(space, count)
         space.tree[0] = count
         space.tree[1] = residual
         lost += residual
         total = add(total, vector(table[0].radiance))
+    rays = 0
     for kind in range(len(space.counted)):
         space.rays[kind] += space.counted[kind]
+        rays += space.counted[kind]
     if samples.count > 1:
         total = (total[0] / samples.count, total[1] / samples.count, total[2] / samples.count)
         lost /= samples.count
-    return (total, lost)
+    return (total, lost, rays)
 
 
 @compiled
@@ -189,14 +192,6 @@ def count_rays(space: Bundle, count: int) -> float:
         if row.kind != SHADOW and row.cut > 0.0:
             cut = plus(cut, (row.cut, 0.0))
     return cut[0] + cut[1]
-
-
-@compiled
-def total(counts: Any) -> int:
-    number = 0
-    for k in range(len(counts)):
-        number += counts[k]
-    return number
 
 
 def run(
