@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from benchmarks import against_embree, against_povray, click, growth, lessons, start, window
+from benchmarks import against_embree, against_povray, click, flat, growth, lessons, start, window
 from benchmarks.against_before import changes
 from benchmarks.figure import Figure
 from benchmarks.machine import machine
@@ -26,6 +26,7 @@ PARTS: dict[str, Callable[[Options], list[Task]]] = {
     "lessons": lessons.times,
     "embree": against_embree.rates,
     "growth": growth.growth,
+    "flat": flat.flat,
     "click": click.clicks,
     "start": start.starts,
     "window": window.window,

@@ -1,10 +1,9 @@
 """A hierarchy of boxes over the bounded surfaces, so that a ray tests only those near its way.
 
-A node holds eight boxes side by side, tested at once; in each is one surface or a node. A node's surfaces are parted,
-the widest part again and again, where the surface area heuristic expects the least work, tried at the borders of equal
-bins (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IRT 2007; eight wide: Wald, Benthin &
-Boulos, "Getting Rid of Packets", IRT 2008). Boxes are float32, half the memory to fetch, rounded outward; their unit is
-a power of two near the scene's size, so that a scene scaled by another one has the same boxes.
+A node holds eight boxes side by side, tested at once; in each is one surface, a block of eight triangles or a node
+("Getting Rid of Packets", Wald, Benthin & Boulos, IRT 2008). A node's surfaces are halved, and the halves again, until
+there are eight parts (see `halves`). Boxes are float32, half the memory to fetch, rounded outward, in a unit that is a
+power of two near the scene's size: so a scene scaled by another one has the same boxes.
 """
 
 import math
@@ -12,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tracer.halves import Room, add, clear, halve, next_of
 from tracer.jit import compiled, kernel
 from tracer.lanes import WIDTH
 
@@ -40,52 +40,12 @@ BLOCK = np.dtype(
 WAITING = np.dtype([("child", np.int64), ("near", np.float64)])
 
 FLAT = 3  # so few surfaces are tried one by one: measured, `python -m benchmarks flat`
-BINS = 16
-FILL = 6  # triangles that a block will hardly have fewer of
-HALVING = 24  # the level from which on surfaces are parted by their number: so no hierarchy is deeper than
-DEEPEST = 48  # levels
-MOST_WAITING = DEEPEST * (WIDTH - 1) + 1
-
-# Some surfaces: they stand in the order from `first` to before `last`. `reach` is the box about them, `middles` that
-# about their boxes' middles, twofold; both as low x y z, 0, -high x y z, 0, so that joining takes eight minima.
-PART = np.dtype(
-    [
-        ("reach", np.float32, 8),
-        ("middles", np.float32, 8),
-        ("first", np.int64),
-        ("last", np.int64),
-        ("others", np.int64),  # that are no triangles
-        ("node", np.int64),  # that it is to become
-        ("level", np.int64),
-    ],
-    align=True,
-)
 
 
 class Hierarchy(NamedTuple):
     nodes: np.ndarray
     blocks: np.ndarray
     unit: float
-
-
-class Room(NamedTuple):
-    """Room to work in, since kernels make no arrays of their own."""
-
-    todo: np.ndarray
-    parts: np.ndarray  # of one node
-    bins: np.ndarray
-    above: np.ndarray  # the cost of the second half that begins with this bin
-    used: np.ndarray  # nodes and blocks made so far
-
-    @staticmethod
-    def make() -> "Room":
-        return Room(
-            np.zeros(MOST_WAITING, PART).view(np.recarray),
-            np.zeros(WIDTH, PART).view(np.recarray),
-            np.zeros(BINS + 1, PART).view(np.recarray),
-            np.zeros(BINS),
-            np.zeros(2, np.int64),
-        )
 
 
 def unit_of(bounds: np.ndarray) -> float:
@@ -182,129 +142,3 @@ def fill(block: Any, corners: Any, unit: float, order: Any, first: int, count: i
             block.reach = max(block.reach, reach)
             block.edge = max(block.edge, edge)
     block.doubt = 2.0**-22 * size
-
-
-@compiled
-def clear(this: Any) -> None:
-    for k in range(8):
-        this.reach[k] = math.inf
-        this.middles[k] = math.inf
-    this.first = 0
-    this.last = 0
-    this.others = 0
-
-
-@compiled
-def join(box: Any, another: Any) -> None:
-    """Make a box cover another one, too."""
-    for k in range(8):
-        box[k] = min(box[k], another[k])
-
-
-@compiled
-def add(this: Any, reach: Any, middles: Any, other: Any, s: int) -> None:
-    join(this.reach, reach[s])
-    join(this.middles, middles[s])
-    this.others += other[s]
-
-
-@compiled
-def merge(this: Any, bins: Any, start: int, stop: int) -> None:
-    clear(this)
-    for b in range(start, stop):
-        join(this.reach, bins[b].reach)
-        join(this.middles, bins[b].middles)
-        this.others += bins[b].others
-
-
-@compiled
-def half_area(reach: Any) -> float:
-    x = -(float(reach[0]) + float(reach[4]))
-    y = -(float(reach[1]) + float(reach[5]))
-    z = -(float(reach[2]) + float(reach[6]))
-    return x * y + y * z + z * x
-
-
-@compiled
-def next_of(parts: Any, count: int) -> int:
-    """The part to be halved next; -1 for none.
-
-    First those that can be dissolved into the lanes left, for that saves a node: the most area for the lanes it takes.
-    Then the largest box.
-    """
-    best, most = -1, -1.0
-    dissolving = False
-    for k in range(count):
-        n = parts[k].last - parts[k].first
-        lanes = n if parts[k].others > 0 else (n + FILL - 1) // FILL
-        if (n > WIDTH or parts[k].others > 0) and lanes > 1:
-            fits = lanes - 1 <= WIDTH - count
-            size = half_area(parts[k].reach) / (lanes - 1 if fits else 1)
-            if (fits and not dissolving) or (fits == dissolving and size > most):
-                best, most, dissolving = k, size, fits
-    return best
-
-
-@compiled
-def halve(reach: Any, middles: Any, other: Any, order: Any, level: int, this: Any, second: Any, room: Room) -> None:
-    """Leave some of the surfaces in `this`, and put the others into `second`."""
-    first, last = this.first, this.last
-    axis, extent = 0, -1.0
-    for a in range(3):
-        side = -(float(this.middles[a]) + float(this.middles[4 + a]))
-        if side > extent:
-            axis, extent = a, side
-    if extent > 0.0 and level < HALVING:
-        bins, count = room.bins, min(BINS, last - first + 2)
-        start, rate = float(this.middles[axis]), count / extent
-        for b in range(count):
-            clear(bins[b])
-        for k in range(first, last):
-            s = order[k]
-            b = min(count - 1, int(rate * (middles[s, axis] - start)))
-            add(bins[b], reach, middles, other, s)
-            bins[b].last += 1
-        split = best_split(bins, room.above, count, WIDTH if this.others == 0 else 1)
-        cut = first
-        for k in range(first, last):
-            s = order[k]
-            if min(count - 1, int(rate * (middles[s, axis] - start))) < split:
-                order[k], order[cut] = order[cut], s
-                cut += 1
-        merge(this, bins, 0, split)
-        merge(second, bins, split, count)
-    else:
-        cut = (first + last) // 2
-        clear(this)
-        clear(second)
-        for k in range(first, cut):
-            add(this, reach, middles, other, order[k])
-        for k in range(cut, last):
-            add(second, reach, middles, other, order[k])
-    this.first, this.last = first, cut
-    second.first, second.last = cut, last
-
-
-@compiled
-def best_split(bins: Any, above: Any, count: int, grain: int) -> int:
-    """The first bin of the second half where area times work, summed over both halves, is least; both hold some.
-
-    The work is the number of surfaces, `grain` of them being as much work as one.
-    """
-    half = bins[BINS]
-    clear(half)
-    n = 0
-    for b in range(count - 1, 0, -1):
-        n += bins[b].last
-        join(half.reach, bins[b].reach)
-        above[b] = (n + grain - 1) // grain * half_area(half.reach) if n > 0 else math.inf
-    clear(half)
-    n, best, split = 0, math.inf, 1
-    for b in range(1, count):
-        n += bins[b - 1].last
-        join(half.reach, bins[b - 1].reach)
-        if n > 0 and above[b] < math.inf:
-            cost = (n + grain - 1) // grain * half_area(half.reach) + above[b]
-            if cost < best:
-                best, split = cost, b
-    return split

@@ -10,9 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tracer.bundle import Bundle
-from tracer.bvh import MOST_WAITING, WAITING
+from tracer.bvh import WAITING
 from tracer.camera import View, pixel_direction
 from tracer.certified import OPEN, trace_heaviest_first
+from tracer.halves import MOST_WAITING
 from tracer.jit import compiled, kernel
 from tracer.kernel import trace_tree
 from tracer.lanes import WIDTH

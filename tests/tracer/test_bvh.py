@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 import tracer
 from tests.scenes import MATTE, ball, world_of
-from tracer.bvh import BOXES, DEEPEST, FLAT, KINDS, TRIANGLES, build
+from tracer.bvh import BOXES, FLAT, KINDS, TRIANGLES, build
+from tracer.halves import DEEPEST
 from tracer.lanes import WIDTH
 from tracer.nodes import BACKGROUND
 from tracer.rays import make_ray
