@@ -127,6 +127,10 @@ def connect(
             raise ClusterError(f"{address}: one worker after the other was killed at it: {_line(error)}") from None
         except (CancelledError, asyncio.CancelledError, CommClosedError, TimeoutError) as error:
             raise ClusterError(f"{address}: the scheduler was lost: {_line(error)}") from None
+        except OSError as error:  # of a connection, or of whatever else is done in this context
+            if address not in str(error):
+                raise
+            raise ClusterError(f"{address}: the scheduler was lost: {_line(error)}") from None
 
 
 @contextlib.contextmanager

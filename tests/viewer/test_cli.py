@@ -211,6 +211,9 @@ def test_plan_and_statistics_leave_out_the_same(tmp_path: Path, capsysbinary: py
 
 def test_plan_is_measured(capsysbinary: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every line has its numbers or says why not; the window's are drawn for it. As text it fits on 100 columns."""
+    for budget in ("tracer.measure.saving.BUDGET", "viewer.framecost.BUDGET"):
+        monkeypatch.setattr(budget, 0.1)  # the fewest runs there are
+    monkeypatch.setattr("tracer.measure.imports.STARTS", 1)
     texts = []
     as_json = plantable.as_json
     monkeypatch.setattr(plantable, "as_json", lambda plan: texts.append(plantable.as_text(plan)) or as_json(plan))

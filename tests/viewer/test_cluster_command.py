@@ -151,6 +151,6 @@ def test_lost_scheduler_is_one_line(tmp_path: Path) -> None:
         for process in (scheduler, worker):
             process.kill()
             process.communicate()
-    assert terminal.said.split("\x1b[K")[-1].startswith(f"{address}: the scheduler was lost")
-    assert terminal.said.count("\n") == 1
+    assert terminal.said.split("\x1b[K")[-1].startswith(f"{address}: the scheduler was lost"), terminal.said
+    assert terminal.said.count("\n") == 1, terminal.said
     assert list(tmp_path.iterdir()) == []
