@@ -4,6 +4,7 @@ A `Task` is what all tiles of an image have in common; it travels to other proce
 their pixels into the image where they belong; other processes send them back.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
@@ -44,15 +45,15 @@ def difference(ours: dict[str, str], theirs: dict[str, str]) -> str:
     )
 
 
-class Remote(Executor):
+class Remote(Executor, ABC):
     """An executor whose calls run in other processes, and what can be done to make that cheap."""
 
     threads: int  # that can work for it at a time
     abandoned: Cancelled  # a function of a module, asked there: whether nobody waits for the call any more
 
+    @abstractmethod
     def share(self, task: "Task") -> Any:
         """Send a task ahead; what is then to be given to each call in its place."""
-        raise NotImplementedError
 
 
 @dataclass(frozen=True, eq=False)
