@@ -13,7 +13,7 @@ MET, MISSED, PLAIN, LINE = "#3b78b5", "#c8651b", "#a3acb5", "#1d1d1f"
 LABELS = {
     "povray": "Images against POV-Ray", "lessons": "Lessons against POV-Ray",
     "embree": "First hits against Embree", "growth": "64 times the triangles", "click": "A click",
-    "start": "Starts", "window": "The window",
+    "flat": "Boxes for a few surfaces", "start": "Starts", "window": "The window",
 }  # fmt: skip
 
 

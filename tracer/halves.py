@@ -134,7 +134,7 @@ def halve(reach: Any, middles: Any, other: Any, order: Any, level: int, this: An
         cut = first
         for k in range(first, last):
             s = order[k]
-            if min(count - 1, int(rate * (middles[s, axis] - start))) < split:
+            if bin_of(middles[s, axis], start, rate, count) < split:
                 order[k], order[cut] = order[cut], s
                 cut += 1
         merge(this, room.bins[axis], 0, split)
@@ -152,6 +152,11 @@ def halve(reach: Any, middles: Any, other: Any, order: Any, level: int, this: An
 
 
 @compiled
+def bin_of(middle: float, start: float, rate: float, count: int) -> int:
+    return min(count - 1, int(rate * (middle - start)))
+
+
+@compiled
 def fill_bins(reach: Any, middles: Any, other: Any, order: Any, this: Any, count: int, room: Room) -> None:
     """Sort a part's surfaces into equal bins along each axis, by the middles of their boxes."""
     bins, rates = room.bins, room.rates
@@ -164,7 +169,7 @@ def fill_bins(reach: Any, middles: Any, other: Any, order: Any, this: Any, count
         s = order[k]
         for axis in range(3):
             if rates[axis] > 0.0:
-                b = min(count - 1, int(rates[axis] * (middles[s, axis] - float(this.middles[axis]))))
+                b = bin_of(middles[s, axis], float(this.middles[axis]), rates[axis], count)
                 add(bins[axis, b], reach, middles, other, s)
                 bins[axis, b].last += 1
 

@@ -18,7 +18,6 @@ from queue import SimpleQueue
 import numpy as np
 
 from tracer.bound import brightest
-from tracer.bvh import FLAT
 from tracer.jit import is_compiled
 from tracer.job import SMALL_TILE, TILE, Cancelled, Job, Remote, Traced, never, passes, trace_tiles
 from tracer.limits import MAX_NODES, make_limits
@@ -29,6 +28,7 @@ from tracer.tile import CENTER, Area, Samples, trace_area
 from tracer.tree import checked_size, trace
 from tracer.world import World, prepare
 
+BALL = Scene((Object(Sphere((0.0, 0.0, -1.0), 0.5), Material()),))  # what kernels are warmed up with
 COARSE_TO_FINE = (8, 4, 2, 1)
 AHEAD = 2  # calls a thread: one it works on, one that waits
 MOST_TILES = 16  # that another process is sent at a time, for a message costs a millisecond
@@ -188,18 +188,14 @@ def warm() -> float:
     if is_compiled(trace_area):
         return 0.0
     began = time.perf_counter()
-    trace(prepare(_balls(1)), ray=((0.0, 0.0, 0.0), (0.0, 0.0, -1.0)))
+    trace(prepare(BALL), ray=((0.0, 0.0, 0.0), (0.0, 0.0, -1.0)))
     return time.perf_counter() - began
 
 
 def fill_cache() -> None:
     """Compile everything that any scene may need, for later starts to load."""
     warm()
-    prepare(_balls(FLAT + 1))
-
-
-def _balls(count: int) -> Scene:
-    return Scene(tuple(Object(Sphere((float(k), 0.0, -1.0), 0.5), Material()) for k in range(count)))
+    prepare(BALL, hierarchy=True)
 
 
 def processors() -> int:

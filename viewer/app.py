@@ -69,6 +69,7 @@ class App:
         `say` is told what is waited for, `progress` the share of the image.
         """
         session = self.session
+        woken = session.image.changed
         session.image.changed = lambda: progress(session.image.picture.share if session.image.picture else 0.0)
         session.warmup.wait()
         say("load the scene")
@@ -80,6 +81,7 @@ class App:
         session.update()
         self.frame()  # while the image renders: what the graphics card has to compile and to be sent is then there
         session.image.wait()
+        session.image.changed = woken
         say("draw the viewer")
         for _ in range(frames):
             self.frame()

@@ -44,12 +44,7 @@ def without_hierarchy(scene: Scene) -> Variant | str:
 
 
 def without_normals(scene: Scene) -> Variant | str:
-    return Variant(
-        "flat faces",
-        replace(
-            scene, objects=tuple(with_geometry(item, lambda g: replace(g, normals=None)) for item in scene.objects)
-        ),
-    )
+    return Variant("flat faces", with_geometry(scene, lambda g: replace(g, normals=None)))
 
 
 # By the names of `tracer.plan`.

@@ -147,10 +147,7 @@ def with_hierarchy(scene: Scene) -> Variant | str:
 def with_normals(scene: Scene) -> Variant | str:
     if not any(isinstance(item.shape, Mesh) for item in scene.objects):
         return "no mesh whose vertices could have one"
-    return Variant(
-        "faces' own normals",
-        replace(scene, objects=tuple(with_geometry(item, _own_normals) for item in scene.objects)),
-    )
+    return Variant("faces' own normals", with_geometry(scene, _own_normals))
 
 
 def everything(scene: Scene, left_out: Sequence[str]) -> Variant:
@@ -167,10 +164,13 @@ def everything(scene: Scene, left_out: Sequence[str]) -> Variant:
     return Variant("two rays from every hit", scene)
 
 
-def with_geometry(item: Object, change: Callable[[Geometry], Geometry]) -> Object:
-    if not isinstance(item.shape, Mesh):
-        return item
-    return replace(item, shape=replace(item.shape, geometry=change(item.shape.geometry)))
+def with_geometry(scene: Scene, change: Callable[[Geometry], Geometry]) -> Scene:
+    def changed(item: Object) -> Object:
+        if not isinstance(item.shape, Mesh):
+            return item
+        return replace(item, shape=replace(item.shape, geometry=change(item.shape.geometry)))
+
+    return replace(scene, objects=tuple(changed(item) for item in scene.objects))
 
 
 def _own_normals(geometry: Geometry) -> Geometry:
