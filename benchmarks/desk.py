@@ -4,6 +4,7 @@
 without an image in the making a hand moves the mouse over the window, since the viewer draws none on its own.
 """
 
+import faulthandler
 import json
 import statistics
 import sys
@@ -22,6 +23,8 @@ from viewer.window import Window
 
 SIZE = (1280, 720)
 FRAMES = 60
+SETTLED = 1.0  # seconds after which the last frames that anything asked for are drawn
+PATIENCE = 30.0  # seconds a run, which takes some six
 IDLE = 3.0  # seconds
 
 
@@ -75,23 +78,28 @@ class Desk(App):
 
     def share_at_rest(self) -> float:
         """Of one core, while nothing happens."""
-        self.watch(lambda: len(self.took) >= 2 * FRAMES or not self._is_busy())
         over = threading.Event()
+        times: list[tuple[float, float]] = []
 
-        def leave() -> None:
-            over.set()
-            self.session.wants_quit = True
-            self.surface.wake()
+        def look(leave: bool) -> None:
+            times.append((time.perf_counter(), time.process_time()))
+            if leave:
+                over.set()
+                self.session.wants_quit = True
+                self.surface.wake()
 
-        began, used = time.perf_counter(), time.process_time()
-        timer = threading.Timer(IDLE, leave)
-        timer.start()
+        timers = [threading.Timer(delay, look, (leave,)) for delay, leave in ((SETTLED, False), (SETTLED + IDLE, True))]
+        for timer in timers:
+            timer.start()
         self.watch(over.is_set)
-        timer.join()
-        return (time.process_time() - used) / (time.perf_counter() - began)
+        for timer in timers:
+            timer.join()
+        (began, used_before), (ended, used_after) = times
+        return (used_after - used_before) / (ended - began)
 
 
 def main() -> None:
+    faulthandler.dump_traceback_later(PATIENCE * (int(sys.argv[2]) + 1), exit=True)  # says where it hangs
     screen()
     desk = Desk(Path(sys.argv[1]))
     found: dict[str, list[float]] = {name: [] for name in ("rest", "busy", "windowed", "alone", "idle")}

@@ -18,7 +18,6 @@ IMAGE = (1600, 1200)
 FRAME_MOST = 1.3
 IMAGE_MOST = 1.5
 IDLE_MOST = 2.0  # % of a core
-PATIENCE = 120.0  # seconds a run: a window that hangs must not hang the rest
 
 
 def window(options: Options) -> list[Task]:
@@ -29,11 +28,9 @@ def window(options: Options) -> list[Task]:
             scene = Path(folder) / "flake.nff"
             scene.write_text(sphereflake(2, IMAGE))
             command = [sys.executable, "-m", "benchmarks.desk", str(scene), str(options.runs)]
-            run = subprocess.run(
-                command, capture_output=True, text=True, check=False, timeout=PATIENCE * (options.runs + 2)
-            )
+            run = subprocess.run(command, capture_output=True, text=True, check=False)
         if run.returncode != 0:
-            raise RuntimeError(run.stderr.strip()[-500:])
+            raise RuntimeError(run.stderr.strip()[-2000:])
         found = json.loads(run.stdout)
         busy, rest = ([1e3 * value for value in found[name]] for name in ("busy", "rest"))
         idle = [100.0 * value for value in found["idle"]]

@@ -18,7 +18,7 @@ DOCK = "dock"
 IDLE = 0.3  # seconds of sleep between looks at the scene's file
 FASTEST = 1 / 60  # seconds between frames, at least: what comes faster is seen by nobody
 BUSY = 1 / 30  # the same while an image renders and nothing else happens
-SHARE = 0.3  # of the time that frames may take from an image that renders
+SHARE = 0.15  # of the time that frames may take from an image that renders
 SMALLEST = (560, 360)  # room for the panels, in pixels
 AFTERGLOW = 3  # frames drawn after the last event: imgui needs one or two to settle
 
@@ -34,7 +34,7 @@ class App:
         self.styled: object = None
         self.title = ""
         session.changed = surface.wake
-        session.image.changed = surface.wake
+        session.image.changed = self._image_changed
         if isinstance(surface, Window):
             surface.on_refresh = self._redraw
 
@@ -105,6 +105,12 @@ class App:
         """While the window is being resized the system keeps the loop to itself: then it asks for each frame."""
         if not self.surface.minimised:
             self.frame()
+
+    def _image_changed(self) -> None:
+        """Frames are drawn while an image renders, at their own pace: only its end is worth waking up for."""
+        picture = self.session.image.picture
+        if picture and picture.finished:
+            self.surface.wake()
 
     def _has_events(self) -> bool:
         """Whether the user did anything: imgui has been told by its callbacks."""

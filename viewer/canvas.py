@@ -6,8 +6,10 @@ import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
+from tracer.tile import Area
 from tracer.tree import RayTree
 from viewer.gl.stage import ImagePlane, Stage
+from viewer.progressive import Picture
 from viewer.raylines import RayLine, ray_lines
 from viewer.session import Session
 from viewer.stagelines import StageLines, frustum_lines, glass_edges, image_plane, normal_lines, style_rays
@@ -28,11 +30,12 @@ class Canvas:
         self.nodes: dict[int, tuple[float, float]] = {}
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
         self.told: tuple[RayTree, int] | None = None  # which ray the panel of numbers was about
-        self._image_key: object = None
+        self._sent: tuple[Picture | None, int] = (None, 0)  # the picture in the texture, and how many of its tiles
         self._world: object = None
         self._theme: object = None
         self._drawn_key: object = None
         self._image_in_view: object = None
+        self._picture: Picture | None = None  # that an unfinished state was asked of last
         self._refreshed = 0.0
         self._drawn_anew = False  # the 3D view, in this frame
         self._cost = 0.0  # seconds of the last frame that did
@@ -43,7 +46,6 @@ class Canvas:
         shown = self.session.image.picture
         if shown is None:
             return None
-        key = (shown, shown.version)
         height, width = shown.shown.shape[:2]
         if self.image is None or self.image.size != (width, height):
             if self.image:
@@ -51,10 +53,14 @@ class Canvas:
             self.image = self.ctx.texture((width, height), 3, alignment=1)
             # Far away smooth, near by the pixels themselves: they are what is clicked on.
             self.image.filter = (moderngl.LINEAR, moderngl.NEAREST)
-            self._image_key = None
-        if key != self._image_key:
+            self._sent = (None, 0)
+        before, count = self._sent
+        if shown is not before:
+            self._sent = (shown, len(shown.tiles))  # tiles that come while this is sent are sent again
             self.image.write(shown.shown.tobytes(), alignment=1)
-            self._image_key = key
+        elif tiles := shown.tiles[count:]:
+            _send(self.image, shown.shown, tiles)
+            self._sent = (shown, count + len(tiles))
         return self.image
 
     def view3d(self, size: tuple[int, int], scale: float) -> moderngl.Texture:
@@ -92,8 +98,10 @@ class Canvas:
         """Which state of the image stands on the image plane: not every tile is worth drawing the scene again."""
         shown = self.session.image.picture
         now = time.monotonic()
+        if shown is not self._picture:
+            self._picture, self._refreshed = shown, now  # its first tiles can wait, too
         if shown is None or shown.finished or now - self._refreshed > max(REFRESH, RARELY * self._cost):
-            self._image_in_view = self._image_key
+            self._image_in_view = self._sent
             self._refreshed = now
         return self._image_in_view
 
@@ -129,6 +137,14 @@ class Canvas:
         self.stage.release()
         if self.image:
             self.image.release()
+
+
+def _send(image: moderngl.Texture, pixels: np.ndarray, tiles: list[Area]) -> None:
+    """The rectangle around these tiles, which follow each other by rows: the whole image would take a frame's time."""
+    left, top = min(tile.left for tile in tiles), min(tile.top for tile in tiles)
+    right, bottom = max(tile.right for tile in tiles), max(tile.bottom for tile in tiles)
+    place = (left, top, right - left, bottom - top)
+    image.write(pixels[top:bottom, left:right].tobytes(), viewport=place, alignment=1)
 
 
 def texture_ref(texture: moderngl.Texture) -> imgui.ImTextureRef:

@@ -28,7 +28,7 @@ class Picture:
     share: float = 0.0  # of its tiles, over all passes
     seconds: float = 0.0
     cancelled: threading.Event = field(default_factory=threading.Event)
-    version: int = 0  # grows with every tile
+    tiles: list[Area] = field(default_factory=list)  # finished so far, for whoever shows what is new
 
     @property
     def finished(self) -> bool:
@@ -85,11 +85,10 @@ class Progressive:
         width, height = picture.job.view.width, picture.job.view.height
 
         def finished(area: Area, share: float) -> None:
-            inside = np.s_[area.top : area.bottom, area.left : area.right]
-            picture.shown[inside] = srgb(picture.job.pixels[inside])
+            _show(picture, area)
             picture.seconds = time.perf_counter() - began
+            picture.tiles.append(area)
             picture.share = share
-            picture.version += 1
             self.changed()
 
         try:
@@ -109,10 +108,19 @@ class Progressive:
                 self.kept.popitem(last=False)
 
 
+def _show(picture: Picture, area: Area) -> None:
+    """Encode the pixels that this tile's pass has traced, each over the square that it stands for."""
+    step = area.step
+    height, width = area.bottom - area.top, area.right - area.left
+    inside = np.s_[area.top : area.bottom, area.left : area.right]
+    traced = srgb(picture.job.pixels[inside][::step, ::step])
+    picture.shown[inside] = traced.repeat(step, 0).repeat(step, 1)[:height, :width]
+
+
 def _step_back() -> None:
     """Let the window go first: a lower priority for this thread, where the system has one for threads.
 
     Lower than the process has: one that was started with a low priority may not raise it.
     """
     if hasattr(os, "setpriority") and os.uname().sysname == "Linux":
-        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), os.getpriority(os.PRIO_PROCESS, 0) + 5)
+        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), os.getpriority(os.PRIO_PROCESS, 0) + 10)

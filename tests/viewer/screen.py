@@ -7,6 +7,9 @@ from functools import cache
 
 PROGRAMS = {"Xvfb": "xvfb", "xdotool": "xdotool", "openbox": "openbox"}  # and the Debian packages they are in
 
+# Whoever reads what this process says waits until nobody can say any more: the server and the manager hold none of it.
+SILENT = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+
 
 def missing() -> list[str]:
     return [package for program, package in PROGRAMS.items() if shutil.which(program) is None]
@@ -23,12 +26,12 @@ def screen(width: int = 1600, height: int = 1000) -> str:
     read_end, write_end = os.pipe()
     # Without -noreset the server starts afresh when its last window closes, and the next one may not find it.
     options = ["-displayfd", str(write_end), "-screen", "0", f"{width}x{height}x24", "-noreset", "-nolisten", "tcp"]
-    subprocess.Popen([*with_us, "Xvfb", *options], pass_fds=[write_end], stderr=subprocess.DEVNULL)
+    subprocess.Popen([*with_us, "Xvfb", *options], pass_fds=[write_end], **SILENT)
     os.close(write_end)
     with os.fdopen(read_end) as told:
         display = f":{told.readline().strip()}"
     os.environ["DISPLAY"] = display
-    subprocess.Popen([*with_us, "openbox"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    subprocess.Popen([*with_us, "openbox"], **SILENT)
     return display
 
 
