@@ -1,7 +1,8 @@
 """The viewer in a real window, watched: a process of its own that prints what it found as JSON.
 
 `python -m benchmarks.desk SCENE RUNS`. The loop is the viewer's own (`App.run`); only its frames are timed. For frames
-without an image in the making a hand moves the mouse over the window, since the viewer draws none on its own.
+without an image in the making a hand moves the mouse over the window, since the viewer draws none on its own, at the
+pace at which frames came while one was made.
 """
 
 import faulthandler
@@ -22,7 +23,7 @@ from viewer.session import Session
 from viewer.window import Window
 
 SIZE = (1280, 720)
-FRAMES = 60
+FEWEST = 10  # frames at rest
 SETTLED = 1.0  # seconds after which the last frames that anything asked for are drawn
 PATIENCE = 30.0  # seconds a run, which takes some six
 IDLE = 3.0  # seconds
@@ -51,25 +52,26 @@ class Desk(App):
         self.run()
         return self.took
 
-    def frames_at_rest(self) -> float:
-        """The median frame while a hand moves the mouse and nothing else happens."""
+    def frames_at_rest(self, count: int, pause: float) -> float:
+        """The median frame while a hand moves the mouse every `pause` seconds and nothing else happens."""
 
         def moved() -> bool:
             k = len(self.took)
+            time.sleep(pause)
             imgui.get_io().add_mouse_pos_event(600.0 + k % 2, 200.0)
-            return k >= FRAMES
+            return k >= count
 
         return statistics.median(self.watch(moved))
 
-    def image_in_window(self) -> tuple[float, float]:
-        """(seconds of an image, the median frame meanwhile)."""
+    def image_in_window(self) -> tuple[float, list[float]]:
+        """(seconds of an image, the frames drawn meanwhile)."""
         session = self.session
         session.image.forget()
         session.update()
         picture = session.image.picture
         assert picture and not picture.finished
         frames = self.watch(lambda: picture.finished)
-        return picture.seconds, statistics.median(frames)
+        return picture.seconds, frames
 
     def image_alone(self) -> float:
         world = self.session.world
@@ -105,7 +107,9 @@ def main() -> None:
     found: dict[str, list[float]] = {name: [] for name in ("rest", "busy", "windowed", "alone", "idle")}
     for run in range(int(sys.argv[2]) + 1):
         windowed, busy = desk.image_in_window()
-        row = (desk.frames_at_rest(), busy, windowed, desk.image_alone(), desk.share_at_rest())
+        pause = max(0.0, (windowed - sum(busy)) / len(busy))  # as while the image rendered: caches forget meanwhile
+        rest = desk.frames_at_rest(FEWEST + len(busy), pause)
+        row = (rest, statistics.median(busy), windowed, desk.image_alone(), desk.share_at_rest())
         if run:  # the first only warms up
             for values, value in zip(found.values(), row, strict=True):
                 values.append(value)

@@ -18,7 +18,8 @@ DOCK = "dock"
 IDLE = 0.3  # seconds of sleep between looks at the scene's file
 FASTEST = 1 / 60  # seconds between frames, at least: what comes faster is seen by nobody
 BUSY = 1 / 30  # the same while an image renders and nothing else happens
-SHARE = 0.15  # of the time that frames may take from an image that renders
+SHARE = 0.1  # of the time that frames may take from an image that renders
+EAGER = 0.6  # the same while the user does something
 SMALLEST = (560, 360)  # room for the panels, in pixels
 AFTERGLOW = 3  # frames drawn after the last event: imgui needs one or two to settle
 
@@ -44,12 +45,12 @@ class App:
         while not self.surface.closing and not self.session.wants_quit:
             busy = self._is_busy()
             since = time.perf_counter() - drawn
-            rest = FASTEST if glow > 0 else max(BUSY, took / SHARE) if busy else IDLE
+            rest = self._rest(busy, glow > 0, took)
             self.surface.wait(max(0.0, rest - since) if glow > 0 or busy else IDLE)
             news = self.session.update()
             if news or self._has_events():
                 glow = AFTERGLOW
-                rest = FASTEST
+                rest = self._rest(busy, True, took)
             now = time.perf_counter()
             if now - drawn < rest or not (glow > 0 or busy) or self.surface.minimised:
                 continue
@@ -57,6 +58,13 @@ class App:
             self.frame()
             drawn = time.perf_counter()
             took = drawn - now
+
+    @staticmethod
+    def _rest(busy: bool, glows: bool, took: float) -> float:
+        """Seconds between frames, where one takes `took`: not so few that an image gets no time to be made."""
+        if glows:
+            return max(FASTEST, took / EAGER) if busy else FASTEST
+        return max(BUSY, took / SHARE) if busy else IDLE
 
     def settle(
         self,

@@ -50,14 +50,14 @@ class Canvas:
         if self.image is None or self.image.size != (width, height):
             if self.image:
                 self.image.release()
-            self.image = self.ctx.texture((width, height), 3, alignment=1)
+            self.image = self.ctx.texture((width, height), 4)
             # Far away smooth, near by the pixels themselves: they are what is clicked on.
             self.image.filter = (moderngl.LINEAR, moderngl.NEAREST)
             self._sent = (None, 0)
         before, count = self._sent
         if shown is not before:
             self._sent = (shown, len(shown.tiles))  # tiles that come while this is sent are sent again
-            self.image.write(shown.shown.tobytes(), alignment=1)
+            self.image.write(shown.shown)
         elif tiles := shown.tiles[count:]:
             _send(self.image, shown.shown, tiles)
             self._sent = (shown, count + len(tiles))
@@ -144,7 +144,7 @@ def _send(image: moderngl.Texture, pixels: np.ndarray, tiles: list[Area]) -> Non
     left, top = min(tile.left for tile in tiles), min(tile.top for tile in tiles)
     right, bottom = max(tile.right for tile in tiles), max(tile.bottom for tile in tiles)
     place = (left, top, right - left, bottom - top)
-    image.write(pixels[top:bottom, left:right].tobytes(), viewport=place, alignment=1)
+    image.write(pixels[top:bottom, left:right].tobytes(), viewport=place)
 
 
 def texture_ref(texture: moderngl.Texture) -> imgui.ImTextureRef:

@@ -16,6 +16,7 @@ from tracer.tile import Area
 from tracer.world import World
 from viewer.picture import srgb
 
+BLACK = (0, 0, 0, 255)
 KEPT = 8  # finished images, so that stepping the depth back and forth shows them at once
 
 
@@ -24,7 +25,7 @@ class Picture:
     """One image, finished or not."""
 
     job: Job
-    shown: np.ndarray  # 8-bit sRGB (height, width, 3)
+    shown: np.ndarray  # 8-bit sRGB (height, width, 4): opaque, a form that graphics cards take as it is
     share: float = 0.0  # of its tiles, over all passes
     seconds: float = 0.0
     cancelled: threading.Event = field(default_factory=threading.Event)
@@ -57,7 +58,7 @@ class Progressive:
             self.picture = self.kept[key]
             return
         job = Job(world, world.view(size), limits)
-        picture = Picture(job, np.zeros((size[1], size[0], 3), np.uint8))
+        picture = Picture(job, np.full((size[1], size[0], 4), BLACK, np.uint8))
         self.picture = picture
         self.last = self.runner.submit(self._run, picture, key)
 
@@ -114,7 +115,7 @@ def _show(picture: Picture, area: Area) -> None:
     height, width = area.bottom - area.top, area.right - area.left
     inside = np.s_[area.top : area.bottom, area.left : area.right]
     traced = srgb(picture.job.pixels[inside][::step, ::step])
-    picture.shown[inside] = traced.repeat(step, 0).repeat(step, 1)[:height, :width]
+    picture.shown[inside][..., :3] = traced.repeat(step, 0).repeat(step, 1)[:height, :width]
 
 
 def _step_back() -> None:

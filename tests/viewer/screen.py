@@ -3,7 +3,9 @@
 import os
 import shutil
 import subprocess
+import tempfile
 from functools import cache
+from pathlib import Path
 
 PROGRAMS = {"Xvfb": "xvfb", "xdotool": "xdotool", "openbox": "openbox"}  # and the Debian packages they are in
 
@@ -20,7 +22,8 @@ def screen(width: int = 1600, height: int = 1000) -> str:
     """A display of our own, made the default one; its name. It lives as long as this process.
 
     Not a moment shorter: the GL library keeps a connection to it that cannot be closed, and Xlib ends a process whose
-    server has gone.
+    server has gone. The window manager is at work when this returns: for a window that is mapped while a manager takes
+    over, glfw may wait without end.
     """
     with_us = ["setpriv", "--pdeathsig", "TERM"]
     read_end, write_end = os.pipe()
@@ -31,7 +34,11 @@ def screen(width: int = 1600, height: int = 1000) -> str:
     with os.fdopen(read_end) as told:
         display = f":{told.readline().strip()}"
     os.environ["DISPLAY"] = display
-    subprocess.Popen([*with_us, "openbox"], **SILENT)
+    with tempfile.TemporaryDirectory() as folder:
+        told = Path(folder) / "told"
+        os.mkfifo(told)
+        subprocess.Popen([*with_us, "openbox", "--startup", f"sh -c 'echo up > {told}'"], **SILENT)
+        told.read_text()
     return display
 
 

@@ -7,6 +7,8 @@ from imgui_bundle import imgui
 import tracer
 from tests.conftest import LESSONS
 from tests.viewer.driver import Driver, viewer
+from tracer.limits import make_limits
+from viewer.picture import srgb
 from viewer.theme import DARK, LIGHT, STYLES
 
 Key = imgui.Key
@@ -210,6 +212,27 @@ def test_image_is_coarse_at_once_and_kept_for_other_depths() -> None:
         driver.session.image.wait()
         driver.type("3")
         assert driver.session.image.picture is first  # not rendered again
+
+
+@pytest.mark.parametrize("name", ["glass-ball", "mirror-balls"])
+def test_image_on_show_is_the_rendered_one_to_the_last_pixel(name: str, worlds: dict[str, tracer.World]) -> None:
+    """Only new tiles are encoded and sent, from the first coarse ones on: nothing may be left out, in any size."""
+    with viewer() as driver:
+        driver.open(name)
+        session = driver.session
+        for size in ((640, 480), (333, 217), (1, 1)):  # as others change it, while the window goes on
+            assert session.world
+            session.image.show(session.world, make_limits(session.world, 2, records=False), size)
+            for _ in range(5):  # of tiles as they come
+                driver.frames(1)
+            session.image.wait()
+            driver.frames(1)
+            expected = srgb(tracer.render(worlds[name], size, depth=2).pixels)
+            texture = driver.canvas.image
+            assert texture
+            sent = np.frombuffer(texture.read(), np.uint8).reshape(size[1], size[0], 4)
+            assert (sent[..., :3] == expected).all()
+            assert (sent[..., 3] == 255).all()
 
 
 def test_rendering_is_cancelled_when_it_is_outdated() -> None:

@@ -76,7 +76,7 @@ def save_image(session: Session) -> None:
     name = session.lesson.name if session.lesson else session.path.stem
     path = next(path for k in range(1, 10**6) if not (path := Path(f"{name}-{k}.png")).exists())
     try:
-        write_picture(path, picture.shown)
+        write_picture(path, picture.shown[..., :3])
         session.notice.say(f"wrote {path.resolve()}" + ("" if picture.finished else " (not finished yet)"))
     except Unusable as unusable:
         session.faults = list(unusable.faults)
