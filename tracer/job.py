@@ -133,13 +133,16 @@ class Job:
 
 
 def passes(width: int, height: int, steps: Sequence[int] = (1,), side: int = TILE) -> list[list[Area]]:
-    """The tiles of an image, pass by pass; `steps` halve from one to the next, down to 1."""
+    """The tiles of an image, pass by pass; `steps` halve from one to the next, down to 1.
+
+    Those of a coarse pass are larger by its step: there is as much to do in each of them as in a fine one's.
+    """
     before = (0, *steps)
     return [
         [
-            Area(left, top, min(left + side, width), min(top + side, height), step, traced)
-            for top in range(0, height, side)
-            for left in range(0, width, side)
+            Area(left, top, min(left + side * step, width), min(top + side * step, height), step, traced)
+            for top in range(0, height, side * step)
+            for left in range(0, width, side * step)
         ]
         for step, traced in zip(steps, before, strict=False)
     ]

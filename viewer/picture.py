@@ -29,12 +29,17 @@ def srgb(linear: np.ndarray) -> np.ndarray:
     return value + (x >= BORDERS[value])
 
 
+COMPRESSION = 4  # of zlib's levels: half the time of its usual 6, for 5 % more bytes
+
+
 def png(pixels: np.ndarray) -> bytes:
     """PNG of linear RGB (height, width, 3), or of 8-bit sRGB as it is."""
     from PIL import Image
 
     buffer = io.BytesIO()
-    Image.fromarray(pixels if pixels.dtype == np.uint8 else srgb(pixels)).save(buffer, "PNG")
+    Image.fromarray(pixels if pixels.dtype == np.uint8 else srgb(pixels)).save(
+        buffer, "PNG", compress_level=COMPRESSION
+    )
     return buffer.getvalue()
 
 
