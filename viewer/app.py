@@ -79,6 +79,7 @@ class App:
         session = self.session
         woken = session.image.changed
         session.image.changed = lambda: progress(session.image.picture.share if session.image.picture else 0.0)
+        self.frame()  # what every frame needs of the graphics card is compiled while the scene is loaded
         session.warmup.wait()
         say("load the scene")
         while session.loading:
