@@ -19,6 +19,8 @@ import numba
 import platformdirs
 from numba import types
 from numba.core.caching import FunctionCache
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler
 from numba.core.registry import cpu_target
 from numba.core.runtime.nrt import rtsys
 from numba.extending import lower_builtin, register_jitable, type_callable
@@ -35,13 +37,42 @@ OPTIONS = {
 KEPT_CACHES = 3  # folders of earlier versions that stay, so that switching between two checkouts stays quick
 
 
+class NoMemory:
+    @staticmethod
+    def set_env(name: str, environment: object) -> None:
+        """What Python's exceptions in machine code would need: there is none to raise them."""
+
+
+class Part(JITCodeLibrary):
+    """The code of a function that only kernels call: it becomes part of theirs.
+
+    As LLVM's, for them to link; machine code of its own would be for nobody, and take a third of the compiling.
+    """
+
+    def _finalize_final_module(self) -> None:
+        self._finalized = True
+
+    @property
+    def codegen(self) -> Any:
+        """As far as it is asked for by whoever would call machine code: an object that takes its environment."""
+        return NoMemory
+
+
+class PartCompiler(Compiler):
+    """Numba's compiler, for functions that only kernels call."""
+
+    def compile_extra(self, func: Any) -> Any:
+        self.state.library = Part(self.state.targetctx.codegen(), func.__qualname__)
+        return super().compile_extra(func)
+
+
 def compiled(function: Callable[P, R]) -> Callable[P, R]:
     """Mark a function that kernels may call; from Python it stays what it is."""
-    return register_jitable(forceinline=True, **OPTIONS)(function)
+    return register_jitable(forceinline=True, pipeline_class=PartCompiler, **OPTIONS)(function)
 
 
 def routine(function: Callable[P, R]) -> Callable[P, R]:
-    return register_jitable(forceinline=False, **OPTIONS)(function)
+    return register_jitable(forceinline=False, pipeline_class=PartCompiler, **OPTIONS)(function)
 
 
 def stay_apart() -> None:
