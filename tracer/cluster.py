@@ -118,7 +118,7 @@ def connect(
                 wait_for_worker(client, address, waiting)
             for line in compare(client):
                 note(line)
-            say("prepare the tracer on the cluster, the first time in about half a minute")
+            say("prepare the tracer on the cluster, the first time in about twenty seconds")
             warm_up(client)
             yield Cluster(client)
         except Mismatch as error:

@@ -17,7 +17,7 @@ from viewer.files import Unusable, check_writable, write_atomically
 from viewer.lesson import Lesson
 from viewer.progress import Progress
 
-COMPILING = "prepare the tracer: its formulas are compiled, only this once, in about half a minute"
+COMPILING = "prepare the tracer: its formulas are compiled, only this once, in about twenty seconds"
 
 
 def lessons(options: Namespace) -> int:

@@ -9,7 +9,6 @@ import numpy as np
 
 from viewer.files import Unusable, write_atomically
 
-
 BINS = 4096  # of linear light: more than sRGB's steepest slope of 255 * 12.92, so that none holds two borders
 
 

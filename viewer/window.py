@@ -52,7 +52,7 @@ class Surface:
         data = imgui.get_draw_data()
         width = max(1, int(data.display_size.x * data.framebuffer_scale.x))
         height = max(1, int(data.display_size.y * data.framebuffer_scale.y))
-        before = self.ctx.fbo
+        before = self.ctx.fbo or self.ctx.detect_framebuffer()  # in a tiny window nothing has used one yet
         buffer = self.ctx.simple_framebuffer((width, height), components=4)
         try:
             buffer.use()

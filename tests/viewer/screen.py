@@ -4,13 +4,11 @@ import os
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
 PROGRAMS = {"Xvfb": "xvfb", "xdotool": "xdotool", "openbox": "openbox"}  # and the Debian packages they are in
-
-# Whoever reads what this process says waits until nobody can say any more: the server and the manager hold none of it.
-SILENT = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
 def missing() -> list[str]:
@@ -25,11 +23,10 @@ def screen(width: int = 1600, height: int = 1000) -> str:
     server has gone. The window manager is at work when this returns: for a window that is mapped while a manager takes
     over, glfw may wait without end.
     """
-    with_us = ["setpriv", "--pdeathsig", "TERM"]
     read_end, write_end = os.pipe()
     # Without -noreset the server starts afresh when its last window closes, and the next one may not find it.
     options = ["-displayfd", str(write_end), "-screen", "0", f"{width}x{height}x24", "-noreset", "-nolisten", "tcp"]
-    subprocess.Popen([*with_us, "Xvfb", *options], pass_fds=[write_end], **SILENT)
+    with_us("Xvfb", *options, keep=[write_end])
     os.close(write_end)
     with os.fdopen(read_end) as told:
         display = f":{told.readline().strip()}"
@@ -37,9 +34,18 @@ def screen(width: int = 1600, height: int = 1000) -> str:
     with tempfile.TemporaryDirectory() as folder:
         told = Path(folder) / "told"
         os.mkfifo(told)
-        subprocess.Popen([*with_us, "openbox", "--startup", f"sh -c 'echo up > {told}'"], **SILENT)
+        with_us("openbox", "--startup", f"sh -c 'echo up > {told}'")
         told.read_text()
     return display
+
+
+def with_us(*command: str, keep: Sequence[int] = ()) -> None:
+    """Start a program that ends when we do.
+
+    It holds none of our streams: whoever reads what this process says waits until nobody can say any more.
+    """
+    none = subprocess.DEVNULL
+    subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *command], pass_fds=keep, stdin=none, stdout=none, stderr=none)
 
 
 def hand(*arguments: object) -> str:
