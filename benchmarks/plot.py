@@ -12,7 +12,7 @@ from benchmarks.report import short
 MET, MISSED, PLAIN, LINE = "#3b78b5", "#c8651b", "#a3acb5", "#1d1d1f"
 LABELS = {
     "povray": "Images against POV-Ray", "lessons": "Lessons against POV-Ray",
-    "embree": "First hits against Embree", "growth": "64 times the triangles", "click": "A click",
+    "embree": "First hits against Embree", "growth": "Larger meshes", "click": "A click",
     "flat": "Boxes for a few surfaces", "start": "Starts", "window": "The window",
 }  # fmt: skip
 

@@ -23,6 +23,7 @@ import numpy as np
 
 from tracer import fields
 from tracer.formats.words import Fault, Word, Words
+from tracer.pairs import exact_difference, pair_cross
 from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, SceneError, Shape
 from tracer.shapes.cone import Cone
 from tracer.shapes.mesh import Geometry, Mesh
@@ -51,10 +52,15 @@ class Patches:
     corners: list[Any]
     normals: list[Any]
 
-    def mesh(self) -> Mesh:
+    def mesh(self) -> Mesh | None:
+        """None where nothing can be seen of it: generators leave slivers where a patch runs to a point."""
         corners = np.array(self.corners).reshape(-1, 3)
         normals = np.array(self.normals).reshape(-1, 3) if self.smooth else None
-        return Mesh(Geometry(corners, np.arange(len(corners)).reshape(-1, 3), normals))
+        faces = np.arange(len(corners)).reshape(-1, 3)
+        a, b, c = (tuple(corners[k::3].T) for k in range(3))
+        area = pair_cross(exact_difference(b, a), exact_difference(c, a))
+        faces = faces[np.any([high != 0.0 for high, _ in area], axis=0)]
+        return Mesh(Geometry(corners, faces, normals)) if len(faces) else None
 
 
 def read_nff(path: Path, progress: Callable[[float], None]) -> Scene:
@@ -183,12 +189,11 @@ class Reader:
                 normals.append(self.words.vector("a normal of a patch"))
         if smooth and not all(any(normal) for normal in normals):
             raise Fault("a normal of a patch must not be 0 0 0")
-        if not unit_normal(np.array(points)).any():
-            return  # nothing can be seen of it: generators leave such slivers where a patch runs to a point
         if len(points) == 3 or smooth:
-            self._checked(Polygon(tuple(points)), "polygon", planar=False)
+            if any(abs(value) > fields.LARGEST for point in points for value in point):
+                self._checked(Polygon(tuple(points)), "polygon", planar=False)  # says so
             self._patch(points, normals)
-        else:
+        elif unit_normal(np.array(points)).any():  # as of triangles, see there
             self._add(Polygon(tuple(flattened(points))), "polygon")
 
     def _patch(self, points: list[Vector], normals: list[Vector]) -> None:
@@ -204,8 +209,8 @@ class Reader:
                 self.run.normals += [unit(tame(normals[i])) for i in (0, k, k + 1)]
 
     def _end_run(self) -> None:
-        if self.run:
-            self.shapes.append((self.run.mesh(), self.run.material))
+        if self.run and (mesh := self.run.mesh()):
+            self.shapes.append((mesh, self.run.material))
         self.run = None
 
     def _add(self, shape: Any, name: str) -> None:

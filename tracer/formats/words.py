@@ -20,52 +20,54 @@ class Words:
     """The words of a text, read from the front; `#` starts a comment that runs to the end of its line."""
 
     def __init__(self, text: str) -> None:
-        self.words = [
-            Word(word, number)
-            for number, line in enumerate(text.splitlines(), 1)
-            for word in line.partition("#")[0].split()
-        ]
+        self.texts: list[str] = []
+        self.lines: list[int] = []  # of each
+        for number, line in enumerate(text.splitlines(), 1):
+            words = line.partition("#")[0].split()
+            self.texts += words
+            self.lines += [number] * len(words)
         self.at = 0
 
     def left(self) -> bool:
-        return self.at < len(self.words)
+        return self.at < len(self.texts)
 
     def share(self) -> float:
         """Of the words that have been read."""
-        return self.at / len(self.words)
+        return self.at / len(self.texts)
 
     def take(self) -> Word:
         self.at += 1
-        return self.words[self.at - 1]
+        return Word(self.texts[self.at - 1], self.lines[self.at - 1])
 
     def next_in(self, names: Container[str]) -> bool:
         """Whether the next word is one of these."""
-        return self.left() and self.words[self.at].text in names
+        return self.left() and self.texts[self.at] in names
 
     def number_follows(self) -> bool:
-        return self.left() and is_number(self.words[self.at].text)
+        return self.left() and is_number(self.texts[self.at])
 
     def number(self, what: str) -> float:
         """The next word as a finite number. Fault for anything else, which is left to be read again."""
         if not self.left():
             raise Fault(f"{what} must be a number, got the end of the file")
-        found = self.words[self.at].text
-        if not is_number(found):
-            raise Fault(f'{what} must be a number, got "{found}"')
-        if not math.isfinite(float(found)):
+        found = self.texts[self.at]
+        try:
+            value = float(found)
+        except ValueError:
+            raise Fault(f'{what} must be a number, got "{found}"') from None
+        if not math.isfinite(value):
             raise Fault(f"{what} must be a finite number, got {found}")
         self.at += 1
-        return float(found)
+        return value
 
     def vector(self, what: str) -> Vector:
         return (self.number(what), self.number(what), self.number(what))
 
     def skip(self, names: Container[str]) -> None:
         """After a fault, on to one of these names, or on a later line to any word that is no number."""
-        here = self.words[self.at - 1].line  # of the last word that was read
+        here = self.lines[self.at - 1]  # of the last word that was read
         while self.left() and not self.next_in(names):
-            word = self.words[self.at]
-            if word.line > here and not is_number(word.text):
+            if self.lines[self.at] > here and not is_number(self.texts[self.at]):
                 return
             self.at += 1
 
