@@ -17,6 +17,7 @@ from typing import Any, ParamSpec, TypeVar
 
 import numba
 import platformdirs
+from llvmlite import ir
 from numba import types
 from numba.core.caching import FunctionCache
 from numba.core.codegen import JITCodeLibrary
@@ -34,6 +35,7 @@ OPTIONS = {
     "error_model": "numpy",  # x/0 is inf, as IEEE 754 says, and costs no branch
 }
 
+CACHE_LINE = 64  # bytes
 KEPT_CACHES = 3  # folders of earlier versions that stay, so that switching between two checkouts stays quick
 
 
@@ -110,6 +112,32 @@ def _type_natural(context: Any) -> Any:
 @lower_builtin(natural, types.Integer)
 def _lower_natural(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     return context.cast(builder, arguments[0], signature.args[0], types.uint64)
+
+
+def soon(rows: Any, number: int) -> None:
+    """This row of an array will be asked for: it can be fetched from memory meanwhile."""
+
+
+@type_callable(soon)
+def _type_soon(context: Any) -> Any:
+    return lambda rows, number: types.none
+
+
+@lower_builtin(soon, types.Array, types.Integer)
+def _lower_soon(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    from numba.np.arrayobj import make_array  # only where something is compiled
+
+    kind = signature.args[0]
+    size, byte, word, short = kind.dtype.size, ir.IntType(8).as_pointer(), ir.IntType(64), ir.IntType(32)
+    data = builder.bitcast(make_array(kind)(context, builder, arguments[0]).data, byte)
+    number = context.cast(builder, arguments[1], signature.args[1], types.int64)
+    row = builder.gep(data, [builder.mul(number, word(size))])
+    prefetch = builder.module.declare_intrinsic(
+        "llvm.prefetch", (byte,), ir.FunctionType(ir.VoidType(), [byte, short, short, short])
+    )
+    for line in range(0, size, CACHE_LINE):
+        builder.call(prefetch, [builder.gep(row, [word(line)]), short(0), short(3), short(1)])  # to read, to keep, data
+    return context.get_dummy_value()
 
 
 SPLIT = 2.0**27 + 1.0

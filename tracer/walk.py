@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from tracer.bvh import BOXES, KINDS, TRIANGLES
-from tracer.jit import compiled, natural, routine
+from tracer.jit import compiled, natural, routine, soon
 from tracer.lanes import alike, first_of, keep, lanes, larger, no_more, smaller
 from tracer.pairs import U
 from tracer.rays import Ray
@@ -92,6 +92,7 @@ def walker(visit: Callable[..., Any], nearest_first: bool) -> Callable[..., Any]
                             stack[natural(depth)].near = max(a, b)
                         stack[natural(depth)].child = other
                         depth += 1
+                        fetch(world, other)
                     continue
                 if nearest_first:
                     keep(near, space.near)
@@ -99,6 +100,7 @@ def walker(visit: Callable[..., Any], nearest_first: bool) -> Callable[..., Any]
                 while met != 0:
                     k = first_of(met)
                     met &= met - 1
+                    fetch(world, node.child[natural(k)])
                     if nearest_first:
                         put(stack, base, depth, node.child[natural(k)], space.near[natural(k)])
                     else:
@@ -121,6 +123,15 @@ def walker(visit: Callable[..., Any], nearest_first: bool) -> Callable[..., Any]
             child = stack[natural(depth)].child
 
     return walk
+
+
+@compiled
+def fetch(world: Any, child: int) -> None:
+    """What is laid onto the stack waits there; a mesh's boxes and triangles are seldom in the processor's cache."""
+    if child % KINDS == BOXES:
+        soon(world.nodes, child // KINDS)
+    else:
+        soon(world.blocks, child // KINDS)
 
 
 @compiled
