@@ -32,10 +32,10 @@ def test_tracer_never_imports_the_viewer_nor_its_libraries() -> None:
 
 
 def test_one_place_knows_each_library() -> None:
-    """Numba: `jit` and `bundle`; glfw: `window`; trimesh: `formats.meshes`; Dask: `cluster`."""
+    """Numba: `jit` and what compiled code is made of; glfw: `window`; trimesh: `formats.meshes`; Dask: `cluster`."""
     homes = {
-        "numba": {"tracer/jit.py", "tracer/bundle.py", "tracer/lanes.py"},
-        "llvmlite": {"tracer/bundle.py", "tracer/lanes.py"},
+        "numba": {"tracer/jit.py", "tracer/intrinsics.py", "tracer/bundle.py", "tracer/lanes.py"},
+        "llvmlite": {"tracer/intrinsics.py", "tracer/bundle.py", "tracer/lanes.py"},
         "glfw": {"viewer/window.py"},
         "trimesh": {"tracer/formats/meshes.py"},
         "distributed": {"tracer/cluster.py"},

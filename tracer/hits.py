@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from tracer.jit import compiled, natural, routine
+from tracer.intrinsics import natural
+from tracer.jit import compiled, routine
 from tracer.pairs import SMALLEST
 from tracer.rays import Ray
 from tracer.shapes import again, intersect

@@ -10,7 +10,8 @@ from typing import Any
 
 from tracer.branch import spawn
 from tracer.interface import meet_interface
-from tracer.jit import compiled, routine, stay_apart
+from tracer.intrinsics import stay_apart
+from tracer.jit import compiled, routine
 from tracer.limits import Limits
 from tracer.media import index_of, medium
 from tracer.nodes import BACKGROUND, SHADOW

@@ -1,7 +1,6 @@
 """Eight numbers side by side, on which the processor works at once: boxes are tested by the eight.
 
-In Python lanes are an array of eight; compiled they are one vector register or two. Together with `jit` and `bundle`
-this is all that knows Numba.
+In Python lanes are an array of eight; compiled they are one vector register or two.
 """
 
 import operator

@@ -9,7 +9,8 @@ From Python these functions take arrays as well.
 
 import math
 
-from tracer.jit import compiled, product_error
+from tracer.intrinsics import product_error
+from tracer.jit import compiled
 from tracer.vector import Vector
 
 U = 2.0**-53  # the unit of rounding: no operation is wrong by more than this times its result

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from tracer.hits import closest, distance, transmit
-from tracer.jit import compiled, routine, stay_apart
+from tracer.intrinsics import stay_apart
+from tracer.jit import compiled, routine
 from tracer.pairs import SMALLEST
 from tracer.rays import Ray
 from tracer.vector import Vector, length, scale, subtract, unit, vector

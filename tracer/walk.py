@@ -8,7 +8,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from tracer.bvh import BOXES, KINDS, TRIANGLES
-from tracer.jit import compiled, natural, routine, soon
+from tracer.intrinsics import natural, soon
+from tracer.jit import compiled, routine
 from tracer.lanes import alike, first_of, keep, lanes, larger, no_more, smaller
 from tracer.pairs import U
 from tracer.rays import Ray

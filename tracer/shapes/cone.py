@@ -18,7 +18,8 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.jit import compiled, routine, stay_apart
+from tracer.intrinsics import stay_apart
+from tracer.jit import compiled, routine
 from tracer.rays import Ray
 from tracer.shapes.disc import Disc
 from tracer.vector import Vector, add, cross, dot, length, negate, scale, subtract, tame, unit, vector

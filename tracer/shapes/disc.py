@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.jit import routine, stay_apart
+from tracer.intrinsics import stay_apart
+from tracer.jit import routine
 from tracer.pairs import pair_vector
 from tracer.rays import Ray
 from tracer.shapes import planar

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.jit import compiled, routine, stay_apart
+from tracer.intrinsics import stay_apart
+from tracer.jit import compiled, routine
 from tracer.pairs import (
     SMALLEST,
     Pair,

@@ -1,0 +1,97 @@
+"""What a processor can do and Python has no word for: in Python these functions do the same more slowly, or nothing.
+
+Compiled each is an instruction or a remark to the compiler.
+"""
+
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.extending import lower_builtin, type_callable
+
+CACHE_LINE = 64  # bytes
+
+
+def stay_apart() -> None:
+    """As a function's first line: do not copy it into its callers. For what is large and seldom needed."""
+
+
+@type_callable(stay_apart)
+def _type_stay_apart(context: Any) -> Any:
+    return lambda: types.none
+
+
+@lower_builtin(stay_apart)
+def _lower_stay_apart(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    builder.function.attributes.add("noinline")
+    return context.get_dummy_value()
+
+
+def natural(number: int) -> int:
+    """A number that is never negative: as an index it is taken as it is, and not asked whether it counts from the end.
+
+    For what waits for it, as a search for its next box does, the question would cost a tenth of the time.
+    """
+    return number
+
+
+@type_callable(natural)
+def _type_natural(context: Any) -> Any:
+    return lambda number: types.uint64
+
+
+@lower_builtin(natural, types.Integer)
+def _lower_natural(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    return context.cast(builder, arguments[0], signature.args[0], types.uint64)
+
+
+def soon(rows: Any, number: int) -> None:
+    """This row of an array will be asked for: it can be fetched from memory meanwhile."""
+
+
+@type_callable(soon)
+def _type_soon(context: Any) -> Any:
+    return lambda rows, number: types.none
+
+
+@lower_builtin(soon, types.Array, types.Integer)
+def _lower_soon(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    from numba.np.arrayobj import make_array  # only where something is compiled
+
+    kind = signature.args[0]
+    size, byte, word, short = kind.dtype.size, ir.IntType(8).as_pointer(), ir.IntType(64), ir.IntType(32)
+    data = builder.bitcast(make_array(kind)(context, builder, arguments[0]).data, byte)
+    number = context.cast(builder, arguments[1], signature.args[1], types.int64)
+    row = builder.gep(data, [builder.mul(number, word(size))])
+    prefetch = builder.module.declare_intrinsic(
+        "llvm.prefetch", (byte,), ir.FunctionType(ir.VoidType(), [byte, short, short, short])
+    )
+    for line in range(0, size, CACHE_LINE):
+        builder.call(prefetch, [builder.gep(row, [word(line)]), short(0), short(3), short(1)])  # to read, to keep, data
+    return context.get_dummy_value()
+
+
+SPLIT = 2.0**27 + 1.0
+
+
+def product_error(a: Any, b: Any, product: Any) -> Any:
+    """a b - product, where product is a b rounded: a float, without an error.
+
+    Compiled it is one instruction (IEEE 754, 5.4.1: fusedMultiplyAdd). Python before 3.13 has none: there the factors
+    are split into halves whose products are exact (Dekker, Numerische Mathematik 18, 1971); arrays may be given too.
+    """
+    a_high = SPLIT * a - (SPLIT * a - a)
+    b_high = SPLIT * b - (SPLIT * b - b)
+    a_low, b_low = a - a_high, b - b_high
+    return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+
+
+@type_callable(product_error)
+def _type_product_error(context: Any) -> Any:
+    return lambda a, b, product: types.float64
+
+
+@lower_builtin(product_error, types.float64, types.float64, types.float64)
+def _lower_product_error(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    a, b, product = arguments
+    return builder.fma(a, b, builder.fneg(product))
