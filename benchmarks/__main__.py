@@ -13,10 +13,10 @@ from benchmarks import against_embree, against_povray, click, flat, growth, less
 from benchmarks.against_before import changes
 from benchmarks.figure import Figure
 from benchmarks.machine import machine
-from benchmarks.plot import as_svg, grouped
+from benchmarks.plot import as_svg, has_library
 from benchmarks.report import as_json, as_markdown, read_json
 from benchmarks.task import Options, Task
-from viewer.cli import at_least
+from viewer.cli import Parser, at_least
 from viewer.files import Unusable, write_atomically
 from viewer.progress import Progress
 
@@ -40,9 +40,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.error(f"--scenes: {chosen.scenes} must be a folder")
     try:
         before = read_json(chosen.against) if chosen.against else None
-        chosen.output.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
-        parser.error(str(error))
+        parser.error(f"--against: {chosen.against} must be a bench.json: {reason(error)}")
+    try:
+        chosen.output.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        parser.error(f"--output: {chosen.output} must be a folder: {reason(error)}")
+    if not has_library():
+        print('note: no plot without the extra "bench": python -m pip install -e ".[bench]"', file=sys.stderr)
     options = Options(chosen.runs, chosen.scenes)
     names = [name for name in PARTS if name in chosen.parts or not chosen.parts]
     try:
@@ -51,8 +56,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         write_atomically(chosen.output / "bench.json", (as_json(*found) + "\n").encode())
         table = as_markdown(*found)
         write_atomically(chosen.output / "bench.md", table.encode())
-        if grouped(figures):
-            write_atomically(chosen.output / "bench.svg", as_svg(figures))
+        if drawn := as_svg(figures):
+            write_atomically(chosen.output / "bench.svg", drawn)
     except KeyboardInterrupt:
         print("stopped", file=sys.stderr)
         return 130
@@ -67,7 +72,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def make_parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser("python -m benchmarks", description="How fast it is, beside other programs.")
+    parser = Parser("python -m benchmarks", description="How fast it is, beside other programs.")
     parser.add_argument("parts", nargs="*", type=part, metavar="PART", help=f"of {', '.join(PARTS)}; all")
     parser.add_argument("--runs", type=at_least(1), default=5, metavar="N", help="of everything, in turn (5)")
     parser.add_argument("--scenes", type=Path, metavar="FOLDER", help="with NAME.nff and NAME.pov or pov/NAME.pov, too")

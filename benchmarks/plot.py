@@ -3,6 +3,7 @@
 Counts of rays are no speed and stand in the table alone.
 """
 
+import importlib.util
 import io
 from collections.abc import Sequence
 
@@ -17,11 +18,18 @@ LABELS = {
 }  # fmt: skip
 
 
+def has_library() -> bool:
+    return importlib.util.find_spec("matplotlib") is not None
+
+
 def as_svg(figures: Sequence[Figure]) -> bytes:
+    """Nothing where there is nothing to draw, or nothing to draw with."""
+    panels = grouped(figures)
+    if not panels or not has_library():
+        return b""
     import matplotlib as mpl  # pyright: ignore[reportMissingImports]
     from matplotlib.figure import Figure as Canvas  # pyright: ignore[reportMissingImports]
 
-    panels = grouped(figures)
     heights = [len(rows) + 1.6 for rows in panels.values()]
     with mpl.rc_context(
         {"font.size": 11, "font.family": "sans-serif", "svg.hashsalt": "raytree", "axes.axisbelow": True}

@@ -22,7 +22,7 @@ def read_json(path: Path) -> list[Figure]:
     """ValueError where this is no file of figures."""
     content = json.loads(path.read_text("utf-8"))
     if not isinstance(content, dict) or content.get("format") != FORMAT:
-        raise ValueError(f"{path}: must be a bench.json of format {FORMAT}")
+        raise ValueError(f"its format is not {FORMAT}")
     return [Figure.from_dict(row) for row in content["figures"]]
 
 

@@ -13,12 +13,15 @@ from tracer.bvh import FLAT
 from tracer.lanes import WIDTH
 from tracer.shapes.cone import Cone
 from tracer.shapes.disc import Disc
-from tracer.shapes.mesh import Mesh
+from tracer.shapes.mesh import NO_FILE, Mesh
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.triangle import Triangle
 
 if TYPE_CHECKING:
     from tracer.scene import Material, Object, Scene, Shape
+
+
+TRANSMIT = ("transmits", "transmit")  # one, several
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,14 +42,15 @@ def needs(scene: Scene, surfaces: int, nodes: int, blocks: int) -> tuple[Need, .
     fresnel = scene.tracing.model == "fresnel"
     lit = [m for m in materials if shines(m)]
     meshes = [item for item in scene.objects if isinstance(item.shape, Mesh)]
+    files = [item for item in meshes if isinstance(item.shape, Mesh) and item.shape.file != NO_FILE]
     smooth = [item for item in meshes if isinstance(item.shape, Mesh) and item.shape.geometry.normals is not None]
     splitting = [item for item in solids if item.material.ior != 1.0]
     return (
-        Need("reflection", bool(mirrors) or bool(splitting), _which(mirrors or splitting, "reflects")),
-        Need("refraction", bool(glass), _which(glass, "transmits")),
-        Need("media", bool(solids), _which(solids, "bounds a medium")),
+        Need("reflection", bool(mirrors) or bool(splitting), _which(mirrors or splitting, "reflects", "reflect")),
+        Need("refraction", bool(glass), _which(glass, *TRANSMIT)),
+        Need("media", bool(solids), _which(solids, "bounds a medium", "bound media")),
         Need("fresnel", fresnel and bool(glass), 'model = "fresnel"' if fresnel else 'model = "whitted"'),
-        Need("dispersion", False, "every index is one number" if glass else _which(glass, "transmits")),
+        Need("dispersion", False, "every index is one number" if glass else _which(glass, *TRANSMIT)),
         Need("lens, glossy samples", False, "a pinhole, and every mirror is smooth"),
         Need("shadow rays", bool(scene.lights) and bool(lit), _shadow_reason(len(scene.lights), len(lit))),
         Need("light from behind", False, "it adds nothing to a surface" if scene.lights else "no light"),
@@ -57,8 +61,12 @@ def needs(scene: Scene, surfaces: int, nodes: int, blocks: int) -> tuple[Need, .
         ),
         Need("checker", any(m.checker for m in materials), _checkered(materials)),
         Need("hierarchy", nodes > 0, _hierarchy(surfaces, nodes, blocks)),
-        Need("mesh library", bool(meshes), _which(meshes, "comes from a mesh file")),
-        Need("vertex normals", bool(smooth), _which(smooth, "has normals at its vertices")),
+        Need("mesh library", bool(files), _which(files, "comes from a mesh file", "come from mesh files")),
+        Need(
+            "vertex normals",
+            bool(smooth),
+            _which(smooth, "has normals at its vertices", "have normals at their vertices"),
+        ),
     )
 
 
@@ -106,11 +114,12 @@ def _name(item: Object) -> str:
     return item.name or type(item.shape).__name__.lower()
 
 
-def _which(objects: list, does: str) -> str:
+def _which(objects: list, does: str, do: str) -> str:
     if not objects:
         return f"nothing {does}"
-    others = f" and {len(objects) - 1} more" if len(objects) > 1 else ""
-    return f'"{_name(objects[0])}"{others} {does}'
+    first = objects[0]
+    name = f'"{first.name}"' if first.name else f"a {_name(first)}"
+    return f"{name} and {len(objects) - 1} more {do}" if len(objects) > 1 else f"{name} {does}"
 
 
 def _shadow_reason(lights: int, lit: int) -> str:
@@ -122,7 +131,7 @@ def _shadow_reason(lights: int, lit: int) -> str:
 def _filter_reason(scene: Scene, glass: list) -> str:
     if glass and scene.lights:
         return f'shadows = "{scene.tracing.shadows}"'
-    return "no light" if glass else _which(glass, "transmits")
+    return "no light" if glass else _which(glass, *TRANSMIT)
 
 
 def _hierarchy(surfaces: int, nodes: int, blocks: int) -> str:

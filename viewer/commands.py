@@ -93,6 +93,8 @@ def view(options: Namespace) -> int:
     from viewer.show import show
 
     path, found = find(options.scene or lesson.names()[0])
+    if not path.exists():  # one that is there and cannot be read is shown as such, for it is perhaps being written
+        raise Unusable(f"{path}: file not found")
     return show(path, found, options)
 
 

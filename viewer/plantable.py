@@ -86,12 +86,14 @@ def _measured(plan: Plan, image: Measured, width: int) -> Iterator[str]:
     rays = ", ".join(f"{spaced(count)} {kind}" for kind, count in image.rays.items() if count)
     yield f"MEASURED with and without, in turn. The image: {_size(image.size)}, depth {image.depth}, one thread,"
     yield from textwrap.wrap(f"{rays} rays", WIDTH)
-    for needed, head in ((False, "left out: it would add"), (True, "needed: of the whole it takes")):
+    for needed, head in ((False, "left out: it would add"), (True, "needed: what it takes")):
         chosen = [line for part in plan.lines.values() for line in part if line.need.needed == needed]
         if chosen:
             yield ""
             yield f"{head:{width + 9}}{'rays':>5}{'ms':>15}{'times':>8}   {'without' if needed else 'with'}"
             yield from (_row(line, image, width) for line in chosen)
+        if any(line.turns and line.turns.tells and line.turns.extra < 0.0 for line in chosen):
+            yield f"{'':{width}}  (with a minus: what it saves)"
 
 
 def _row(line: Saving, image: Measured, width: int) -> str:
@@ -121,8 +123,9 @@ def _verdict(image: Measured) -> list[str]:
     same = "the same picture" if not together.changed else f"{spaced(together.changed)} pixels differ"
     before, after = 1e3 * turns.without, 1e3 * (turns.without + turns.extra)
     told = (
-        f"All at once that the image leaves out ({together.how}; {same}): {spaced(together.rays[1])} rays instead of "
-        f"{spaced(together.rays[0])}, {after:.1f} ms instead of {before:.1f}, ×{turns.ratio:.2f}."
+        f"At once all that the image leaves out and that would not change it ({together.how}; {same}): "
+        f"{spaced(together.rays[1])} rays instead of {spaced(together.rays[0])}, {after:.1f} ms instead of "
+        f"{before:.1f}, ×{turns.ratio:.2f}."
     )
     return textwrap.wrap(told, WIDTH)
 

@@ -17,7 +17,7 @@ import tracer
 from tracer.outline import light_missing, number
 from viewer.commands import compile_once, faults, find
 from viewer.files import Unusable, check_writable, write_atomically
-from viewer.picture import check_format, write_picture
+from viewer.picture import WRITERS, check_format, write_picture
 from viewer.progress import Progress
 
 
@@ -157,7 +157,9 @@ def ordered(options: Namespace) -> list[Order]:
     for name, count in Counter(order.name for order in orders).items():
         if count > 1:
             unusable.append(f"raytree render: {count} scenes would be written to the same file: {name}")
-    if folder and into.exists() and not into.is_dir():
+    if folder and into.suffix.lower() in WRITERS and not into.is_dir():
+        unusable.append(f"raytree render: the images of several scenes need a folder, got {into}")
+    elif folder and into.exists() and not into.is_dir():
         unusable.append(f"{into}: the images of several scenes need a folder, got a file")
     if options.format and not folder:
         unusable.append(f"raytree render: --format is for images in a folder; {into} says its own")

@@ -174,10 +174,13 @@ def test_what_follows_a_fault_of_value_is_read_again(tmp_path: Path) -> None:
         ("", "scene.nff: a scene needs at least one object (s, p, pp or c), got none"),
         ("v\nfrom 0 0 1\nat 0 0 0\n", "scene.nff: line 1: v must have from, at, up, angle, hither, resolution, "
          "got none of up, angle, resolution"),
-        (VIEW.replace("40\n", "180\n", 1), "scene.nff: line 1: angle must be > 0 and < 180, got 180"),
-        (VIEW.replace("40 30", "40.5 30"), "scene.nff: line 1: resolution must be two whole numbers, got 40.5 30"),
-        (VIEW.replace("at 0 0.5 0", "at 1 2 8"), "scene.nff: line 1: v: look_at must differ from position, "
+        (VIEW.replace("40\n", "180\n", 1), "scene.nff: line 5: angle must be > 0 and < 180, got 180"),
+        (VIEW.replace("40 30", "40.5 30"), "scene.nff: line 7: resolution must be two whole numbers, got 40.5 30"),
+        (VIEW.replace("at 0 0.5 0", "at 1 2 8"), 'scene.nff: line 3: v: "at" must differ from "from", '
          "got [1, 2, 8] for both"),
+        ("f 1 1 1 1 2 0 0 0\n", "scene.nff: line 1: f: Ks must be >= 0 and <= 1, got 2"),
+        ("f 1 1 1 1 0 0 0 0\ns 0 0\n0\n# no radius\ns 0 0 0 1\n", "scene.nff: line 3: the radius of a sphere must be "
+         'a number, got "s"'),
         ("l 0 0 9 -1 0 0\n", "scene.nff: line 1: light: color must be three numbers [r, g, b] >= 0, got [-1, 0, 0]"),
         ("f 1 1 1 1 0 0 0 0\np 4 0 0 0 1 0 0 1 1 1 0 1 0\n", "scene.nff: line 2: polygon: vertices must lie in one "
          "plane (to 1e-05 of the polygon's size), got vertices[0] off it by 0.2 of that size"),
@@ -191,6 +194,12 @@ def test_what_is_no_text_is_refused(tmp_path: Path) -> None:
     (tmp_path / "scene.nff").write_bytes(b"s 0 0 0 \xff")
     with pytest.raises(tracer.SceneError, match=r"scene\.nff: byte 8: an NFF file is text"):
         tracer.load(tmp_path / "scene.nff")
+
+
+def test_its_meshes_need_no_mesh_library(tmp_path: Path) -> None:
+    world = tracer.prepare(load(tmp_path, "f 1 1 1 1 0 0 0 0\npp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1\n"))
+    assert "mesh library" in world.left_out
+    assert "vertex normals" not in world.left_out
 
 
 def test_slivers_without_an_area_are_left_out(tmp_path: Path) -> None:

@@ -14,7 +14,8 @@ are seen from both sides, also those of negative radius, which the format means 
 """
 
 import math
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -38,6 +39,11 @@ ENTITIES = {
     "s": "a sphere", "p": "a polygon", "pp": "a patch", "c": "a cone",
 }  # fmt: skip
 VIEW = {"from": 3, "at": 3, "up": 3, "angle": 1, "hither": 1, "resolution": 2}
+
+# What materials and cameras call by other names than the format.
+FILL = {"color": "r g b", "diffuse": "Kd", "specular": "Ks", "shininess": "shine", "reflect": "Ks", "transmit": "T"}
+NO_OTHERS: Mapping[str, str] = {}
+LOOK = {"position": '"from"', "look_at": '"at"'}
 
 BENT = 1e-3  # of its size: a polygon whose printed corners lie no farther off its plane is meant to be flat
 MOST_CORNERS = 10**6
@@ -69,7 +75,7 @@ def read_nff(path: Path, progress: Callable[[float], None]) -> Scene:
         text = path.read_bytes().decode("utf-8")
     except UnicodeDecodeError as error:
         raise SceneError([f"{path}: byte {error.start}: an NFF file is text, got something else"]) from None
-    return Reader(path, Words(text)).scene(progress)
+    return Reader(path, Words(text, {*ENTITIES, *VIEW})).scene(progress)
 
 
 class Reader:
@@ -92,8 +98,8 @@ class Reader:
             try:
                 self._entity(word)
             except Fault as fault:
-                self.faults.append(f"{self.path}: line {word.line}: {fault}")
-                self.words.skip(ENTITIES)
+                self.faults.append(f"{self.path}: line {fault.line or word.line}: {fault}")
+                self.words.skip()
         self._end_run()
         if not self.faults and not self.shapes:
             self.faults.append(f"{self.path}: a scene needs at least one object (s, p, pp or c), got none")
@@ -137,23 +143,26 @@ class Reader:
 
     def _view(self) -> None:
         found: dict[str, list[float]] = {}
+        lines: dict[str, int] = {}
         while self.words.next_in(VIEW):
-            name = self.words.take().text
+            name, lines[name] = self.words.take()
             found[name] = [self.words.number(f"{name} of v") for _ in range(VIEW[name])]
         missing = [name for name in VIEW if name not in found and name != "hither"]
         if missing:
             raise Fault(f"v must have {', '.join(VIEW)}, got none of {', '.join(missing)}")
         width, height = found["resolution"]
         if not (width.is_integer() and height.is_integer()):
-            raise Fault(f"resolution must be two whole numbers, got {width:g} {height:g}")
-        self.image = self._checked(Image(int(width), int(height)), "resolution")
+            raise Fault(f"resolution must be two whole numbers, got {width:g} {height:g}", lines["resolution"])
+        self.image = self._checked(Image(int(width), int(height)), "resolution", line=lines["resolution"])
         angle = found["angle"][0]
         if not 0.0 < angle < 180.0:
-            raise Fault(f"angle must be > 0 and < 180, got {angle:g}")
+            raise Fault(f"angle must be > 0 and < 180, got {angle:g}", lines["angle"])
         # From the middle of the top row of pixels to that of the bottom one; ours goes from edge to edge.
         edge = math.tan(0.5 * math.radians(angle)) * height / max(1.0, height - 1.0)
         eye, middle, up = (as_floats(found[name]) for name in ("from", "at", "up"))
-        self.camera = self._checked(Camera(eye, middle, up, 2.0 * math.degrees(math.atan(edge))), "v")
+        self.camera = self._checked(
+            Camera(eye, middle, up, 2.0 * math.degrees(math.atan(edge))), "v", names=LOOK, line=lines["at"]
+        )
 
     def _light(self) -> None:
         position = self.words.vector("the position of a light")
@@ -175,7 +184,7 @@ class Reader:
             transmit=transmit,
             ior=ior if transmit > 0.0 else 1.0,
         )
-        self.material = self._checked(material, "f")
+        self.material = self._checked(material, "f", names=FILL)
 
     def _polygon(self, smooth: bool) -> None:
         count = self.words.number("the number of corners")
@@ -228,12 +237,15 @@ class Reader:
         for position, color in self.lights:
             yield Light(position=position, color=color or (share, share, share))
 
-    def _checked(self, part: Any, name: str, planar: bool = True) -> Any:
+    def _checked(
+        self, part: Any, name: str, planar: bool = True, names: Mapping[str, str] = NO_OTHERS, line: int | None = None
+    ) -> Any:
         faults = fields.value_faults(part)
         if not faults and planar and hasattr(part, "faults"):
             faults = part.faults()
         if faults:
-            raise Fault(f"{name}: {'; '.join(faults)}")
+            text = re.sub(r"\w+", lambda word: names.get(word.group(), word.group()), "; ".join(faults))
+            raise Fault(f"{name}: {text}", line)
         return part
 
 

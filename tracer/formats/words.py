@@ -13,13 +13,21 @@ class Word(NamedTuple):
 
 
 class Fault(Exception):
-    """What is wrong, without the place."""
+    """What is wrong, without the file; `line` where it is another one than the entity's."""
+
+    def __init__(self, text: str, line: int | None = None) -> None:
+        super().__init__(text)
+        self.line = line
 
 
 class Words:
-    """The words of a text, read from the front; `#` starts a comment that runs to the end of its line."""
+    """The words of a text, read from the front; `#` starts a comment that runs to the end of its line.
 
-    def __init__(self, text: str) -> None:
+    `names` are the words that begin something: where one stands in a number's place, the number is missing.
+    """
+
+    def __init__(self, text: str, names: Container[str]) -> None:
+        self.names = names
         self.texts: list[str] = []
         self.lines: list[int] = []  # of each
         for number, line in enumerate(text.splitlines(), 1):
@@ -49,24 +57,25 @@ class Words:
     def number(self, what: str) -> float:
         """The next word as a finite number. Fault for anything else, which is left to be read again."""
         if not self.left():
-            raise Fault(f"{what} must be a number, got the end of the file")
+            raise Fault(f"{what} must be a number, got the end of the file", self.lines[-1])
         found = self.texts[self.at]
         try:
             value = float(found)
         except ValueError:
-            raise Fault(f'{what} must be a number, got "{found}"') from None
+            missing = found in self.names
+            raise Fault(f'{what} must be a number, got "{found}"', self.lines[self.at - missing]) from None
         if not math.isfinite(value):
-            raise Fault(f"{what} must be a finite number, got {found}")
+            raise Fault(f"{what} must be a finite number, got {found}", self.lines[self.at])
         self.at += 1
         return value
 
     def vector(self, what: str) -> Vector:
         return (self.number(what), self.number(what), self.number(what))
 
-    def skip(self, names: Container[str]) -> None:
-        """After a fault, on to one of these names, or on a later line to any word that is no number."""
+    def skip(self) -> None:
+        """After a fault, on to the next name, or on a later line to any word that is no number."""
         here = self.lines[self.at - 1]  # of the last word that was read
-        while self.left() and not self.next_in(names):
+        while self.left() and not self.next_in(self.names):
             if self.lines[self.at] > here and not is_number(self.texts[self.at]):
                 return
             self.at += 1

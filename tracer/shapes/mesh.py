@@ -16,6 +16,9 @@ from tracer.vector import Vector
 NAME = "mesh"
 
 
+NO_FILE = "mesh"  # as the file of a mesh that came from none
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Geometry:
     """Triangles as a file has them."""
@@ -28,7 +31,7 @@ class Geometry:
 @dataclass(frozen=True, slots=True, eq=False)
 class Mesh:
     geometry: Geometry
-    file: str = field(default="mesh", metadata=fields.text())
+    file: str = field(default=NO_FILE, metadata=fields.text())
     scale: float = field(default=1.0, metadata=fields.number(above=0))
     rotate: Vector = field(default=(0.0, 0.0, 0.0), metadata=fields.point())  # degrees about x, then y, then z
     translate: Vector = field(default=(0.0, 0.0, 0.0), metadata=fields.point())

@@ -151,7 +151,7 @@ def waiting_lines(session: Session) -> list[str]:
     if not session.warmup.ready and session.warmup.compiles:
         seconds = session.warmup.seconds
         return [
-            f"Preparing the tracer: {seconds:.0f} s",
+            f"Preparing the tracer: {seconds:.0f} s, of some twenty",
             "Only this once: its formulas are compiled for this machine and kept.",
         ]
     return ["Loading ..."]
