@@ -1,5 +1,6 @@
 """Shared by all tests: the shipped scenes, and numpy's floating point errors as exceptions."""
 
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -41,3 +42,11 @@ def scene_file(tmp_path: Path):
         return path
 
     return write
+
+
+@pytest.fixture(autouse=True, scope="session")
+def heard():
+    """Shells let what they start in the background ignore Ctrl-C, and commands would go on ignoring it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
