@@ -57,7 +57,7 @@ class Desk(App):
 
         def moved() -> bool:
             k = len(self.took)
-            time.sleep(pause)
+            time.sleep(pause)  # the hand's pace: nothing is waited for
             imgui.get_io().add_mouse_pos_event(600.0 + k % 2, 200.0)
             return k >= count
 
@@ -83,14 +83,16 @@ class Desk(App):
         over = threading.Event()
         times: list[tuple[float, float]] = []
 
-        def look(leave: bool) -> None:
+        def look() -> None:
             times.append((time.perf_counter(), time.process_time()))
-            if leave:
-                over.set()
-                self.session.wants_quit = True
-                self.surface.wake()
 
-        timers = [threading.Timer(delay, look, (leave,)) for delay, leave in ((SETTLED, False), (SETTLED + IDLE, True))]
+        def leave() -> None:
+            look()
+            over.set()
+            self.session.wants_quit = True
+            self.surface.wake()
+
+        timers = [threading.Timer(SETTLED, look), threading.Timer(SETTLED + IDLE, leave)]
         for timer in timers:
             timer.start()
         self.watch(over.is_set)

@@ -12,6 +12,13 @@ from numba.extending import lower_builtin, type_callable
 CACHE_LINE = 64  # bytes
 
 
+def data_of(context: Any, builder: Any, kind: Any, array: Any) -> Any:
+    """Where an array begins. What that needs of Numba is loaded only where something is compiled."""
+    from numba.np.arrayobj import make_array
+
+    return make_array(kind)(context, builder, array).data
+
+
 def stay_apart() -> None:
     """As a function's first line: do not copy it into its callers. For what is large and seldom needed."""
 
@@ -56,11 +63,9 @@ def _type_soon(context: Any) -> Any:
 
 @lower_builtin(soon, types.Array, types.Integer)
 def _lower_soon(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    from numba.np.arrayobj import make_array  # only where something is compiled
-
     kind = signature.args[0]
     size, byte, word, short = kind.dtype.size, ir.IntType(8).as_pointer(), ir.IntType(64), ir.IntType(32)
-    data = builder.bitcast(make_array(kind)(context, builder, arguments[0]).data, byte)
+    data = builder.bitcast(data_of(context, builder, kind, arguments[0]), byte)
     number = context.cast(builder, arguments[1], signature.args[1], types.int64)
     row = builder.gep(data, [builder.mul(number, word(size))])
     prefetch = builder.module.declare_intrinsic(

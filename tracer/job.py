@@ -138,11 +138,13 @@ def passes(width: int, height: int, steps: Sequence[int] = (1,), side: int = TIL
     Those of a coarse pass are larger by its step: there is as much to do in each of them as in a fine one's.
     """
     before = (0, *steps)
+    return [tiles(width, height, side * step, step, traced) for step, traced in zip(steps, before, strict=False)]
+
+
+def tiles(width: int, height: int, side: int, step: int, traced: int) -> list[Area]:
+    """Those of one pass, in reading order."""
     return [
-        [
-            Area(left, top, min(left + side * step, width), min(top + side * step, height), step, traced)
-            for top in range(0, height, side * step)
-            for left in range(0, width, side * step)
-        ]
-        for step, traced in zip(steps, before, strict=False)
+        Area(left, top, min(left + side, width), min(top + side, height), step, traced)
+        for top in range(0, height, side)
+        for left in range(0, width, side)
     ]

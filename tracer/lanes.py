@@ -12,6 +12,8 @@ from numba import types
 from numba.core.datamodel import models
 from numba.extending import lower_builtin, register_model, type_callable
 
+from tracer.intrinsics import data_of
+
 WIDTH = 8
 
 
@@ -70,13 +72,6 @@ def first_of(bits: int) -> int:
     return (int(bits) & -int(bits)).bit_length() - 1
 
 
-def _data(context: Any, builder: Any, kind: Any, array: Any) -> Any:
-    """Where an array's numbers begin. What that needs of Numba is loaded only where something is compiled."""
-    from numba.np.arrayobj import make_array
-
-    return make_array(kind)(context, builder, array).data
-
-
 @type_callable(lanes)
 def _type_lanes(context: Any) -> Any:
     return lambda row: LANES
@@ -84,7 +79,7 @@ def _type_lanes(context: Any) -> Any:
 
 @lower_builtin(lanes, types.Array)
 def _lower_lanes(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    data = _data(context, builder, signature.args[0], arguments[0])
+    data = data_of(context, builder, signature.args[0], arguments[0])
     if signature.args[0].dtype == types.float64:
         return builder.load(builder.bitcast(data, VECTOR.as_pointer()), align=8)
     return builder.fpext(builder.load(builder.bitcast(data, NARROW.as_pointer()), align=4), VECTOR)
@@ -159,7 +154,7 @@ def _type_keep(context: Any) -> Any:
 
 @lower_builtin(keep, LanesType, types.Array)
 def _lower_keep(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-    data = _data(context, builder, signature.args[1], arguments[1])
+    data = data_of(context, builder, signature.args[1], arguments[1])
     builder.store(arguments[0], builder.bitcast(data, VECTOR.as_pointer()), align=8)
     return context.get_dummy_value()
 

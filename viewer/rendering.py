@@ -143,7 +143,8 @@ def render_one(
 def ordered(options: Namespace) -> list[Order]:
     """What is to be made of which scene. Unusable for every name and place that is none."""
     into = Path(options.output)
-    folder = len(options.scene) > 1 or into.is_dir() or options.output.endswith(("/", "\\"))
+    slash = options.output.endswith(("/", "\\"))
+    folder = len(options.scene) > 1 or into.is_dir() or slash
     unusable: list[str] = []
     orders = []
     for scene in options.scene:
@@ -157,10 +158,8 @@ def ordered(options: Namespace) -> list[Order]:
     for name, count in Counter(order.name for order in orders).items():
         if count > 1:
             unusable.append(f"raytree render: {count} scenes would be written to the same file: {name}")
-    if folder and into.suffix.lower() in WRITERS and not into.is_dir():
+    if folder and not into.is_dir() and (into.exists() or (into.suffix.lower() in WRITERS and not slash)):
         unusable.append(f"raytree render: the images of several scenes need a folder, got {into}")
-    elif folder and into.exists() and not into.is_dir():
-        unusable.append(f"{into}: the images of several scenes need a folder, got a file")
     if options.format and not folder:
         unusable.append(f"raytree render: --format is for images in a folder; {into} says its own")
     if unusable:

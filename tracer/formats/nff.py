@@ -15,7 +15,7 @@ are seen from both sides, also those of negative radius, which the format means 
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -41,9 +41,12 @@ ENTITIES = {
 VIEW = {"from": 3, "at": 3, "up": 3, "angle": 1, "hither": 1, "resolution": 2}
 
 # What materials and cameras call by other names than the format.
-FILL = {"color": "r g b", "diffuse": "Kd", "specular": "Ks", "shininess": "shine", "reflect": "Ks", "transmit": "T"}
-NO_OTHERS: Mapping[str, str] = {}
-LOOK = {"position": '"from"', "look_at": '"at"'}
+FORMAT_NAMES: dict[type, dict[str, str]] = {
+    Camera: {"position": '"from"', "look_at": '"at"'},
+    Material: {
+        "color": "r g b", "diffuse": "Kd", "specular": "Ks", "shininess": "shine", "reflect": "Ks", "transmit": "T",
+    },
+}  # fmt: skip
 
 BENT = 1e-3  # of its size: a polygon whose printed corners lie no farther off its plane is meant to be flat
 MOST_CORNERS = 10**6
@@ -153,16 +156,14 @@ class Reader:
         width, height = found["resolution"]
         if not (width.is_integer() and height.is_integer()):
             raise Fault(f"resolution must be two whole numbers, got {width:g} {height:g}", lines["resolution"])
-        self.image = self._checked(Image(int(width), int(height)), "resolution", line=lines["resolution"])
+        self.image = self._checked(Image(int(width), int(height)), "resolution", lines["resolution"])
         angle = found["angle"][0]
         if not 0.0 < angle < 180.0:
             raise Fault(f"angle must be > 0 and < 180, got {angle:g}", lines["angle"])
         # From the middle of the top row of pixels to that of the bottom one; ours goes from edge to edge.
         edge = math.tan(0.5 * math.radians(angle)) * height / max(1.0, height - 1.0)
         eye, middle, up = (as_floats(found[name]) for name in ("from", "at", "up"))
-        self.camera = self._checked(
-            Camera(eye, middle, up, 2.0 * math.degrees(math.atan(edge))), "v", names=LOOK, line=lines["at"]
-        )
+        self.camera = self._checked(Camera(eye, middle, up, 2.0 * math.degrees(math.atan(edge))), "v", lines["at"])
 
     def _light(self) -> None:
         position = self.words.vector("the position of a light")
@@ -184,7 +185,7 @@ class Reader:
             transmit=transmit,
             ior=ior if transmit > 0.0 else 1.0,
         )
-        self.material = self._checked(material, "f", names=FILL)
+        self.material = self._checked(material, "f")
 
     def _polygon(self, smooth: bool) -> None:
         count = self.words.number("the number of corners")
@@ -200,9 +201,9 @@ class Reader:
             raise Fault("a normal of a patch must not be 0 0 0")
         if len(points) == 3 or smooth:
             if any(abs(value) > fields.LARGEST for point in points for value in point):
-                self._checked(Polygon(tuple(points)), "polygon", planar=False)  # says so
+                self._checked(Polygon(tuple(points)), "polygon")  # says so
             self._patch(points, normals)
-        elif unit_normal(np.array(points)).any():  # as of triangles, see there
+        elif unit_normal(np.array(points)).any():  # slivers are left out, as in a run of triangles
             self._add(Polygon(tuple(flattened(points))), "polygon")
 
     def _patch(self, points: list[Vector], normals: list[Vector]) -> None:
@@ -237,13 +238,12 @@ class Reader:
         for position, color in self.lights:
             yield Light(position=position, color=color or (share, share, share))
 
-    def _checked(
-        self, part: Any, name: str, planar: bool = True, names: Mapping[str, str] = NO_OTHERS, line: int | None = None
-    ) -> Any:
+    def _checked(self, part: Any, name: str, line: int | None = None) -> Any:
         faults = fields.value_faults(part)
-        if not faults and planar and hasattr(part, "faults"):
+        if not faults and hasattr(part, "faults"):
             faults = part.faults()
         if faults:
+            names = FORMAT_NAMES.get(type(part), {})
             text = re.sub(r"\w+", lambda word: names.get(word.group(), word.group()), "; ".join(faults))
             raise Fault(f"{name}: {text}", line)
         return part
