@@ -22,9 +22,9 @@ from numba.np.numpy_support import from_dtype
 
 
 @cache
-def row_type(dtype: np.dtype) -> types.Type:
+def array_type(dtype: np.dtype, dimensions: int, writable: bool) -> types.Array:
     """Numba's name for it. Found once: that takes a tenth of a millisecond, and every click makes a Bundle."""
-    return from_dtype(dtype)
+    return types.Array(from_dtype(dtype), dimensions, "C", readonly=not writable)
 
 
 class Bundle:
@@ -39,7 +39,7 @@ class Bundle:
             if isinstance(value, np.ndarray):
                 if not value.flags.c_contiguous:
                     raise TypeError(f"{name} must be C-contiguous")
-                kind = types.Array(row_type(value.dtype), value.ndim, "C", readonly=not writable)
+                kind = array_type(value.dtype, value.ndim, writable)
                 tail = (None,) * (value.ndim - 1) if name in ragged else value.shape[1:]
                 entries.append(Entry(name, kind, len(table), tail))
                 table += [value.ctypes.data, *value.shape]
@@ -48,7 +48,7 @@ class Bundle:
                 table.append(int(value))
         self._table = np.array(table, np.int64)
         self.address = self._table.ctypes.data
-        self.numba_type = BundleType(tuple(entries))
+        self.numba_type = bundle_type(tuple(entries))
 
     def __reduce__(self) -> tuple[Any, ...]:
         """In another process it has other addresses: it is made anew, of what it was made of."""
@@ -81,6 +81,12 @@ class BundleType(types.Type):
     def __init__(self, entries: tuple[Entry, ...]) -> None:
         self.entries = entries
         super().__init__(f"Bundle({entries})")
+
+
+@cache
+def bundle_type(entries: tuple[Entry, ...]) -> BundleType:
+    """Found once, too: its name has those of all arrays in it."""
+    return BundleType(entries)
 
 
 class _AddressModel(models.PrimitiveModel):

@@ -18,7 +18,7 @@ from tracer.camera import View
 from tracer.jit import versions
 from tracer.limits import Limits
 from tracer.nodes import KINDS
-from tracer.tile import CENTER, Area, Samples, Workspace, run
+from tracer.tile import CENTER, Area, Counts, Samples, Workspace, run
 from tracer.tree import solids_at
 from tracer.world import World
 
@@ -81,8 +81,7 @@ class Traced(NamedTuple):
     """A finished tile."""
 
     area: Area
-    rays: np.ndarray  # by kind
-    residuals: np.ndarray  # largest and sum over the pixels
+    counts: Counts
     pixels: np.ndarray | None  # None: they are where they belong
 
 
@@ -98,17 +97,18 @@ def trace_tiles(
         space = Workspace(len(task.eye_solids))
     done = []
     for area in areas:
-        space.arrays.rays[:] = 0
-        space.arrays.residuals[:] = 0.0
         pixels, corner = image, (0, 0)
         if pixels is None:
             pixels, corner = np.zeros((area.bottom - area.top, area.right - area.left, 3)), (area.left, area.top)
-        if cancelled() or not run(
-            task.arrays, task.view, task.limits, task.samples, area, task.eye_solids, pixels, space, corner, cancelled
-        ):
+        counts = None
+        if not cancelled():
+            counts = run(
+                *(task.arrays, task.view, task.limits, task.samples, area, task.eye_solids),
+                *(pixels, space, corner, cancelled),
+            )
+        if counts is None:
             break
-        own = pixels if image is None else None
-        done.append(Traced(area, space.arrays.rays.copy(), space.arrays.residuals.copy(), own))
+        done.append(Traced(area, counts, pixels if image is None else None))
     task.spaces.put(space)
     return done
 
@@ -126,8 +126,8 @@ class Job:
     def keep(self, traced: Traced) -> None:
         """Take in a finished tile."""
         area = traced.area
-        self.rays += traced.rays
-        self.residuals.append(traced.residuals)
+        self.rays += traced.counts.rays
+        self.residuals.append(traced.counts.residuals)
         if traced.pixels is not None:
             self.pixels[area.top : area.bottom, area.left : area.right] = traced.pixels
 

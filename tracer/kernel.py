@@ -72,7 +72,7 @@ def move_up(space: Any, i: int, count: int) -> int:
     stay_apart()
     table, solids = space.table, space.solids
     for k in range(i, count - 1):
-        space.counted[table[k].kind] += 1
+        space.rays[table[k].kind] += 1
     row, child = table[i], table[count - 1]
     child.sibling = row.sibling
     store(child.factor, vector(row.factor))
@@ -165,7 +165,7 @@ def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> 
                     record_shadow(world, limits, space, count, i, j, ray, far, visible, glass, share)
                     count += 1
                 else:
-                    space.counted[SHADOW] += 1
+                    space.rays[SHADOW] += 1
             elif limits.records:
                 record_unlit(world, limits, space, count, i, j, to_light, far)
                 count += 1

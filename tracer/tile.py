@@ -11,7 +11,7 @@ import numpy as np
 
 from tracer.bundle import Bundle
 from tracer.bvh import WAITING
-from tracer.camera import View, pixel_direction
+from tracer.camera import AHEAD, View, look_ahead, pixel_direction
 from tracer.certified import OPEN, trace_heaviest_first
 from tracer.halves import MOST_WAITING
 from tracer.jit import compiled, kernel
@@ -50,7 +50,7 @@ class Samples(NamedTuple):
 
 CENTER = Samples(-1, 1)
 
-# Rays, after which the kernel comes back within a tile, so that it can be stopped: some tenths of a second.
+# Rays of a kind, after which the kernel comes back within a tile, so that it can be stopped: some tenths of a second.
 ENOUGH = 2**20
 
 
@@ -63,10 +63,10 @@ class Space(NamedTuple):
     stack: np.ndarray  # of nodes still to be entered
     near: np.ndarray  # where the boxes of one node are entered
     crossed: np.ndarray  # glass on the way to a light
-    counted: np.ndarray  # rays of this pixel that have no row (any more), by kind; then all of them
-    rays: np.ndarray  # traced so far, by kind
+    ahead: np.ndarray  # directions through the next pixels of a line
+    rays: np.ndarray  # traced in this call, by kind
     tree: np.ndarray  # rows and residual of the last tree; -1 rows where the table was too short for it
-    residuals: np.ndarray  # largest and sum over the pixels so far
+    residuals: np.ndarray  # largest and sum over the pixels of this call
 
 
 class Workspace:
@@ -80,7 +80,7 @@ class Workspace:
             np.zeros(MOST_WAITING, WAITING),
             np.zeros(WIDTH),
             np.zeros(MOST_CROSSINGS, CROSSING),
-            np.zeros(len(KINDS), np.int64),
+            np.zeros((3, AHEAD)),
             np.zeros(len(KINDS), np.int64),
             np.zeros(2),
             np.zeros(2),
@@ -93,6 +93,18 @@ class Workspace:
             table=np.zeros(rows, NODE), solids=np.zeros((rows, 2, words), np.int64), open=np.zeros(2 * rows, OPEN)
         )
         self.bundle = Bundle(self.arrays, writable=True, ragged=("solids",))
+
+
+class Counts(NamedTuple):
+    """What tracing an area took."""
+
+    rays: np.ndarray  # by kind
+    residuals: np.ndarray  # largest and sum over the pixels
+
+    def take_in(self, space: Space) -> None:
+        """Add one call's."""
+        self.rays[:] += space.rays
+        self.residuals[:] = (max(self.residuals[0], space.residuals[0]), self.residuals[1] + space.residuals[1])
 
 
 @kernel
@@ -111,24 +123,31 @@ def trace_area(
     """Trace the area's pixels in reading order, from number `resume` on, into `pixels` (height, width, 3).
 
     `corner` is the pixel of the image, (x, y), that stands first in `pixels`. Returns how many pixels are done: all, or
-    fewer where the next tree is too large for the table, or after ENOUGH rays.
+    fewer after ENOUGH rays; -1 where a tree is too large for the table, and nothing of this call counts.
     """
-    number = rays = 0
-    residuals = space.residuals
+    number = 0
+    rays, residuals, ahead = space.rays, space.residuals, space.ahead
+    rays[:] = 0
+    residuals[:] = 0.0
     left, top = corner
     for y in range(area.top, area.bottom, area.step):
+        column = -1
         for x in range(area.left, area.right, area.step):
+            column += 1
+            if samples.first < 0 and column % AHEAD == 0:
+                look_ahead(view, x, y, area.step, area.right, ahead)
             number += 1
             if number <= resume:
                 continue
             if area.traced > 0 and x % area.traced == 0 and y % area.traced == 0:
                 continue
-            if rays >= ENOUGH:
+            if is_enough(rays):
                 return number - 1
-            color, residual, traced = trace_pixel(world, view, limits, samples, x, y, eye_solids, space)
+            k = column % AHEAD
+            gaze = (ahead[0, k], ahead[1, k], ahead[2, k])
+            color, residual = trace_pixel(world, view, limits, samples, x, y, gaze, eye_solids, space)
             if residual < 0.0:
-                return number - 1
-            rays += traced
+                return -1
             if residual > 0.0:
                 residuals[0] = max(residuals[0], residual)
                 residuals[1] += residual
@@ -139,22 +158,41 @@ def trace_area(
 
 
 @compiled
+def is_enough(rays: Any) -> bool:
+    """Asked kind by kind: all at once would have to wait until what was just counted is in memory."""
+    kind = 0
+    while kind < len(rays) and rays[kind] < ENOUGH:
+        kind += 1
+    return kind < len(rays)
+
+
+@compiled
 def trace_pixel(
-    world: Bundle, view: View, limits: Limits, samples: Samples, x: int, y: int, eye_solids: Any, space: Bundle
-) -> tuple[Vector, float, int]:
-    """(colour, residual, rays): the mean over the samples; residual -1 where the table was too short for a tree."""
+    world: Bundle,
+    view: View,
+    limits: Limits,
+    samples: Samples,
+    x: int,
+    y: int,
+    gaze: Vector,
+    eye_solids: Any,
+    space: Bundle,
+) -> tuple[Vector, float]:
+    """(colour, residual): the mean over the samples; residual -1 where the table was too short for a tree.
+
+    `gaze` is the direction through the pixel's centre; samples have their own.
+    """
     total = (0.0, 0.0, 0.0)
     lost = 0.0
     table, solids = space.table, space.solids
-    for kind in range(len(space.counted)):
-        space.counted[kind] = 0
     for k in range(samples.count):
-        dx, dy = 0.5, 0.5
+        direction = gaze
         if samples.first >= 0:
             dx, dy = sample_offset(x, y, samples.first + k)
+            direction = pixel_direction(view, x + dx, y + dy)
         row = start_row(limits, table, 0, -1, CAMERA, 0, (1.0, 1.0, 1.0), (1.0, 1.0, 1.0))
         store(row.origin, view.eye)
-        store(row.direction, pixel_direction(view, x + dx, y + dy))
+        store(row.direction, direction)
         row.start = -1
         row.side = 0.0
         row.reach = abs(view.eye[0]) + abs(view.eye[1]) + abs(view.eye[2])
@@ -167,20 +205,16 @@ def trace_pixel(
             count = trace_tree(world, limits, space)
         if count < 0:
             space.tree[0] = -1
-            return (total, -1.0, 0)
+            return (total, -1.0)
         residual = count_rays(space, count)
         space.tree[0] = count
         space.tree[1] = residual
         lost += residual
         total = add(total, vector(table[0].radiance))
-    rays = 0
-    for kind in range(len(space.counted)):
-        space.rays[kind] += space.counted[kind]
-        rays += space.counted[kind]
     if samples.count > 1:
         total = (total[0] / samples.count, total[1] / samples.count, total[2] / samples.count)
         lost /= samples.count
-    return (total, lost, rays)
+    return (total, lost)
 
 
 @compiled
@@ -189,7 +223,7 @@ def count_rays(space: Bundle, count: int) -> float:
     cut = (0.0, 0.0)
     for i in range(count):
         row = space.table[i]
-        space.counted[row.kind] += 1
+        space.rays[row.kind] += 1
         if row.kind != SHADOW and row.cut > 0.0:
             cut = plus(cut, (row.cut, 0.0))
     return cut[0] + cut[1]
@@ -206,19 +240,23 @@ def run(
     workspace: Workspace,
     corner: tuple[int, int] = (0, 0),
     cancelled: Callable[[], bool] = lambda: False,
-) -> bool:
-    """`trace_area` until it is through, with as much room as its trees need; False where it was cancelled."""
+) -> Counts | None:
+    """`trace_area` until it is through, with as much room as its trees need; None where it was cancelled."""
     columns = -(-(area.right - area.left) // area.step)
     lines = -(-(area.bottom - area.top) // area.step)
+    counts = Counts(np.zeros(len(KINDS), np.int64), np.zeros(2))
     number = 0
     while True:
-        number = trace_area(world, view, limits, samples, area, number, eye_solids, pixels, corner, workspace.bundle)
-        if number == columns * lines:
-            return True
-        if workspace.arrays.tree[0] < 0:
+        reached = trace_area(world, view, limits, samples, area, number, eye_solids, pixels, corner, workspace.bundle)
+        if reached < 0:
             workspace.grow()
-        elif cancelled():
-            return False
+            continue
+        counts.take_in(workspace.arrays)
+        number = reached
+        if number == columns * lines:
+            return counts
+        if cancelled():
+            return None
 
 
 def eye_view(eye: Vector, direction: Vector) -> View:
