@@ -15,21 +15,23 @@ from benchmarks.figure import Figure, Spread, compared, in_turn
 from benchmarks.task import Options, Task
 
 LESSON = "glass-ball"
+WITHOUT_MESH = "two-lights"
 VIEW_MOST = 2.2
 TRACE_MOST = 2.0
 FIRST_MOST = 40.0  # seconds
 FIRST_RUNS = 2  # at most
 KEPT = {"PYTHONDONTWRITEBYTECODE": ""}  # as for users: Python keeps what it has compiled of our files, too
 VIEW_NEEDS = "numpy, numba, platformdirs, moderngl, imgui_bundle, glfw, PIL.Image"
+MESH_NEEDS = f"{VIEW_NEEDS}, trimesh"  # a lesson with a mesh file
 TRACE_NEEDS = "numpy, numba"
 
 
 def starts(options: Options) -> list[Task]:
-    def view() -> list[Figure]:
+    def view(lesson: str, needs: str) -> list[Figure]:
         with tempfile.TemporaryDirectory() as folder:
-            command = raytree("view", LESSON, "--screenshot", f"{folder}/view.png")
-            ours, theirs = in_turn(options.runs, lambda: seconds(command), lambda: seconds(imports(VIEW_NEEDS)))
-        what = "raytree view --screenshot"
+            command = raytree("view", lesson, "--screenshot", f"{folder}/view.png")
+            ours, theirs = in_turn(options.runs, lambda: seconds(command), lambda: seconds(imports(needs)))
+        what = f"raytree view {lesson} --screenshot"
         return [compared("start", what, "s", ours, "its imports", theirs, wanted=VIEW_MOST, at_least=False)]
 
     def trace() -> list[Figure]:
@@ -42,7 +44,8 @@ def starts(options: Options) -> list[Task]:
         return [Figure("start", "first start ever", "s", Spread.of(took), wanted=FIRST_MOST, at_least=False)]
 
     return [
-        Task("view", 2.5 * (options.runs + 1), view),
+        Task("view", 2.5 * (options.runs + 1), lambda: view(WITHOUT_MESH, VIEW_NEEDS)),
+        Task("view, with a mesh", 2.5 * (options.runs + 1), lambda: view(LESSON, MESH_NEEDS)),
         Task("trace", 1.5 * (options.runs + 1), trace),
         Task("first start ever", 40.0 * min(FIRST_RUNS, options.runs), first),
     ]
