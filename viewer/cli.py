@@ -13,8 +13,9 @@ from typing import NoReturn
 
 from viewer.interrupt import Interrupted, interruptible
 
-COMMANDS = ("view", "trace", "render", "plan", "check", "lessons")
+COMMANDS = ("view", "trace", "render", "export", "plan", "check", "lessons")
 FORMATS = ("text", "json", "csv", "dot")
+FILES = ("svg", "pdf", "png", "tikz", "pptx", "dot", "csv", "json", "text")
 
 # Options whose value may begin with a minus sign, which argparse would take for another option.
 NUMERIC = ("--ray", "--pixel", "--size")
@@ -111,6 +112,41 @@ def make_parser() -> Parser:
     where.add_argument("--dask", metavar="tcp://HOST:PORT", help="trace on the Dask cluster of this scheduler")
     render.add_argument("--stats", type=Path, metavar="FILE.json", help="times, ray counts and what was left out")
 
+    export = commands.add_parser("export", help="a pixel's ray tree as figures for slides, and as data")
+    export.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+    where = export.add_mutually_exclusive_group()
+    where.add_argument(
+        "--pixel", type=pair(","), metavar="X,Y", help="from the image's top left; a lesson's own by default"
+    )
+    where.add_argument("--ray", type=six, metavar="ox,oy,oz,dx,dy,dz", help="origin and direction of a ray")
+    export.add_argument("--figure", choices=("tree",), default="tree", help="tree by default")
+    export.add_argument("--depth", type=depths, metavar="D|A..B", help="recursion depth, or a page a depth: 0..3")
+    export.add_argument(
+        "--step", choices=("depth", "rays", "colour"), default="depth",
+        help="a page a depth; a ray, as they are traced; or a hit, as colour flows back",
+    )  # fmt: skip
+    _add_model(export)
+    export.add_argument(
+        "--min-weight", type=weight, default=0.0, metavar="W", help="do not follow rays that weigh less"
+    )
+    export.add_argument("--size", type=pair("x"), metavar="WxH", help="of the image, the scene's own by default")
+    export.add_argument("--format", type=listed(FILES), metavar="A,B", help=f"of {', '.join(FILES)}; svg by default")
+    export.add_argument("--theme", choices=("light", "dark", "mono"), default="light", help="light by default")
+    export.add_argument("--swatches", action="store_true", help="the colour that each ray sends up, in its box")
+    export.add_argument(
+        "--fold", type=weight, default=0.0, metavar="W", help="fold branches that weigh less into one box"
+    )
+    export.add_argument(
+        "--text-size", type=text_size, default=18.0, metavar="PT", help="points on a slide; 18 by default"
+    )
+    export.add_argument("--ground", action="store_true", help="on the theme's ground; transparent by default")
+    export.add_argument(
+        "--width", type=at_least(16), default=1920, metavar="PX", help="PNG: pixels across; 1920 by default"
+    )
+    export.add_argument(
+        "-o", "--output", required=True, metavar="FILE|FOLDER/", help="names in a folder: SCENE_X_Y_FIGURE_dD.EXT"
+    )
+
     plan = commands.add_parser("plan", help="what a scene needs of the tracer, and what is left out")
     plan.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
     plan.add_argument(
@@ -196,6 +232,38 @@ def at_least(least: int):
         return int(text)
 
     return read
+
+
+def depths(text: str) -> range:
+    """3 or 0..3, both ends included."""
+    found = re.fullmatch(r"(\d+)(?:\.\.(\d+))?", text)
+    first, last = (int(found[1]), int(found[2] or found[1])) if found else (1, 0)
+    if first > last:
+        raise argparse.ArgumentTypeError(f'a depth like 3, or several like 0..3, got "{text}"')
+    return range(first, last + 1)
+
+
+def listed(names: Sequence[str]):
+    """Reader of some of these names, with commas between."""
+
+    def read(text: str) -> list[str]:
+        chosen = list(dict.fromkeys(part.strip() for part in text.split(",")))
+        for name in chosen:
+            if name not in names:
+                raise argparse.ArgumentTypeError(f'any of {",".join(names)}, got "{name}"')
+        return chosen
+
+    return read
+
+
+def text_size(text: str) -> float:
+    try:
+        size = float(text)
+    except ValueError:
+        size = 0.0
+    if not 4.0 <= size <= 72.0:
+        raise argparse.ArgumentTypeError(f'points from 4 to 72, got "{text}"')
+    return size
 
 
 def weight(text: str) -> float:

@@ -58,6 +58,12 @@ def render(options: Namespace) -> int:
     return render(options)
 
 
+def export(options: Namespace) -> int:
+    from viewer.exporting import export
+
+    return export(options)
+
+
 def plan(options: Namespace) -> int:
     from viewer import plantable
 

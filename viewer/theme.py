@@ -88,15 +88,27 @@ class Theme:
     haze: Color  # bottom of the 3D view
     border: Color
     dark: bool
+    mono: bool = False  # black alone: kinds of ray differ by letter, dash and arrow
 
     def ray(self, kind: str) -> Color:
+        if self.mono:
+            return self.text
         style = STYLES[kind]
         return rgb(style.dark if self.dark else style.light)
 
     @property
     def normal(self) -> Color:
         """Normals are no rays: a green that no kind of ray has, thin, with a short bar at the foot."""
+        if self.mono:
+            return self.text
         return rgb("#7FD6A2") if self.dark else rgb("#11723F")
+
+    @property
+    def sun(self) -> Color:
+        """A light that is reached."""
+        if self.mono:
+            return self.text
+        return (1.0, 0.82, 0.25, 1.0) if self.dark else (0.80, 0.55, 0.0, 1.0)
 
 
 DARK = Theme(
@@ -132,3 +144,24 @@ LIGHT = Theme(
     border=rgb("#C3CBD5"),
     dark=False,
 )
+
+# For print: no colour, and no grey that a copier loses.
+MONO = Theme(
+    name="mono",
+    ground=rgb("#FFFFFF"),
+    panel=rgb("#FFFFFF"),
+    raised=rgb("#EEEEEE"),
+    hover=rgb("#DDDDDD"),
+    text=rgb("#000000"),
+    muted=rgb("#3A3A3A"),
+    accent=rgb("#000000"),
+    on_accent=rgb("#FFFFFF"),
+    fault=rgb("#000000"),
+    sky=rgb("#FFFFFF"),
+    haze=rgb("#FFFFFF"),
+    border=rgb("#8A8A8A"),
+    dark=False,
+    mono=True,
+)
+
+THEMES = {theme.name: theme for theme in (LIGHT, DARK, MONO)}

@@ -64,7 +64,7 @@ class _Diagram:
         wanted = {i for i in range(len(full)) if full.kind(i) in session.shown.kinds or i == 0}
         wanted = with_parents_only(full.nodes["parent"], wanted)
         rows = heaviest_rows(full, MOST_ROWS, wanted)
-        places = layout(full, rows)
+        places = layout(full, rows).places
         self.folded = len(self.tree) - sum(i < len(self.tree) for i in wanted & rows)
         self._fit(places, corner, room)
         self.rows = sorted(i for i in rows if i < len(self.tree))
@@ -227,7 +227,7 @@ class _Diagram:
         if self.tree.end(i) == "blocked":
             d.cross(self.pad, (x, y), 0.6 * r, faded(self.theme.ray("shadow"), opacity), 2.2 * d.unit())
         else:
-            color = (1.0, 0.82, 0.25, opacity) if self.theme.dark else (0.80, 0.55, 0.0, opacity)
+            color = faded(self.theme.sun, opacity)
             d.sun(self.pad, (x, y), r, color, self.theme.panel)
             if self.tree.end(i) == "filtered":
                 self.pad.add_circle(

@@ -1,0 +1,180 @@
+"""`raytree export`: a pixel's ray tree as figures and as data, page by page, into a file or a folder."""
+
+import shlex
+from argparse import Namespace
+from dataclasses import dataclass
+from pathlib import Path
+
+import tracer
+from tracer.world import World
+from viewer.commands import compile_once, faults, find, prepared
+from viewer.figures.figure import TEXT_SIZE, Wishes, pages
+from viewer.figures.formats import FORMATS, Format, format_of
+from viewer.figures.png import PIXELS
+from viewer.figures.stage import Stage, by_colour, by_depth, by_ray
+from viewer.files import Unusable, check_writable, write_atomically
+from viewer.lesson import Lesson
+from viewer.progress import Progress
+from viewer.theme import THEMES
+
+Depths = range
+
+
+@dataclass(frozen=True)
+class Target:
+    """Where the files go: into a folder under names of ours, or one file."""
+
+    path: Path
+    folder: bool
+
+    def file(self, stem: str, suffix: str) -> Path:
+        return self.path / f"{stem}{suffix}" if self.folder else self.path
+
+
+def export(options: Namespace) -> int:
+    path, lesson = find(options.scene)
+    options.pixel = options.pixel or (lesson.pixel if lesson and not options.ray else None)
+    if not options.pixel and not options.ray:
+        raise Unusable("raytree export: which pixel? --pixel X,Y, or --ray ox,oy,oz,dx,dy,dz")
+    target, formats = chosen(options)
+    compile_once()
+    with faults():
+        world = prepared(path)
+        depths = options.depth or single(
+            world.scene.tracing.depth if not lesson or lesson.depth is None else lesson.depth
+        )
+        stages = steps(world, options, depths)
+    check_pages(target, formats, stages)
+    written = write(target, formats, stages, options, lesson, depths)
+    for file in written:
+        print(file)
+    return 0
+
+
+def single(depth: int) -> Depths:
+    return range(depth, depth + 1)
+
+
+def steps(world: World, options: Namespace, depths: Depths) -> list[Stage]:
+    """The pages, of trees that are whole."""
+    ray = (options.ray[:3], options.ray[3:]) if options.ray else None
+    how = {"size": options.size, "min_weight": options.min_weight, "model": options.model}
+    trees = [tracer.trace(world, options.pixel, ray, depth=depth, **how) for depth in depths]
+    if options.step == "rays":
+        return by_ray(trees[-1])
+    if options.step == "colour":
+        return by_colour(trees[-1])
+    return by_depth(trees)
+
+
+def chosen(options: Namespace) -> tuple[Target, list[str]]:
+    """Where to and as what; Unusable where the two do not agree."""
+    path = Path(options.output)
+    folder = path.is_dir() or options.output.endswith(("/", "\\"))
+    formats = options.format
+    if not folder:
+        own = format_of(path.suffix)
+        if own is None and not path.suffix and formats:
+            raise Unusable(f'raytree export: a folder\'s name ends with "/": -o {path}/')
+        if own is None:
+            raise Unusable(f"{path}: must end with one of {', '.join(kind.suffix for kind in FORMATS.values())}")
+        if formats and formats != [own]:
+            raise Unusable(f"{path}: is {own}, but --format asks for {','.join(formats)}: name a folder, or one format")
+        formats = [own]
+        check_writable(path)
+    elif path.exists() and not path.is_dir():
+        raise Unusable(f"{path}: must be a folder, got a file")
+    elif not path.exists():
+        check_writable(path)
+    return Target(path, folder), formats or ["svg"]
+
+
+def check_pages(target: Target, formats: list[str], stages: list[Stage]) -> None:
+    if not target.folder and len(stages) > 1 and not FORMATS[formats[0]].many_pages:
+        raise Unusable(f"{target.path}: {len(stages)} pages need a folder, or one of PDF and PPTX")
+
+
+def write(
+    target: Target, formats: list[str], stages: list[Stage], options: Namespace, lesson: Lesson | None, depths: Depths
+) -> list[Path]:
+    """All files; those that are written."""
+    wishes = Wishes(THEMES[options.theme], options.text_size, options.swatches, options.fold, options.ground)
+    stem = stem_of(options, lesson)
+    last = depths[-1]
+    files: list[tuple[Path, bytes]] = []
+    with Progress("export") as progress:
+        for name in formats:
+            kind = FORMATS[name]
+            figures = pages(options.figure, stages, wishes, command(options, name)) if kind.write else []
+            for k, group in enumerate(grouped(kind, stages)):
+                progress(len(files) / (len(formats) * len(stages)))
+                mark = mark_of(group, stages, options.step, depths)
+                if kind.write:
+                    content = kind.write(figures if kind.many_pages else figures[k : k + 1], options.width)
+                    files.append((target.file(f"{stem}_{options.figure}_{mark}", kind.suffix), content))
+                else:
+                    assert kind.data
+                    tree = group[-1].tree
+                    where = target.file(f"{stem}_d{tree.depth if options.step == 'depth' else last}", kind.suffix)
+                    files.append((where, kind.data(tree).encode("utf-8")))
+    if target.folder:
+        target.path.mkdir(exist_ok=True)
+    for file, content in files:
+        write_atomically(file, content)
+    return [file for file, _ in files]
+
+
+def grouped(kind: Format, stages: list[Stage]) -> list[list[Stage]]:
+    """The pages of each file: all in one where the format has pages; data is of a whole tree."""
+    if kind.many_pages:
+        return [stages]
+    if kind.data:
+        trees = {id(stage.tree): [stage] for stage in stages}
+        return list(trees.values())
+    return [[stage] for stage in stages]
+
+
+def mark_of(group: list[Stage], stages: list[Stage], step: str, depths: Depths) -> str:
+    """What tells a file from the others: d2, d0-3, d3_r05, d3_rays."""
+    if step == "depth":
+        return group[0].name if len(group) == 1 else f"d{depths[0]}-{depths[-1]}"
+    return f"d{depths[-1]}_{group[0].name if len(group) == 1 and len(stages) > 1 else step}"
+
+
+def stem_of(options: Namespace, lesson: Lesson | None) -> str:
+    scene = lesson.name if lesson else Path(options.scene).stem
+    return f"{scene}_{options.pixel[0]}_{options.pixel[1]}" if options.pixel else f"{scene}_ray"
+
+
+def command(options: Namespace, format_name: str) -> str:
+    """What makes the same figure again, but for where it is written."""
+    words = ["raytree", "export", options.scene]
+    if options.pixel:
+        words += ["--pixel", f"{options.pixel[0]},{options.pixel[1]}"]
+    else:
+        words += ["--ray", ",".join(repr(x) for x in options.ray)]
+    words += ["--figure", options.figure]
+    if options.depth:
+        first, last = options.depth[0], options.depth[-1]
+        words += ["--depth", str(first) if first == last else f"{first}..{last}"]
+    if options.step != "depth":
+        words += ["--step", options.step]
+    if options.model:
+        words += ["--model", options.model]
+    if options.min_weight:
+        words += ["--min-weight", repr(options.min_weight)]
+    if options.size:
+        words += ["--size", f"{options.size[0]}x{options.size[1]}"]
+    words += ["--theme", options.theme]
+    if options.swatches:
+        words.append("--swatches")
+    if options.ground:
+        words.append("--ground")
+    if options.fold:
+        words += ["--fold", repr(options.fold)]
+    if options.text_size != TEXT_SIZE:
+        words += ["--text-size", repr(options.text_size)]
+    words += ["--format", format_name]
+    if format_name == "png" and options.width != PIXELS:
+        words += ["--width", str(options.width)]
+    return shlex.join(words)

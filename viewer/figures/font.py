@@ -1,0 +1,36 @@
+"""How wide text is. Figures are laid out for DejaVu Sans, which they carry; where a program puts another font in its
+place, that is narrower in all but a few cases, so nothing comes to overlap."""
+
+from functools import cache
+from pathlib import Path
+
+FONT = Path(__file__).parent.parent / "fonts" / "DejaVuSans-figures.ttf"
+FAMILY = "DejaVu Sans"
+FALLBACK = ("Verdana", "Helvetica", "Arial", "sans-serif")
+
+# Of the font's size: from the baseline to a capital's top, to an ascender's, to a descender's.
+CAPITAL, ASCENT, DESCENT = 0.729, 0.78, 0.24
+BASELINE = 0.5 * CAPITAL  # below the middle of a line of text
+
+_UNITS = 2048  # the font's own: widths come out exact
+
+
+@cache
+def _font():
+    from PIL import ImageFont
+
+    return ImageFont.truetype(FONT, _UNITS, layout_engine=ImageFont.Layout.BASIC)
+
+
+@cache
+def text_width(content: str, size: float) -> float:
+    """In points."""
+    return _font().getlength(content) * size / _UNITS
+
+
+def text_box(at: tuple[float, float], content: str, size: float, anchor: str) -> tuple[float, float, float, float]:
+    """(left, top, right, bottom) of a line of text whose middle, left or right end stands at `at`."""
+    width = text_width(content, size)
+    left = at[0] - {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor] * width
+    baseline = at[1] + BASELINE * size
+    return (left, baseline - ASCENT * size, left + width, baseline + DESCENT * size)

@@ -1,0 +1,79 @@
+"""What figures and their data are written as. A new format: a writer in a file of its own, a line in FORMATS."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from tracer.tree import RayTree
+from viewer.figures.marks import Figure
+
+Pages = Sequence[Figure]
+
+
+@dataclass(frozen=True)
+class Format:
+    """A kind of file. `write` takes figures, and the pixels across that only a PNG asks for; `data` takes the tree."""
+
+    suffix: str
+    write: Callable[[Pages, int], bytes] | None = None
+    many_pages: bool = False
+    data: Callable[[RayTree], str] | None = None
+
+
+def _svg(pages: Pages, across: int) -> bytes:
+    from viewer.figures.svg import write_svg
+
+    return write_svg(pages[0])
+
+
+def _pdf(pages: Pages, across: int) -> bytes:
+    from viewer.figures.pdf import write_pdf
+
+    return write_pdf(pages)
+
+
+def _png(pages: Pages, across: int) -> bytes:
+    from viewer.figures.png import write_png
+
+    return write_png(pages[0], across)
+
+
+def _tikz(pages: Pages, across: int) -> bytes:
+    from viewer.figures.tikz import write_tikz
+
+    return write_tikz(pages[0])
+
+
+def _pptx(pages: Pages, across: int) -> bytes:
+    from viewer.figures.pptx import write_pptx
+
+    return write_pptx(pages)
+
+
+def _dot(tree: RayTree) -> str:
+    from viewer.figures.dot import write_dot
+
+    return write_dot(tree)
+
+
+def _csv(tree: RayTree) -> str:
+    from viewer.figures.csv import write_csv
+
+    return write_csv(tree)
+
+
+FORMATS = {
+    "svg": Format(".svg", _svg),
+    "pdf": Format(".pdf", _pdf, many_pages=True),
+    "png": Format(".png", _png),
+    "tikz": Format(".tex", _tikz),
+    "pptx": Format(".pptx", _pptx, many_pages=True),
+    "dot": Format(".dot", data=_dot),
+    "csv": Format(".csv", data=_csv),
+    "json": Format(".json", data=RayTree.to_json),
+    "text": Format(".txt", data=RayTree.to_text),
+}
+
+
+def format_of(suffix: str) -> str | None:
+    """The name of the format with this suffix."""
+    return next((name for name, kind in FORMATS.items() if kind.suffix == suffix.lower()), None)

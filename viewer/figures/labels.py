@@ -1,0 +1,52 @@
+"""What figures call things: the same words and numbers in all of them.
+
+A ray has its letter and its row's number, R3, in the tree, in the scene and at its hit: R reflected, T transmitted,
+L to a light, as in Whitted's figure (CACM 23(6), 1980); E from the eye.
+"""
+
+from tracer.nodes import SHADOW
+from tracer.tree import RayTree
+from viewer.theme import STYLES
+from viewer.wording import shown
+
+# Under a leaf, in as few words as a slide has room for.
+ENDS = {
+    "surface": "opaque",
+    "background": "",
+    "depth": "cut: depth",
+    "weight": "cut: weight",
+    "tolerance": "cut: tolerance",
+    "nodes": "cut: limit",
+    "invalid": "no direction",
+}
+
+
+def ray_label(tree: RayTree, i: int) -> str:
+    letter = STYLES[tree.kind(i)].letter
+    return f"{letter}{i}" if i else letter
+
+
+def factor_label(tree: RayTree, i: int) -> str:
+    """What the parent multiplies this ray by: the largest of the three where they differ."""
+    return f"× {shown(float(tree.nodes['factor'][i].max()), 3)}"
+
+
+def hit_label(tree: RayTree, i: int) -> str:
+    return tree.object_name(i) or "background"
+
+
+def end_label(tree: RayTree, i: int) -> str:
+    return ENDS.get(tree.end(i) or "", "")
+
+
+def ray_title(tree: RayTree, i: int) -> str:
+    """A sentence on one ray, for who points at it."""
+    row = tree.nodes[i]
+    style = STYLES[tree.kind(i)]
+    if row["kind"] == SHADOW:
+        fate = {"lit": "reaches it", "filtered": "reaches it through glass"}.get(
+            tree.end(i) or "", f"is blocked by {tree.object_name(i)}"
+        )
+        return f"{ray_label(tree, i)}: {style.label} to {tree.light_name(i)}, {fate}"
+    weight = shown(float(row["weight"].max()), 3)
+    return f"{ray_label(tree, i)}: {style.label}, meets {hit_label(tree, i)}, weight {weight}"

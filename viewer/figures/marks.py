@@ -1,0 +1,127 @@
+"""What a figure is made of: a list of marks on a canvas. Layouts make marks, writers turn them into a file.
+
+Lengths are points (1/72 inch) from the canvas's top left corner, y downwards. The canvas is a slide of 16:9, so that text
+of 18 points is 18 points where the figure fills the slide.
+"""
+
+from dataclasses import dataclass, field
+
+from viewer.figures.font import text_box
+from viewer.theme import Arrow, Color
+
+WIDTH, HEIGHT = 960.0, 540.0
+
+Point = tuple[float, float]
+Rectangle = tuple[float, float, float, float]  # left, top, right, bottom
+
+
+@dataclass(frozen=True)
+class Stroke:
+    color: Color
+    width: float
+    dash: tuple[float, float] = (0.0, 0.0)  # on and off; (0, 0): solid
+
+
+@dataclass(frozen=True)
+class Mark:
+    """`name` tells what it stands for, like `ray-3`: marks of one name belong together; `title` says it to people."""
+
+    name: str
+    title: str = field(default="", kw_only=True)
+
+
+@dataclass(frozen=True)
+class Box(Mark):
+    """A rectangle about `center` with one line of text in it."""
+
+    center: Point
+    size: tuple[float, float]
+    radius: float  # of its corners
+    fill: Color | None
+    stroke: Stroke | None
+
+
+@dataclass(frozen=True)
+class Disc(Mark):
+    center: Point
+    radius: float
+    fill: Color | None
+    stroke: Stroke | None
+
+
+@dataclass(frozen=True)
+class Shape(Mark):
+    """An outline through these corners, closed and filled where it has a fill."""
+
+    corners: tuple[Point, ...]
+    fill: Color | None
+    stroke: Stroke | None
+
+
+@dataclass(frozen=True)
+class Line(Mark):
+    """From one point to another, broken where its label stands (`hole`: left, top, right, bottom).
+
+    Where it leaves and reaches a box, `leaves` and `reaches` are the names of their marks.
+    """
+
+    start: Point
+    end: Point
+    stroke: Stroke
+    arrow: Arrow = Arrow.NONE
+    arrow_at: float = 0.5  # where the arrow's tip stands, of the line's length
+    leaves: str = ""
+    reaches: str = ""
+    hole: Rectangle | None = None
+
+    def at(self, share: float) -> Point:
+        (x0, y0), (x1, y1) = self.start, self.end
+        return (x0 + share * (x1 - x0), y0 + share * (y1 - y0))
+
+    def pieces(self) -> list[tuple[Point, Point]]:
+        """What is drawn of it."""
+        if self.hole is None:
+            return [(self.start, self.end)]
+        enters, leaves = 0.0, 1.0
+        for axis in (0, 1):
+            a, b = self.start[axis], self.end[axis]
+            low, high = self.hole[axis], self.hole[axis + 2]
+            if a == b:
+                if not low < a < high:
+                    return [(self.start, self.end)]
+                continue
+            near, far = sorted(((low - a) / (b - a), (high - a) / (b - a)))
+            enters, leaves = max(enters, near), min(leaves, far)
+        if enters >= leaves:
+            return [(self.start, self.end)]
+        return [piece for piece in ((self.start, self.at(enters)), (self.at(leaves), self.end)) if piece[0] != piece[1]]
+
+
+@dataclass(frozen=True)
+class Text(Mark):
+    """One line of text: its middle stands at `at`, or its left or right end."""
+
+    at: Point
+    content: str
+    size: float
+    color: Color
+    anchor: str = "middle"  # start, middle, end
+    inside: str = ""  # the box whose text it is
+    on_line: bool = False  # it stands on a line, which is broken there
+
+    def box(self) -> Rectangle:
+        return text_box(self.at, self.content, self.size, self.anchor)
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One page."""
+
+    title: str
+    description: str  # for who cannot see it
+    command: str  # that makes it again
+    marks: tuple[Mark, ...]
+    paper: Color  # what it is made to lie on
+    ground: bool = False  # whether it brings that along; else it is transparent
+    width: float = WIDTH
+    height: float = HEIGHT

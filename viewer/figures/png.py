@@ -1,0 +1,22 @@
+"""Figures as PNG: the PDF's page as pixels, so that both look the same. What the figure leaves free is transparent."""
+
+import io
+
+from viewer.figures.marks import Figure
+from viewer.figures.pdf import write_pdf
+
+PIXELS = 1920  # across, by default: a slide that fills a projector
+
+
+def write_png(figure: Figure, width: int = PIXELS) -> bytes:
+    import pypdfium2
+    from PIL.PngImagePlugin import PngInfo
+
+    document = pypdfium2.PdfDocument(write_pdf([figure]))
+    page = document[0].render(scale=width / figure.width, fill_color=(0, 0, 0, 0), rev_byteorder=True)
+    info = PngInfo()
+    for key, value in (("Title", figure.title), ("Description", figure.description), ("Source", figure.command)):
+        info.add_itxt(key, value)
+    buffer = io.BytesIO()
+    page.to_pil().save(buffer, "PNG", pnginfo=info)
+    return buffer.getvalue()

@@ -1,0 +1,58 @@
+"""Small signs that figures share: the eye, a light that is reached, a light that is not, the end of a stub."""
+
+import math
+
+from viewer.figures.marks import Disc, Line, Mark, Point, Shape, Stroke
+from viewer.theme import Color, Theme
+
+
+def eye(at: Point, size: float, theme: Theme) -> list[Mark]:
+    """An almond with its pupil."""
+    x, y = at
+    half, high = 0.85 * size, 0.42 * size
+    lid = [(x + half * math.cos(a), y - high * math.sin(a)) for a in (math.pi * k / 12 for k in range(24))]
+    stroke = Stroke(theme.text, 1.8)
+    return [
+        Shape("eye", tuple(lid), theme.panel, stroke, title="the eye"),
+        Disc("eye", at, 0.24 * size, theme.text, None),
+    ]
+
+
+def sun(name: str, at: Point, size: float, color: Color, ring: Color | None = None) -> list[Mark]:
+    """A light: a disc with eight rays; within a ring where it is seen through glass."""
+    marks: list[Mark] = [Disc(name, at, 0.2 * size, color, None)]
+    for k in range(8):
+        dx, dy = math.cos(k * math.pi / 4), math.sin(k * math.pi / 4)
+        start = (at[0] + 0.28 * size * dx, at[1] + 0.28 * size * dy)
+        end = (at[0] + 0.4 * size * dx, at[1] + 0.4 * size * dy)
+        marks.append(Line(name, start, end, Stroke(color, 1.8)))
+    if ring:
+        marks.append(Disc(name, at, 0.48 * size, None, Stroke(ring, 1.5)))
+    return marks
+
+
+def cross(name: str, at: Point, size: float, color: Color) -> list[Mark]:
+    """A light that is not reached: something stands in the way."""
+    r = 0.26 * size
+    x, y = at
+    return [
+        Line(name, (x - r, y - r), (x + r, y + r), Stroke(color, 2.6)),
+        Line(name, (x - r, y + r), (x + r, y - r), Stroke(color, 2.6)),
+    ]
+
+
+def bar(name: str, at: Point, size: float, color: Color) -> list[Mark]:
+    """Nothing goes on here."""
+    return [Line(name, (at[0] - 0.36 * size, at[1]), (at[0] + 0.36 * size, at[1]), Stroke(color, 3.0))]
+
+
+def light_end(end: str, name: str, at: Point, size: float, theme: Theme) -> list[Mark]:
+    """What becomes of a ray to a light: lit, filtered, blocked, or away where the surface looks the other way."""
+    color = theme.ray("shadow")
+    match end:
+        case "away":
+            return bar(name, at, 0.7 * size, color)
+        case "blocked":
+            return cross(name, at, size, color)
+        case _:
+            return sun(name, at, size, theme.sun, color if end == "filtered" else None)

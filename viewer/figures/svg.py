@@ -1,0 +1,101 @@
+"""Figures as SVG: text as text, marks of one name in a group of that name, attributes that every program reads."""
+
+from itertools import groupby
+from xml.sax.saxutils import escape, quoteattr
+
+from viewer.figures.arrows import heads
+from viewer.figures.font import BASELINE, FALLBACK, FAMILY
+from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
+from viewer.theme import Color
+
+
+def write_svg(figure: Figure) -> bytes:
+    w, h = _n(figure.width), _n(figure.height)
+    lines = [
+        '<?xml version="1.0" encoding="UTF-8"?>',
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{w}pt" height="{h}pt" viewBox="0 0 {w} {h}" role="img"'
+        f" font-family={quoteattr(', '.join((_quoted(FAMILY), *FALLBACK)))}>",
+        f"<title>{escape(figure.title)}</title>",
+        f"<desc>{escape(figure.description)}</desc>",
+        f"<metadata>{escape(figure.command)}</metadata>",
+    ]
+    if figure.ground:
+        lines.append(f'<rect width="{w}" height="{h}"{_fill(figure.paper)}/>')
+    for name, marks in groupby(figure.marks, key=lambda mark: mark.name):
+        group = list(marks)
+        title = next((mark.title for mark in group if mark.title), "")
+        # A name comes once a file; what is drawn of it later has it as its class.
+        first = not any(line.startswith(f'<g id="{name}"') for line in lines)
+        lines.append(f"<g {'id' if first else 'class'}={quoteattr(name)}>")
+        if title:
+            lines.append(f"<title>{escape(title)}</title>")
+        for mark in group:
+            lines += _element(mark)
+        lines.append("</g>")
+    return "\n".join([*lines, "</svg>", ""]).encode("utf-8")
+
+
+def _element(mark: Mark) -> list[str]:
+    match mark:
+        case Box():
+            (x, y), (w, h) = mark.center, mark.size
+            place = f'x="{_n(x - 0.5 * w)}" y="{_n(y - 0.5 * h)}" width="{_n(w)}" height="{_n(h)}"'
+            return [f'<rect {place} rx="{_n(mark.radius)}"{_fill(mark.fill)}{_stroke(mark.stroke)}/>']
+        case Disc():
+            place = f'cx="{_n(mark.center[0])}" cy="{_n(mark.center[1])}" r="{_n(mark.radius)}"'
+            return [f"<circle {place}{_fill(mark.fill)}{_stroke(mark.stroke)}/>"]
+        case Shape():
+            points = " ".join(_point(corner) for corner in mark.corners)
+            return [f'<polygon points="{points}"{_fill(mark.fill)}{_stroke(mark.stroke)}/>']
+        case Line():
+            return _line(mark)
+        case Text():
+            place = f'x="{_n(mark.at[0])}" y="{_n(mark.at[1] + BASELINE * mark.size)}" font-size="{_n(mark.size)}"'
+            return [f'<text {place} text-anchor="{mark.anchor}"{_fill(mark.color)}>{escape(mark.content)}</text>']
+        case _:
+            raise TypeError(f"no SVG for {type(mark).__name__}")
+
+
+def _line(line: Line) -> list[str]:
+    found = [
+        f'<path d="{" ".join(f"M{_point(a)} L{_point(b)}" for a, b in line.pieces())}" fill="none"{_stroke(line.stroke)}/>'
+    ]
+    for corners, filled in heads(line):
+        path = f"M{_point(corners[0])} L{_point(corners[1])} L{_point(corners[2])}"
+        if filled:
+            found.append(f'<path d="{path} Z"{_fill(line.stroke.color)}/>')
+        else:
+            solid = Stroke(line.stroke.color, line.stroke.width)
+            found.append(f'<path d="{path}" fill="none"{_stroke(solid)}/>')
+    return found
+
+
+def _fill(color: Color | None) -> str:
+    return ' fill="none"' if color is None else _paint("fill", color)
+
+
+def _stroke(stroke: Stroke | None) -> str:
+    if stroke is None:
+        return ""
+    dash = f' stroke-dasharray="{_n(stroke.dash[0])} {_n(stroke.dash[1])}"' if any(stroke.dash) else ""
+    return f'{_paint("stroke", stroke.color)} stroke-width="{_n(stroke.width)}"{dash}'
+
+
+def _paint(what: str, color: Color) -> str:
+    r, g, b = (round(255 * x) for x in color[:3])
+    opacity = f' {what}-opacity="{_n(color[3])}"' if color[3] < 1.0 else ""
+    return f' {what}="#{r:02X}{g:02X}{b:02X}"{opacity}'
+
+
+def _point(p: Point) -> str:
+    return f"{_n(p[0])},{_n(p[1])}"
+
+
+def _n(x: float) -> str:
+    """Two decimals: a fiftieth of a pixel on a large screen."""
+    text = f"{x:.2f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def _quoted(family: str) -> str:
+    return f"'{family}'"

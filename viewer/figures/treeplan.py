@@ -1,0 +1,228 @@
+"""Where everything of a tree figure stands: worked out once, for the deepest tree, so that its steps never jump.
+
+Each hit is a box; boxes are all of one size, so the same subtree looks the same wherever it stands. Reflected rays
+leave at a box's left side, refracted ones at its right, stubs to the lights hang below it: nothing can cross them.
+Where a slide is too small for the whole tree, the lightest branches are folded into one box that says what is in it.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from tracer.nodes import SHADOW
+from tracer.tree import RayTree
+from viewer.figures.font import text_width
+from viewer.figures.labels import end_label, factor_label, hit_label, ray_label
+from viewer.figures.layout import Room, layout
+from viewer.figures.marks import HEIGHT, WIDTH, Point, Rectangle
+from viewer.wording import shown
+
+# In sizes of the text.
+MARGIN = 0.6
+PADDING = 0.5  # on either side of a name in its box
+SWATCH = 1.5  # of a box, for the colour that is sent up
+BOX = 1.55  # its height
+FOLD = 2.7  # the height of a box for a folded branch, which has two lines
+GAP = 0.7  # between two boxes, at least
+SPREAD = 1.6  # how much farther apart they stand where there is room
+SIGN = 0.95  # the width of a sign at a stub's end; its label follows
+SLOT = 0.4  # between two stubs' labels
+STUB = 1.2  # from a box to the sign at a stub's end
+NOTE = 1.2  # from there to the middle of a leaf's note
+EDGE_LABEL = 1.1  # from a box up to the middle of its ray's label
+EYE = 0.75  # from the upper rim to the eye
+FIRST = 4.8  # from the eye to the first hit
+LINE = 1.3  # from line to line
+PITCH, TALLEST = 6.25, 8.0  # from level to level, at least and at most
+
+NO_RAY = "no T"  # what total internal reflection leaves of the refracted ray
+LONGEST = 14  # characters of a name; longer ones are cut
+
+
+@dataclass(frozen=True)
+class Fold:
+    """A branch, or two of one hit, in one box: which stands where the heavier one's first hit would."""
+
+    row: int
+    roots: tuple[int, ...]
+    weight: float  # of its first rays, together
+
+    def words(self, rows: Iterable[int], inside: dict[int, int]) -> tuple[str, str]:
+        """(how many rays, their share of the weight), as far as these rows go."""
+        count = sum(inside.get(i) == self.row for i in rows)
+        return (f"+{count} ray{'s' if count > 1 else ''}", f"{shown(100.0 * self.weight, 2)} %")
+
+
+@dataclass(frozen=True)
+class TreePlan:
+    """Places in points. `rows` are drawn each for itself, `inside` says in which fold others are."""
+
+    tree: RayTree  # the deepest
+    size: float
+    swatches: bool
+    rows: frozenset[int]
+    folds: dict[int, Fold]  # by the row where they stand
+    inside: dict[int, int]  # a folded row -> the row of its fold
+    at: dict[int, Point]  # middles of boxes, and of the signs at stubs' ends
+    bars: dict[int, Point]  # where total internal reflection stops the refracted ray: the end of its stub
+    eye: Point
+    box: tuple[float, float]
+
+    @property
+    def hang(self) -> float:
+        """From a box's middle to the signs under it."""
+        return 0.5 * self.box[1] + STUB * self.size
+
+    @property
+    def fold_height(self) -> float:
+        return FOLD * self.size
+
+    @property
+    def corners(self) -> tuple[Rectangle, Rectangle]:
+        """What is free beside the eye, on its left and on its right."""
+        x, y = self.at[0]
+        margin, aside = MARGIN * self.size, 0.5 * self.box[0] + self.size
+        return ((margin, margin, x - aside, y), (x + aside, margin, WIDTH - margin, y))
+
+    @property
+    def top(self) -> float:
+        """From a box's middle to the label of the ray that reaches it."""
+        return 0.5 * self.box[1] + EDGE_LABEL * self.size
+
+
+def name_in_box(tree: RayTree, i: int) -> str:
+    name = hit_label(tree, i)
+    return name if len(name) <= LONGEST else name[: LONGEST - 1].rstrip() + "…"
+
+
+def plan_tree(trees: Sequence[RayTree], size: float, swatches: bool = False, fold: float = 0.0) -> TreePlan:
+    """The plan for these steps of one tree, the deepest last, with text of that size in points.
+
+    Branches that weigh less than `fold` are folded, and as many more as there is no room for.
+    """
+    tree = trees[-1]
+    weights = tree.nodes["weight"].max(axis=1)
+    rays = [i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW]
+    heaviest = sorted(rays, key=lambda i: (-weights[i], i))
+    enough = sum(weights[i] >= fold or i == 0 for i in rays)
+    low, high = 1, enough
+    best = _try(trees, set(heaviest[:high]), size, swatches)
+    if best is not None:
+        return best
+    while low < high:  # the most rays that fit; the first hit always does
+        middle = (low + high + 1) // 2
+        found = _try(trees, set(heaviest[:middle]), size, swatches)
+        if found is None:
+            high = middle - 1
+        else:
+            low, best = middle, found
+    return best or _try(trees, {0}, size, swatches, anyhow=True)  # type: ignore[return-value]
+
+
+def _try(
+    trees: Sequence[RayTree], kept: set[int], size: float, swatches: bool, anyhow: bool = False
+) -> TreePlan | None:
+    """The plan with these rays and all others folded; None where it does not fit onto the canvas."""
+    tree = trees[-1]
+    rows, folds, inside = _folded(tree, kept)
+    column, slot = _widths(trees, rows, folds, inside, size, swatches)
+    margin, gap, box = MARGIN * size, GAP * size, BOX * size
+    unit = column + gap
+    room = Room(
+        left=0.5, right=0.5, stub_gap=slot / unit, stub_half=0.5 * slot / unit, sides=True, passes=0.9, bars=True
+    )
+    laid = layout(tree, rows | folds.keys(), room)
+    left = min(place.x for place in laid.places.values()) - 0.5
+    right = max(place.x for place in laid.places.values()) + 0.5
+    levels = max(math.floor(place.y) for place in laid.places.values())
+    first = margin + (EYE + FIRST) * size
+    free = HEIGHT - first - 0.5 * box - (STUB + NOTE + 0.5) * size - margin
+    widest = (WIDTH - 2 * margin + gap) / (right - left)
+    if not anyhow and (unit > widest or PITCH * size * levels > free):
+        return None
+    spread = min(widest, SPREAD * unit) / unit if unit < widest else 1.0
+    unit *= spread
+    pitch = min(TALLEST * size, free / levels) if levels else 0.0
+    # The eye in the middle, where the tree leaves room for that.
+    middle = min(max(0.5 * WIDTH, margin - left * unit - 0.5 * gap), WIDTH - margin - right * unit + 0.5 * gap)
+    kinds, depth, parents = (tree.nodes[name] for name in ("kind", "depth", "parent"))
+    hang = 0.5 * box + STUB * size
+
+    at = {
+        i: (middle + place.x * unit, first + pitch * float(depth[i]))
+        for i, place in laid.places.items()
+        if kinds[i] != SHADOW
+    }
+
+    def hanging(parent: int, x: float) -> Point:
+        """A stub keeps its distance from its hit, however far apart hits are."""
+        return (at[parent][0] + (x - laid.places[parent].x) * unit / spread, at[parent][1] + hang)
+
+    at |= {i: hanging(int(parents[i]), place.x) for i, place in laid.places.items() if kinds[i] == SHADOW}
+    bars = {i: hanging(i, place.x) for i, place in laid.bars.items()}
+    eye = (at[0][0], margin + EYE * size)
+    return TreePlan(tree, size, swatches, frozenset(rows), folds, inside, at, bars, eye, (column, box))
+
+
+def _folded(tree: RayTree, kept: set[int]) -> tuple[set[int], dict[int, Fold], dict[int, int]]:
+    """(rows drawn each for itself, folds, folded row -> its fold): of a hit's branches that are not kept, one fold."""
+    nodes = tree.nodes
+    weights = nodes["weight"].max(axis=1)
+    rows = {
+        i for i in range(len(tree)) if (i in kept if nodes["kind"][i] != SHADOW else int(nodes["parent"][i]) in kept)
+    }
+    folds: dict[int, Fold] = {}
+    inside: dict[int, int] = {}
+    for i in sorted(kept):
+        roots = tuple(c for c in tree.children[i] if c not in kept and nodes["kind"][c] != SHADOW)
+        if roots:
+            row = max(roots, key=lambda c: (weights[c], -c))
+            folds[row] = Fold(row, roots, float(sum(weights[c] for c in roots)))
+            inside |= dict.fromkeys(roots, row)
+    for i in range(len(tree)):  # a parent stands before its children
+        parent = int(nodes["parent"][i])
+        if parent in inside and i not in inside:
+            inside[i] = inside[parent]
+    return rows, folds, inside
+
+
+def _widths(
+    trees: Sequence[RayTree],
+    rows: set[int],
+    folds: dict[int, Fold],
+    inside: dict[int, int],
+    size: float,
+    swatches: bool,
+) -> tuple[float, float]:
+    """(of a box, of a stub's place), wide enough for all that stands in, over or under any of them at any step."""
+    tree = trees[-1]
+    kinds = tree.nodes["kind"]
+    names, loose, stubs, shares = [""], [""], [""], [""]
+    most = 0
+    for i in rows:
+        if kinds[i] == SHADOW:
+            stubs.append(ray_label(tree, i))
+            continue
+        names.append(name_in_box(tree, i))
+        loose.append(edge_label(tree, i))
+        loose += [end_label(step, i) for step in trees if i < len(step)]
+        thrown_back = any(tree.kind(c) == "tir" for c in tree.children[i])
+        most = max(most, sum(kinds[c] == SHADOW for c in tree.children[i]) + thrown_back)
+        stubs += [NO_RAY] * thrown_back
+    for fold in folds.values():
+        shares += fold.words(range(len(tree)), inside)
+    around = 2 * PADDING * size
+    widest = max(
+        _widest(names, size) + around + SWATCH * size * swatches, _widest(shares, size) + around, _widest(loose, size)
+    )
+    slot = _widest(stubs, size) + (SIGN + SLOT) * size
+    return max(widest, most * slot), slot
+
+
+def _widest(labels: Sequence[str], size: float) -> float:
+    return max(text_width(label, size) for label in labels)
+
+
+def edge_label(tree: RayTree, i: int) -> str:
+    """On the way to hit i: which ray, and what its parent multiplies it by."""
+    return f"{ray_label(tree, i)} {factor_label(tree, i)}" if i else ray_label(tree, i)
