@@ -15,6 +15,7 @@ from viewer.interrupt import Interrupted, interruptible
 
 COMMANDS = ("view", "trace", "render", "export", "plan", "check", "lessons")
 FORMATS = ("text", "json", "csv", "dot")
+FIGURES = ("tree", "hit")
 FILES = ("svg", "pdf", "png", "tikz", "pptx", "dot", "csv", "json", "text")
 
 # Options whose value may begin with a minus sign, which argparse would take for another option.
@@ -119,16 +120,17 @@ def make_parser() -> Parser:
         "--pixel", type=pair(","), metavar="X,Y", help="from the image's top left; a lesson's own by default"
     )
     where.add_argument("--ray", type=six, metavar="ox,oy,oz,dx,dy,dz", help="origin and direction of a ray")
-    export.add_argument("--figure", choices=("tree",), default="tree", help="tree by default")
+    export.add_argument("--figure", choices=FIGURES, default="tree", help="tree by default")
+    export.add_argument(
+        "--node", type=at_least(0), default=0, metavar="N", help="hit: of this ray, the first by default"
+    )
     export.add_argument("--depth", type=depths, metavar="D|A..B", help="recursion depth, or a page a depth: 0..3")
     export.add_argument(
         "--step", choices=("depth", "rays", "colour"), default="depth",
         help="a page a depth; a ray, as they are traced; or a hit, as colour flows back",
     )  # fmt: skip
     _add_model(export)
-    export.add_argument(
-        "--min-weight", type=weight, default=0.0, metavar="W", help="do not follow rays that weigh less"
-    )
+    _add_min_weight(export)
     export.add_argument("--size", type=pair("x"), metavar="WxH", help="of the image, the scene's own by default")
     export.add_argument("--format", type=listed(FILES), metavar="A,B", help=f"of {', '.join(FILES)}; svg by default")
     export.add_argument("--theme", choices=("light", "dark", "mono"), default="light", help="light by default")
@@ -174,12 +176,16 @@ def _add_model(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--model", choices=("whitted", "fresnel"), help="the scene's own by default")
 
 
-def _add_limits(parser: argparse.ArgumentParser) -> None:
-    _add_depth(parser)
-    _add_model(parser)
+def _add_min_weight(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--min-weight", type=weight, default=0.0, metavar="W", help="do not follow rays that weigh less"
     )
+
+
+def _add_limits(parser: argparse.ArgumentParser) -> None:
+    _add_depth(parser)
+    _add_model(parser)
+    _add_min_weight(parser)
     parser.add_argument(
         "--tolerance",
         type=weight,

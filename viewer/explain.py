@@ -114,8 +114,14 @@ def explain(tree: RayTree, world: World, i: int) -> list[Section]:
         return [_light(tree, world, parent, int(row["light"])), numbers(tree, i)]
     if math.isnan(row["t"]):
         return [_sum(tree, i), numbers(tree, i)]
-    material = world.scene.objects[row["object"]].material
-    sections = [_sum(tree, i)]
+    return [_sum(tree, i), *directions(tree, i), _local(tree, world, i), numbers(tree, i)]
+
+
+def directions(tree: RayTree, i: int) -> list[Section]:
+    """Where the rays go that hit i sends out, and what they are worth."""
+    row = tree.nodes[i]
+    material = tree.scene.objects[row["object"]].material
+    sections = []
     tir = row["radicand"] <= 0.0
     if not math.isnan(row["radicand"]):
         sections.append(_snell(tree, i))
@@ -126,7 +132,7 @@ def explain(tree: RayTree, world: World, i: int) -> list[Section]:
             sections.append(_fresnel(tree, i, material))
     if material.reflect > 0.0 or tir or (tree.model == MODELS[1] and material.transmit > 0.0):
         sections.append(_reflection(tree, i))
-    return [*sections, _local(tree, world, i), numbers(tree, i)]
+    return sections
 
 
 def _sum(tree: RayTree, i: int) -> Section:

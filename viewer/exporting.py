@@ -40,19 +40,14 @@ def export(options: Namespace) -> int:
     compile_once()
     with faults():
         world = prepared(path)
-        depths = options.depth or single(
-            world.scene.tracing.depth if not lesson or lesson.depth is None else lesson.depth
-        )
+        own = lesson.depth if lesson and lesson.depth is not None else world.scene.tracing.depth
+        depths = options.depth or range(own, own + 1)
         stages = steps(world, options, depths)
     check_pages(target, formats, stages)
     written = write(target, formats, stages, options, lesson, depths)
     for file in written:
         print(file)
     return 0
-
-
-def single(depth: int) -> Depths:
-    return range(depth, depth + 1)
 
 
 def steps(world: World, options: Namespace, depths: Depths) -> list[Stage]:
@@ -98,7 +93,9 @@ def write(
     target: Target, formats: list[str], stages: list[Stage], options: Namespace, lesson: Lesson | None, depths: Depths
 ) -> list[Path]:
     """All files; those that are written."""
-    wishes = Wishes(THEMES[options.theme], options.text_size, options.swatches, options.fold, options.ground)
+    wishes = Wishes(
+        THEMES[options.theme], options.text_size, options.swatches, options.fold, options.ground, options.node
+    )
     stem = stem_of(options, lesson)
     last = depths[-1]
     files: list[tuple[Path, bytes]] = []
@@ -154,6 +151,8 @@ def command(options: Namespace, format_name: str) -> str:
     else:
         words += ["--ray", ",".join(repr(x) for x in options.ray)]
     words += ["--figure", options.figure]
+    if options.node:
+        words += ["--node", str(options.node)]
     if options.depth:
         first, last = options.depth[0], options.depth[-1]
         words += ["--depth", str(first) if first == last else f"{first}..{last}"]

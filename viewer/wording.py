@@ -48,7 +48,13 @@ def triple(xyz: Sequence[float] | np.ndarray, decimals: int = 4) -> str:
     """Coordinates or a colour."""
     if math.isnan(xyz[0]):
         return "–"
-    return "  ".join(f"{x:.{decimals}f}".replace("-", "−") for x in xyz)
+    return "  ".join(_fixed(x, decimals) for x in xyz)
+
+
+def _fixed(x: float, decimals: int) -> str:
+    """So many decimals; what they show as nothing has no sign."""
+    text = f"{x:.{decimals}f}"
+    return text.lstrip("-") if float(text) == 0.0 else text.replace("-", "−")
 
 
 def same(rgb: np.ndarray) -> str:

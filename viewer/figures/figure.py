@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from tracer.outline import triple
 from tracer.tree import RayTree
+from viewer.figures.hitfigure import hit_marks
 from viewer.figures.marks import Figure, Mark
 from viewer.figures.stage import Stage
 from viewer.figures.treefigure import tree_marks
@@ -24,6 +25,7 @@ class Wishes:
     swatches: bool = False  # the colour that each ray sends up, in its box
     fold: float = 0.0  # branches that weigh less are folded
     ground: bool = False  # on the theme's paper, not on transparent ground
+    node: int = 0  # which hit, where the figure shows one
 
 
 def tree_pages(stages: Sequence[Stage], wishes: Wishes) -> list[list[Mark]]:
@@ -31,8 +33,15 @@ def tree_pages(stages: Sequence[Stage], wishes: Wishes) -> list[list[Mark]]:
     return [tree_marks(plan, stage, wishes.theme) for stage in stages]
 
 
+def hit_pages(stages: Sequence[Stage], wishes: Wishes) -> list[list[Mark]]:
+    return [
+        hit_marks(stage, wishes.node, wishes.text_size, wishes.theme) for stage in stages if wishes.node in stage.rows
+    ]
+
+
 FIGURES: dict[str, Callable[[Sequence[Stage], Wishes], list[list[Mark]]]] = {
     "tree": tree_pages,
+    "hit": hit_pages,
 }
 
 

@@ -1,7 +1,7 @@
 """What a figure is made of: a list of marks on a canvas. Layouts make marks, writers turn them into a file.
 
-Lengths are points (1/72 inch) from the canvas's top left corner, y downwards. The canvas is a slide of 16:9, so that text
-of 18 points is 18 points where the figure fills the slide.
+Lengths are points (1/72 inch) from the canvas's top left corner, y downwards. The canvas is a slide of 16:9: text of 18
+points is 18 points where the figure fills the slide.
 """
 
 from dataclasses import dataclass, field
@@ -51,11 +51,12 @@ class Disc(Mark):
 
 @dataclass(frozen=True)
 class Shape(Mark):
-    """An outline through these corners, closed and filled where it has a fill."""
+    """An outline through these corners; one that is not closed is a curve and has no fill."""
 
     corners: tuple[Point, ...]
     fill: Color | None
     stroke: Stroke | None
+    closed: bool = True
 
 
 @dataclass(frozen=True)

@@ -52,7 +52,7 @@ class _Page:
             case Disc():
                 self._disc(mark)
             case Shape():
-                self.path(mark.corners, True, mark.fill, mark.stroke)
+                self.path(mark.corners, mark.closed, mark.fill, mark.stroke)
             case Line():
                 for a, b in mark.pieces():
                     self.path((a, b), False, None, mark.stroke)

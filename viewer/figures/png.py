@@ -1,6 +1,7 @@
 """Figures as PNG: the PDF's page as pixels, so that both look the same. What the figure leaves free is transparent."""
 
 import io
+from typing import Any
 
 from viewer.figures.marks import Figure
 from viewer.figures.pdf import write_pdf
@@ -13,7 +14,8 @@ def write_png(figure: Figure, width: int = PIXELS) -> bytes:
     from PIL.PngImagePlugin import PngInfo
 
     document = pypdfium2.PdfDocument(write_pdf([figure]))
-    page = document[0].render(scale=width / figure.width, fill_color=(0, 0, 0, 0), rev_byteorder=True)
+    scale: Any = width / figure.width  # its type says int, its documentation float
+    page = document[0].render(scale=scale, fill_color=(0, 0, 0, 0), rev_byteorder=True)
     info = PngInfo()
     for key, value in (("Title", figure.title), ("Description", figure.description), ("Source", figure.command)):
         info.add_itxt(key, value)

@@ -86,6 +86,7 @@ class _Slide:
             aside = 2.0 * (words[0].at[0] - x)
             frame.margin_left, frame.margin_right = (_emu(max(0.0, side)) for side in (aside, -aside))
             _write(frame, words, "middle")
+            frame.word_wrap = False
         self.boxes[box.name] = made
 
     def _line(self, line: Line, shapes: Any) -> None:
@@ -114,22 +115,26 @@ class _Slide:
                 from pptx.enum.shapes import MSO_SHAPE
 
                 (x, y), r = mark.center, mark.radius
-                _look(shapes.add_shape(MSO_SHAPE.OVAL, *_rectangle(x - r, y - r, 2 * r, 2 * r)), mark.fill, mark.stroke)
+                made = shapes.add_shape(MSO_SHAPE.OVAL, *_rectangle(x - r, y - r, 2 * r, 2 * r))
+                _name(made, mark.name, "")
+                _look(made, mark.fill, mark.stroke)
             case Shape():
-                self._outline(mark.corners, mark.fill, mark.stroke, shapes)
+                self._outline(mark, shapes)
             case Line():
                 self._line(mark, shapes)
             case _:
                 raise TypeError(f"no PPTX for {type(mark).__name__}")
 
-    def _outline(self, corners: Sequence[Point], fill: Color | None, stroke: Stroke | None, shapes: Any) -> None:
-        builder = shapes.build_freeform(*map(_emu, corners[0]), scale=1.0)
-        builder.add_line_segments([(_emu(x), _emu(y)) for x, y in corners[1:]], close=True)
-        _look(builder.convert_to_shape(), fill, stroke)
+    def _outline(self, shape: Shape, shapes: Any) -> None:
+        builder = shapes.build_freeform(*map(_emu, shape.corners[0]), scale=1.0)
+        builder.add_line_segments([(_emu(x), _emu(y)) for x, y in shape.corners[1:]], close=shape.closed)
+        made = builder.convert_to_shape()
+        _name(made, shape.name, "")
+        _look(made, shape.fill, shape.stroke)
 
     def _text(self, text: Text) -> None:
         """A little wider than it is: another font may take more room."""
-        width, height = 1.1 * text_width(text.content, text.size) + 4.0, 1.2 * text.size
+        width, height = 1.15 * text_width(text.content, text.size) + 4.0, 1.2 * text.size
         left = text.at[0] - {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor] * width
         made = self.shapes.add_textbox(*_rectangle(left, text.at[1] - 0.5 * height, width, height))
         _name(made, f"{text.name} label", "")
@@ -144,7 +149,7 @@ def _write(frame: Any, words: Sequence[Text], anchor: str) -> None:
     from pptx.util import Pt
 
     frame.margin_top = frame.margin_bottom = 0
-    frame.word_wrap = False
+    frame.word_wrap = True  # else programs put what is not centred elsewhere
     frame.vertical_anchor = MSO_ANCHOR.MIDDLE
     for k, text in enumerate(words):
         paragraph = frame.paragraphs[0] if k == 0 else frame.add_paragraph()
@@ -156,7 +161,6 @@ def _write(frame: Any, words: Sequence[Text], anchor: str) -> None:
 
 
 def _look(shape: Any, fill: Color | None, stroke: Stroke | None) -> None:
-    shape.shadow.inherit = False
     if fill:
         _paint(shape.fill, fill)
     else:
@@ -193,12 +197,18 @@ def _rgb(color: Color) -> Any:
 
 
 def _element(name: str, **attributes: str) -> Any:
-    from lxml import etree
+    from pptx.oxml.xmlchemy import OxmlElement
 
-    return etree.Element(f"{A}{name}", attributes)
+    element = OxmlElement(f"a:{name}")
+    for key, value in attributes.items():
+        element.set(key, value)
+    return element
 
 
 def _name(shape: Any, name: str, title: str) -> None:
+    """Its name, and what it is for who cannot see it; the template's style goes: it would throw shadows."""
+    for style in shape._element.xpath("./p:style"):
+        shape._element.remove(style)
     shape.name = name
     if title:
         shape._element.xpath(".//p:cNvPr")[0].set("descr", title)

@@ -46,7 +46,8 @@ def _element(mark: Mark) -> list[str]:
             return [f"<circle {place}{_fill(mark.fill)}{_stroke(mark.stroke)}/>"]
         case Shape():
             points = " ".join(_point(corner) for corner in mark.corners)
-            return [f'<polygon points="{points}"{_fill(mark.fill)}{_stroke(mark.stroke)}/>']
+            element = "polygon" if mark.closed else "polyline"
+            return [f'<{element} points="{points}"{_fill(mark.fill)}{_stroke(mark.stroke)}/>']
         case Line():
             return _line(mark)
         case Text():
@@ -57,9 +58,8 @@ def _element(mark: Mark) -> list[str]:
 
 
 def _line(line: Line) -> list[str]:
-    found = [
-        f'<path d="{" ".join(f"M{_point(a)} L{_point(b)}" for a, b in line.pieces())}" fill="none"{_stroke(line.stroke)}/>'
-    ]
+    pieces = " ".join(f"M{_point(a)} L{_point(b)}" for a, b in line.pieces())
+    found = [f'<path d="{pieces}" fill="none"{_stroke(line.stroke)}/>']
     for corners, filled in heads(line):
         path = f"M{_point(corners[0])} L{_point(corners[1])} L{_point(corners[2])}"
         if filled:

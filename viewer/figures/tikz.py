@@ -63,7 +63,7 @@ def _draw(mark: Mark) -> list[str]:
             ]
         case Shape():
             corners = " -- ".join(_point(corner) for corner in mark.corners)
-            return [f"\\path[{_options(mark.fill, mark.stroke)}] {corners} -- cycle;"]
+            return [f"\\path[{_options(mark.fill, mark.stroke)}] {corners}{' -- cycle' if mark.closed else ''};"]
         case Line():
             pieces = " ".join(f"{_point(a)} -- {_point(b)}" for a, b in mark.pieces())
             found = [f"\\path[{_options(None, mark.stroke)}] {pieces};"]

@@ -1,5 +1,8 @@
-"""The ray tree as a figure: Whitted's own (CACM 23(6), 1980). The eye on top, reflected rays left, refracted ones right,
-dashed stubs to the lights; on each edge what the parent multiplies by, in each box what was met."""
+"""The ray tree as a figure: Whitted's own (CACM 23(6), 1980).
+
+The eye on top, reflected rays left, refracted ones right, dashed stubs to the lights; on each edge what the parent
+multiplies by, in each box what was met.
+"""
 
 import numpy as np
 

@@ -128,9 +128,8 @@ def _try(
     column, slot = _widths(trees, rows, folds, inside, size, swatches)
     margin, gap, box = MARGIN * size, GAP * size, BOX * size
     unit = column + gap
-    room = Room(
-        left=0.5, right=0.5, stub_gap=slot / unit, stub_half=0.5 * slot / unit, sides=True, passes=0.9, bars=True
-    )
+    stub = slot / unit
+    room = Room(left=0.5, right=0.5, stub_gap=stub, stub_half=0.5 * stub, sides=True, passes=0.9, bars=True)
     laid = layout(tree, rows | folds.keys(), room)
     left = min(place.x for place in laid.places.values()) - 0.5
     right = max(place.x for place in laid.places.values()) + 0.5
@@ -168,9 +167,7 @@ def _folded(tree: RayTree, kept: set[int]) -> tuple[set[int], dict[int, Fold], d
     """(rows drawn each for itself, folds, folded row -> its fold): of a hit's branches that are not kept, one fold."""
     nodes = tree.nodes
     weights = nodes["weight"].max(axis=1)
-    rows = {
-        i for i in range(len(tree)) if (i in kept if nodes["kind"][i] != SHADOW else int(nodes["parent"][i]) in kept)
-    }
+    rows = kept | {c for i in kept for c in tree.children[i] if nodes["kind"][c] == SHADOW}
     folds: dict[int, Fold] = {}
     inside: dict[int, int] = {}
     for i in sorted(kept):

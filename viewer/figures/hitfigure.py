@@ -1,0 +1,185 @@
+"""One hit in its plane of incidence: the normal, the ray that comes, those that go on, all angles true, and the
+lecture's formulas with this hit's numbers beside them.
+
+The normal stands upright, on the side that the ray comes from, and the ray comes from the left: as on the slide.
+"""
+
+import math
+
+from tracer.nodes import SHADOW
+from tracer.tree import RayTree
+from viewer.explain import Section, directions, turned
+from viewer.figures import signs
+from viewer.figures.font import text_width
+from viewer.figures.labels import factor_label, hit_label, ray_label, ray_title
+from viewer.figures.marks import HEIGHT, WIDTH, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.stage import Stage
+from viewer.theme import STYLES, Color, Theme, faded
+from viewer.wording import angle, shown
+
+CENTER = (262.0, 292.0)  # the hit
+REACH = 195.0  # how far rays are drawn
+LEFT, RIGHT = 12.0, 512.0  # of the media
+TOP, BOTTOM = 12.0, HEIGHT - 12.0
+WORDS = 536.0  # where the formulas begin
+ARC = 62.0  # the radius of an angle's arc
+LINE = 1.28  # from line to line of the formulas, in sizes of the text
+BETWEEN = 0.5  # between two sections of them, in lines, where there is room
+VECTORS = ("v", "n", "r", "t")
+TINTS = (0.06, 0.16)  # of the medium of lower and of higher index
+
+FormulaLine = tuple[str, str, Color]  # name, value, the name's colour
+
+
+def hit_marks(stage: Stage, node: int, size: float, theme: Theme) -> list[Mark]:
+    """`node` is the row of a ray that meets a surface; ValueError for another."""
+    return _Drawing(stage, node, size, theme).marks
+
+
+def check_node(tree: RayTree, node: int) -> None:
+    """Whether there is such a hit: ValueError in words for people."""
+    hits = [i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW and tree.object_name(i)]
+    if node not in hits:
+        known = ", ".join(map(str, hits[:12])) + (" ..." if len(hits) > 12 else "")
+        raise ValueError(f"--node {node} must be a ray that meets a surface: {known or 'there is none'}")
+
+
+class _Drawing:
+    def __init__(self, stage: Stage, node: int, size: float, theme: Theme) -> None:
+        self.tree: RayTree = stage.tree
+        check_node(self.tree, node)
+        self.stage, self.node, self.size, self.theme = stage, node, size, theme
+        self.row = self.tree.nodes[node]
+        self.theta1, self.theta2 = float(self.row["theta1"]), float(self.row["theta2"])
+        self.marks: list[Mark] = []
+        self._media()
+        self._normal()
+        self._rays()
+        self._formulas()
+
+    def _at(self, turn: float, length: float = REACH) -> Point:
+        """So far from the hit, `turn` clockwise from the normal."""
+        return (CENTER[0] + length * math.sin(turn), CENTER[1] - length * math.cos(turn))
+
+    def _media(self) -> None:
+        n1, n2 = float(self.row["n1"]), float(self.row["n2"])
+        clear = not math.isnan(n2)
+        x0, y0, x1, y1 = LEFT, TOP, RIGHT, BOTTOM
+        y = CENTER[1]
+        below = TINTS[n2 > n1] if clear else 0.3
+        above = TINTS[n1 > n2] if clear else TINTS[0]
+        for name, top, bottom, tint, title in (
+            ("medium-1", y0, y, above, f"the medium the ray comes from, index {shown(n1)}"),
+            ("medium-2", y, y1, below, f"behind the surface of {hit_label(self.tree, self.node)}"),
+        ):
+            corners = ((x0, top), (x1, top), (x1, bottom), (x0, bottom))
+            self.marks.append(Shape(name, corners, faded(self.theme.text, tint), None, title=title))
+        self.marks.append(Line("surface", (x0, y), (x1, y), Stroke(self.theme.text, 2.4)))
+        text, size = self.theme.text, self.size
+        name = hit_label(self.tree, self.node)
+        under = f"n₂ = {shown(n2)}" if clear else "opaque"
+        left, third = x0 + 0.5 * size, TOP + (0.9 + 2 * LINE) * size
+        self.marks.append(Text("medium-1", (left, third), f"n₁ = {shown(n1)}", size, text, "start"))
+        self.marks.append(Text("surface", (left, y + 0.8 * size), f"surface of {name}", size, text, "start"))
+        self.marks.append(Text("medium-2", (left, y1 - 0.9 * size), under, size, text, "start"))
+
+    def _normal(self) -> None:
+        color = self.theme.normal
+        top, bottom = self._at(0.0, REACH + 22.0), self._at(math.pi, REACH)
+        self.marks.append(Line("normal", CENTER, top, Stroke(color, 2.0), STYLES["refraction"].arrow, 0.97))
+        self.marks.append(Line("normal", CENTER, bottom, Stroke(color, 1.4, (5.0, 5.0))))
+        self.marks.append(Text("normal", (top[0], top[1] - 0.7 * self.size), "n", self.size, color))
+
+    def _rays(self) -> None:
+        tree, node, size = self.tree, self.node, self.size
+        kind = tree.kind(node)
+        turn = turned(tree, node)
+        theta1, theta2 = angle(self.theta1, turn), angle(self.theta2, turn)
+        first, second = TOP + 0.9 * size, TOP + 0.9 * size + LINE * size
+        self._ray(node, kind, self._at(-self.theta1), CENTER)
+        self._arc(f"ray-{node}", -self.theta1, 0.0, kind)
+        left, right = LEFT + 0.5 * size, RIGHT - 0.5 * size
+        self._words(f"ray-{node}", (left, first), f"v: {ray_label(tree, node)}", kind, "start")
+        self._words(f"ray-{node}", (left, second), f"θ₁ = {theta1}", kind, "start")
+        for child in tree.children[node]:
+            below = tree.kind(child)
+            if below == "shadow" or child not in self.stage.rows:
+                continue
+            name = f"ray-{child}"
+            label = f"{ray_label(tree, child)} {factor_label(tree, child)}"
+            if below == "refraction":
+                self._ray(child, below, CENTER, self._at(math.pi - self.theta2))
+                self._arc(name, math.pi - self.theta2, math.pi, below)
+                low = BOTTOM - 0.9 * size
+                self._words(name, (right, low - LINE * size), f"t: {label}", below, "end")
+                self._words(name, (right, low), f"θ₂ = {theta2}", below, "end")
+            else:
+                self._ray(child, below, CENTER, self._at(self.theta1))
+                self._arc(name, 0.0, self.theta1, below)
+                self._words(name, (right, first), f"r: {label}", below, "end")
+                self._words(name, (right, second), f"θ₁ = {theta1}", below, "end")
+        if self.row["radicand"] <= 0.0:
+            self._no_ray()
+
+    def _ray(self, i: int, kind: str, start: Point, end: Point) -> None:
+        style = STYLES[kind]
+        stroke = Stroke(self.theme.ray(kind), 1.3 * style.width, style.dash)
+        self.marks.append(Line(f"ray-{i}", start, end, stroke, style.arrow, 0.6, title=ray_title(self.tree, i)))
+
+    def _no_ray(self) -> None:
+        """Nothing is refracted: a stub along the surface with a bar."""
+        color = self.theme.ray("refraction")
+        end = (CENTER[0] + 0.5 * REACH, CENTER[1] + 0.9 * self.size)
+        title = "total internal reflection: no ray is refracted"
+        self.marks.append(Line("bar", CENTER, end, Stroke(color, STYLES["refraction"].width), title=title))
+        self.marks += signs.bar("bar", end, self.size, color)
+        self.marks.append(Text("bar", (end[0] + 0.7 * self.size, end[1]), "no T", self.size, color, "start"))
+
+    def _arc(self, name: str, begin: float, end: float, kind: str) -> None:
+        """From one direction to another, in steps of at most two degrees."""
+        steps = max(1, math.ceil(abs(end - begin) / math.radians(2.0)))
+        corners = tuple(self._at(begin + (end - begin) * k / steps, ARC) for k in range(steps + 1))
+        self.marks.append(Shape(f"angle-{name}", corners, None, Stroke(self.theme.ray(kind), 1.8), closed=False))
+
+    def _words(self, name: str, at: Point, content: str, kind: str, anchor: str) -> None:
+        self.marks.append(Text(name, at, content, self.size, self.theme.ray(kind), anchor))
+
+    # --- formulas -----------------------------------------------------------------------------------------------------
+
+    def _formulas(self) -> None:
+        """As many sections as there is room for, each whole: first without the vectors, then without the last ones."""
+        sections = directions(self.tree, self.node)
+        size = self.size
+        room = (BOTTOM - TOP) / (LINE * size)
+        blocks = [self._lines(section, True) for section in sections]
+        if _height(blocks) > room:
+            blocks = [self._lines(section, False) for section in sections]
+        while _height(blocks) > room:
+            blocks.pop()
+        gap = min(BETWEEN, (room - sum(map(len, blocks))) / max(1, len(blocks) - 1))
+        y = TOP + 0.9 * size
+        for block in blocks:
+            for content, value, color in block:
+                if content:
+                    self.marks.append(Text("formulas", (WORDS, y), content, size, color, "start"))
+                if value:
+                    self.marks.append(Text("formulas", (WIDTH - 12.0, y), value, size, self.theme.text, "end"))
+                y += LINE * size
+            y += gap * LINE * size
+
+    def _lines(self, section: Section, vectors: bool) -> list[FormulaLine]:
+        """What of a section has room on the right: name and value in a line, or in two."""
+        theme, wide = self.theme, WIDTH - 12.0 - WORDS
+        found = [(section.formula, "", theme.accent)]
+        for line in section.lines:
+            if line.name in VECTORS and not vectors:
+                continue
+            if text_width(line.name, self.size) + text_width(line.value, self.size) + self.size <= wide:
+                found.append((line.name, line.value, theme.muted))
+            elif text_width(line.value, self.size) <= wide:
+                found += [(line.name, "", theme.muted), ("", line.value, theme.muted)]
+        return found
+
+
+def _height(blocks: list[list[FormulaLine]]) -> int:
+    return sum(map(len, blocks))
