@@ -121,9 +121,7 @@ def make_parser() -> Parser:
     )
     where.add_argument("--ray", type=six, metavar="ox,oy,oz,dx,dy,dz", help="origin and direction of a ray")
     export.add_argument("--figure", choices=FIGURES, default="tree", help="tree by default")
-    export.add_argument(
-        "--node", type=at_least(0), default=0, metavar="N", help="hit: of this ray, the first by default"
-    )
+    export.add_argument("--node", type=at_least(0), default=0, metavar="N", help="hit: of this ray; the first")
     export.add_argument("--depth", type=depths, metavar="D|A..B", help="recursion depth, or a page a depth: 0..3")
     export.add_argument(
         "--step", choices=("depth", "rays", "colour"), default="depth",

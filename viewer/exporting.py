@@ -44,7 +44,8 @@ def export(options: Namespace) -> int:
         depths = options.depth or range(own, own + 1)
         stages = steps(world, options, depths)
     check_pages(target, formats, stages)
-    written = write(target, formats, stages, options, lesson, depths)
+    with faults():
+        written = write(target, formats, stages, options, lesson, depths)
     for file in written:
         print(file)
     return 0
@@ -93,9 +94,8 @@ def write(
     target: Target, formats: list[str], stages: list[Stage], options: Namespace, lesson: Lesson | None, depths: Depths
 ) -> list[Path]:
     """All files; those that are written."""
-    wishes = Wishes(
-        THEMES[options.theme], options.text_size, options.swatches, options.fold, options.ground, options.node
-    )
+    theme = THEMES[options.theme]
+    wishes = Wishes(theme, options.text_size, options.swatches, options.fold, options.ground, options.node)
     stem = stem_of(options, lesson)
     last = depths[-1]
     files: list[tuple[Path, bytes]] = []

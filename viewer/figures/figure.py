@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from tracer.outline import triple
 from tracer.tree import RayTree
-from viewer.figures.hitfigure import hit_marks
+from viewer.figures.hitfigure import check_node, hit_marks
 from viewer.figures.marks import Figure, Mark
 from viewer.figures.stage import Stage
 from viewer.figures.treefigure import tree_marks
@@ -34,8 +34,11 @@ def tree_pages(stages: Sequence[Stage], wishes: Wishes) -> list[list[Mark]]:
 
 
 def hit_pages(stages: Sequence[Stage], wishes: Wishes) -> list[list[Mark]]:
+    """Empty before the hit is there."""
+    check_node(stages[-1].tree, wishes.node)
     return [
-        hit_marks(stage, wishes.node, wishes.text_size, wishes.theme) for stage in stages if wishes.node in stage.rows
+        hit_marks(stage, wishes.node, wishes.text_size, wishes.theme) if wishes.node in stage.rows else []
+        for stage in stages
     ]
 
 
