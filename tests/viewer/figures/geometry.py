@@ -1,0 +1,61 @@
+"""What must be true of every figure, by its marks alone: the judge shared by the tests of all figures."""
+
+import itertools
+
+from viewer.figures.marks import Box, Figure, Line, Rectangle, Text
+
+LESS = 1e-6  # points: what two boxes that only touch may overlap by
+
+
+def rectangle(box: Box) -> Rectangle:
+    (x, y), (w, h) = box.center, box.size
+    return (x - w / 2, y - h / 2, x + w / 2, y + h / 2)
+
+
+def overlap(a: Rectangle, b: Rectangle) -> bool:
+    return min(a[2], b[2]) - max(a[0], b[0]) > LESS and min(a[3], b[3]) - max(a[1], b[1]) > LESS
+
+
+def cuts(piece: tuple, box: Rectangle) -> bool:
+    """Whether a stretch runs through the inside of a box (Liang & Barsky, 1984)."""
+    (x0, y0), (x1, y1) = piece
+    enters, leaves = 0.0, 1.0
+    for a, b, low, high in ((x0, x1, box[0], box[2]), (y0, y1, box[1], box[3])):
+        if abs(b - a) < 1e-12:
+            if not low + LESS < a < high - LESS:
+                return False
+            continue
+        near, far = sorted(((low + LESS - a) / (b - a), (high - LESS - a) / (b - a)))
+        enters, leaves = max(enters, near), min(leaves, far)
+    return leaves - enters > 1e-9
+
+
+def check(figure: Figure, least: float = 18.0) -> None:
+    """Nothing overlaps, nothing leaves the canvas, all text can be read."""
+    texts = [mark for mark in figure.marks if isinstance(mark, Text)]
+    boxes = [mark for mark in figure.marks if isinstance(mark, Box)]
+    lines = [mark for mark in figure.marks if isinstance(mark, Line)]
+    for text in texts:
+        left, top, right, bottom = text.box()
+        assert text.size >= least and text.content, text
+        assert left >= 0.0 and top >= 0.0 and right <= figure.width and bottom <= figure.height, text
+    for box in boxes:
+        left, top, right, bottom = rectangle(box)
+        assert left >= 0.0 and top >= 0.0 and right <= figure.width and bottom <= figure.height, box
+    for a, b in itertools.combinations(texts, 2):
+        assert not overlap(a.box(), b.box()), (a, b)
+    for a, b in itertools.combinations(boxes, 2):
+        assert not overlap(rectangle(a), rectangle(b)), (a, b)
+    for text, box in itertools.product(texts, boxes):
+        if text.inside == box.name:
+            inner, outer = text.box(), rectangle(box)
+            assert outer[0] <= inner[0] and inner[2] <= outer[2], text
+        else:
+            assert not overlap(text.box(), rectangle(box)), (text, box)
+    for line in lines:
+        for piece in line.pieces():
+            for box in boxes:
+                assert not cuts(piece, rectangle(box)), (line, box)
+            for text in texts:
+                if line.name != text.name:
+                    assert not cuts(piece, text.box()), (line, text)

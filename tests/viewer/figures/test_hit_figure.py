@@ -1,0 +1,75 @@
+"""The hit in its plane of incidence: angles measure what they say, nothing overlaps."""
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import tracer
+from tests.conftest import LESSONS
+from tests.scenes import box, world_of
+from tests.viewer.figures.geometry import check
+from tracer.nodes import SHADOW
+from tracer.scene import Light, Material
+from viewer import lesson
+from viewer.figures.figure import Wishes, pages
+from viewer.figures.hitfigure import CENTER
+from viewer.figures.marks import Figure, Line, Text
+from viewer.figures.stage import by_depth
+
+
+def turn_of(figure: Figure, name: str, back: bool) -> float:
+    """The angle from the upright to a ray's line, by its ends; `back`: seen from where it comes."""
+    (line,) = (m for m in figure.marks if isinstance(m, Line) and m.name == name)
+    start, end = (line.end, line.start) if back else (line.start, line.end)
+    return math.atan2(end[0] - start[0], start[1] - end[1])
+
+
+def check_angles(tree: tracer.RayTree, node: int) -> None:
+    (figure,) = pages("hit", by_depth([tree]), Wishes(node=node))
+    check(figure)
+    row = tree.nodes[node]
+    close = 1e-12
+    assert turn_of(figure, f"ray-{node}", True) == pytest.approx(-row["theta1"], abs=close)
+    for child in tree.children[node]:
+        kind = tree.kind(child)
+        if kind == "refraction":
+            assert turn_of(figure, f"ray-{child}", False) == pytest.approx(math.pi - row["theta2"], abs=close)
+            d, n = tree.nodes["direction"][child], row["normal"]
+            assert math.acos(max(-1.0, min(1.0, -float(d @ n)))) == pytest.approx(row["theta2"], abs=1e-6)
+        elif kind != "shadow":
+            assert turn_of(figure, f"ray-{child}", False) == pytest.approx(row["theta1"], abs=close)
+    (normal,) = (m for m in figure.marks if isinstance(m, Line) and m.name == "normal" and m.end[1] < CENTER[1])
+    assert normal.end[0] == CENTER[0]
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(0.0, 89.5), st.floats(1.0, 2.5), st.booleans())
+def test_angles_are_true(degrees: float, ior: float, model: bool) -> None:
+    glass = Material("glass", reflect=0.1, transmit=0.9, ior=ior)
+    world = world_of(box((-99, -99, -2), (99, 99, 0), glass), lights=[Light("lamp", position=(0, 0, 9))])
+    a = math.radians(degrees)
+    start = (-math.sin(a), 0.0, math.cos(a))
+    ray = (start, (math.sin(a), 0.0, -math.cos(a)))
+    tree = tracer.trace(world, ray=ray, depth=2, model="fresnel" if model else "whitted")
+    for i in range(len(tree)):
+        if tree.object_name(i) and tree.nodes["kind"][i] != SHADOW:
+            check_angles(tree, i)
+
+
+def test_hits_of_the_lessons(worlds: dict[str, tracer.World]) -> None:
+    for name in LESSONS:
+        tree = tracer.trace(worlds[name], lesson.read(name).pixel, depth=3)
+        for i in range(len(tree)):
+            if tree.object_name(i) and tree.nodes["kind"][i] != SHADOW:
+                check_angles(tree, i)
+
+
+def test_formulas_carry_the_trees_own_numbers(worlds: dict[str, tracer.World]) -> None:
+    tree = tracer.trace(worlds["underwater"], lesson.read("underwater").pixel, depth=2)
+    (figure,) = pages("hit", by_depth([tree]), Wishes())
+    words = [m.content for m in figure.marks if isinstance(m, Text)]
+    assert f"{1.0 - tree.nodes['radicand'][0]:.5g} ≥ 1: total internal reflection" in words
+    assert "48.75°" in words  # the critical angle of water to air
+    assert "no T" in words

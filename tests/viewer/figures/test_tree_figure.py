@@ -1,0 +1,157 @@
+"""The tree as a figure: nothing overlaps, nothing moves from step to step, every ray is there or counted."""
+
+import re
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import tracer
+from tests.conftest import LESSONS
+from tests.viewer.figures.geometry import check
+from tests.viewer.test_layout import plates
+from tracer.nodes import SHADOW
+from tracer.tree import RayTree
+from viewer import lesson
+from viewer.figures.figure import Wishes, pages
+from viewer.figures.labels import ray_label
+from viewer.figures.marks import Box, Figure, Line, Text
+from viewer.figures.stage import by_colour, by_depth, by_ray
+from viewer.figures.treeplan import plan_tree
+from viewer.theme import DARK, LIGHT, MONO, Theme
+
+
+def hits(figure: Figure) -> dict[int, Box]:
+    return {int(m.name[4:]): m for m in figure.marks if isinstance(m, Box) and m.name.startswith("hit-")}
+
+
+def folded(figure: Figure) -> int:
+    """How many rays the figure says it has folded."""
+    return sum(int(m[1]) for t in figure.marks if isinstance(t, Text) and (m := re.fullmatch(r"\+(\d+) rays?", t.content)))
+
+
+def check_whole(figure: Figure, tree: RayTree) -> None:
+    """Each ray of the tree is drawn, with its label, or counted in a folded branch."""
+    check(figure)
+    drawn = {int(m.name[4:]) for m in figure.marks if isinstance(m, Line) and m.name.startswith("ray-")}
+    assert len(drawn) + folded(figure) == len(tree)
+    words = [m.content for m in figure.marks if isinstance(m, Text)]
+    for i in drawn:
+        assert sum(re.match(rf"{ray_label(tree, i)}\b", text) is not None for text in words) == 1, i
+    assert set(hits(figure)) == {i for i in drawn if tree.nodes["kind"][i] != SHADOW}
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(1, 4), st.integers(0, 7), st.integers(0, 4), st.booleans(), st.sampled_from((18.0, 24.0)))
+def test_random_trees(count: int, depth: int, lights: int, swatches: bool, size: float) -> None:
+    """From one ray to five hundred."""
+    tree = plates(count, depth, lights)
+    (figure,) = pages("tree", by_depth([tree]), Wishes(swatches=swatches, text_size=size))
+    check_whole(figure, tree)
+
+
+@pytest.mark.parametrize("theme", (LIGHT, DARK, MONO))
+def test_trees_of_the_lessons_grow_and_nothing_moves(worlds: dict[str, tracer.World], theme: Theme) -> None:
+    for name in LESSONS:
+        trees = [tracer.trace(worlds[name], lesson.read(name).pixel, depth=d) for d in range(4)]
+        figures = pages("tree", by_depth(trees), Wishes(theme, swatches=True))
+        last = places(figures[-1])
+        for figure, tree in zip(figures, trees, strict=True):
+            check_whole(figure, tree)
+            for what, place in places(figure).items():
+                assert last[what] == place, what
+
+
+def places(figure: Figure) -> dict[tuple, tuple]:
+    """Where hits, folded branches and rays stand; their labels too."""
+    found: dict[tuple, tuple] = {}
+    for mark in figure.marks:
+        if mark.name.startswith(("hit-", "ray-", "fold-")):
+            match mark:
+                case Box():
+                    found[mark.name, "box"] = (mark.center, mark.size)
+                case Line() if mark.leaves:
+                    found[mark.name, "line"] = (mark.start, mark.end, mark.hole)
+                case Text() if mark.name.startswith("ray-"):
+                    found[mark.name, "label"] = (mark.at, mark.content)
+    return found
+
+
+def test_steps_by_ray_and_by_colour_keep_all_places(worlds: dict[str, tracer.World]) -> None:
+    tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=3)
+    (whole,) = pages("tree", by_depth([tree]), Wishes(swatches=True))
+    for stages in (by_ray(tree), by_colour(tree)):
+        figures = pages("tree", stages, Wishes(swatches=True))
+        for figure in figures:
+            check(figure)
+            assert places(figure).items() <= places(whole).items()
+        assert places(figures[-1]) == places(whole)
+    shown = [len({m.name for m in f.marks if m.name.startswith("ray-")}) for f in pages("tree", by_ray(tree), Wishes())]
+    assert shown == list(range(1, len(tree) + 1))
+
+
+def test_colour_flows_back_from_the_leaves(worlds: dict[str, tracer.World]) -> None:
+    """A hit's colour is shown on the page on which it is summed, and that is after those of the hits below it."""
+    tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=3)
+    stages = by_colour(tree)
+    known: set[int] = set()
+    for stage in stages:
+        for i in stage.summed - known:
+            below = {c for c in tree.children[i] if tree.nodes["kind"][c] != SHADOW}
+            assert below <= known
+        known |= stage.summed
+    assert known == {i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW}
+
+
+def test_same_subtree_looks_the_same() -> None:
+    """In a pile of plates subtrees repeat: boxes and edges of equal ones differ by a shift only."""
+    tree = plates(1, 3, 0)
+    plan = plan_tree([tree], 18.0)
+    kinds = tree.nodes["kind"]
+
+    def form(i: int) -> tuple:
+        rays = [c for c in tree.children[i] if kinds[c] != SHADOW]
+        return tuple((int(kinds[c]), tree.end(c), form(c)) for c in rays)
+
+    def shape(i: int) -> list[tuple[float, float]]:
+        x, y = plan.at[i]
+        found = [(0.0, 0.0)]
+        for c in tree.children[i]:
+            (cx, cy) = plan.at[c]
+            found += [(round(cx - x + dx, 6), round(cy - y + dy, 6)) for dx, dy in shape(c)]
+        return found
+
+    seen: dict[tuple, list] = {}
+    for i in plan.rows:
+        assert seen.setdefault(form(i), shape(i)) == shape(i)
+    assert len(seen) < len(plan.rows)
+
+
+def test_light_branches_are_folded_on_wish() -> None:
+    """What weighs less than asked is in folds, and a fold says how much it weighs."""
+    tree = plates(2, 4, 1)
+    (figure,) = pages("tree", by_depth([tree]), Wishes(fold=0.1))
+    check_whole(figure, tree)
+    weights = tree.nodes["weight"].max(axis=1)
+    assert all(weights[i] >= 0.1 for i in hits(figure))
+    plan = plan_tree([tree], 18.0, fold=0.1)
+    for fold in plan.folds.values():
+        assert fold.weight == pytest.approx(sum(weights[i] for i in fold.roots), rel=1e-12)
+
+
+def test_total_internal_reflection_has_a_stub_with_a_bar(worlds: dict[str, tracer.World]) -> None:
+    tree = tracer.trace(worlds["underwater"], lesson.read("underwater").pixel, depth=3)
+    assert tree.kind(int(tree.children[0][-1])) == "tir"
+    (figure,) = pages("tree", by_depth([tree]), Wishes())
+    assert [m.content for m in figure.marks if m.name == "bar-0" and isinstance(m, Text)] == ["no T"]
+    assert sum(isinstance(m, Line) for m in figure.marks if m.name == "bar-0") == 2
+
+
+def test_mono_has_no_colour(worlds: dict[str, tracer.World]) -> None:
+    tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=3)
+    for name in ("tree", "hit"):
+        (figure,) = pages(name, by_depth([tree]), Wishes(MONO, swatches=True))
+        for mark in figure.marks:
+            inks = [getattr(mark, "fill", None), getattr(mark, "color", None)]
+            inks += [mark.stroke.color] if getattr(mark, "stroke", None) else []
+            assert all(ink[0] == ink[1] == ink[2] for ink in inks if ink), mark
