@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 import tracer
 from tests.conftest import LESSONS
 from tests.viewer.figures.geometry import check
+from tests.viewer.figures.random_tree import random_tree
 from tests.viewer.test_layout import plates
 from tracer.nodes import SHADOW
 from tracer.tree import RayTree
@@ -27,12 +28,14 @@ def hits(figure: Figure) -> dict[int, Box]:
 
 def folded(figure: Figure) -> int:
     """How many rays the figure says it has folded."""
-    return sum(int(m[1]) for t in figure.marks if isinstance(t, Text) and (m := re.fullmatch(r"\+(\d+) rays?", t.content)))
+    return sum(
+        int(m[1]) for t in figure.marks if isinstance(t, Text) and (m := re.fullmatch(r"\+(\d+) rays?", t.content))
+    )
 
 
-def check_whole(figure: Figure, tree: RayTree) -> None:
+def check_whole(figure: Figure, tree: RayTree, size: float = 18.0) -> None:
     """Each ray of the tree is drawn, with its label, or counted in a folded branch."""
-    check(figure)
+    check(figure, size)
     drawn = {int(m.name[4:]) for m in figure.marks if isinstance(m, Line) and m.name.startswith("ray-")}
     assert len(drawn) + folded(figure) == len(tree)
     words = [m.content for m in figure.marks if isinstance(m, Text)]
@@ -41,13 +44,25 @@ def check_whole(figure: Figure, tree: RayTree) -> None:
     assert set(hits(figure)) == {i for i in drawn if tree.nodes["kind"][i] != SHADOW}
 
 
-@settings(max_examples=40, deadline=None)
-@given(st.integers(1, 4), st.integers(0, 7), st.integers(0, 4), st.booleans(), st.sampled_from((18.0, 24.0)))
-def test_random_trees(count: int, depth: int, lights: int, swatches: bool, size: float) -> None:
-    """From one ray to five hundred."""
-    tree = plates(count, depth, lights)
+@settings(max_examples=150, deadline=None)
+@given(
+    st.integers(0, 2**32), st.integers(1, 300), st.integers(0, 4), st.integers(0, 7), st.booleans(),
+    st.sampled_from((6.0, 9.0, 18.0, 24.0)),
+)  # fmt: skip
+def test_random_trees(seed: int, most: int, lights: int, depth: int, swatches: bool, size: float) -> None:
+    """From one ray to five hundred, lopsided ones too; small text shows many rays, large text folds."""
+    tree = random_tree(seed, most, lights, depth)
     (figure,) = pages("tree", by_depth([tree]), Wishes(swatches=swatches, text_size=size))
-    check_whole(figure, tree)
+    check_whole(figure, tree, size)
+
+
+@pytest.mark.parametrize("lights", (0, 2))
+def test_a_tree_of_five_hundred_rays(lights: int) -> None:
+    tree = max((random_tree(seed, 500, lights, 9) for seed in range(40)), key=len)
+    assert len(tree) >= 500
+    for size in (4.0, 18.0):
+        (figure,) = pages("tree", by_depth([tree]), Wishes(text_size=size))
+        check_whole(figure, tree, size)
 
 
 @pytest.mark.parametrize("theme", (LIGHT, DARK, MONO))
