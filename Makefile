@@ -7,7 +7,8 @@ BIN := .venv/bin
 
 # What tests use besides Python: a screen without a monitor, a hand for its mouse, a window manager, OpenGL in software,
 # and POV-Ray as the independent program that images are held against. PROGRAM:PACKAGE, and libraries.
-PROGRAMS := Xvfb:xvfb xdotool:xdotool openbox:openbox povray:povray setpriv:util-linux
+PROGRAMS := Xvfb:xvfb xdotool:xdotool openbox:openbox povray:povray setpriv:util-linux rsvg-convert:librsvg2-bin \
+	pdftotext:poppler-utils
 LIBRARIES := libEGL.so.1:libegl1 libGL.so.1:libgl1 swrast_dri.so:libgl1-mesa-dri
 
 .PHONY: run test check bench bench-quick bench-stable picture clean

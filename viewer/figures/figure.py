@@ -67,7 +67,8 @@ def description(tree: RayTree) -> str:
     kinds = [tree.kind(i) for i in range(len(tree))]
     counts = [(kinds.count(kind), words) for kind, words in KINDS]
     made_of = ", ".join(f"{count} {words}" for count, words in counts if count)
-    return f"{len(tree)} rays: {made_of}. The pixel's colour is {triple(tree.radiance)} (linear r g b)."
+    rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
+    return f"{rays}: {made_of}. The pixel's colour is {triple(tree.radiance)} (linear r g b)."
 
 
 KINDS = (

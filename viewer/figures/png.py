@@ -13,12 +13,14 @@ def write_png(figure: Figure, width: int = PIXELS) -> bytes:
     import pypdfium2
     from PIL.PngImagePlugin import PngInfo
 
-    document = pypdfium2.PdfDocument(write_pdf([figure]))
     scale: Any = width / figure.width  # its type says int, its documentation float
-    page = document[0].render(scale=scale, fill_color=(0, 0, 0, 0), rev_byteorder=True)
+    with pypdfium2.PdfDocument(write_pdf([figure])) as document:
+        bitmap = document[0].render(scale=scale, fill_color=(0, 0, 0, 0), rev_byteorder=True)
+        picture = bitmap.to_pil().copy()
+        bitmap.close()
     info = PngInfo()
     for key, value in (("Title", figure.title), ("Description", figure.description), ("Source", figure.command)):
         info.add_itxt(key, value)
     buffer = io.BytesIO()
-    page.to_pil().save(buffer, "PNG", pnginfo=info)
+    picture.save(buffer, "PNG", pnginfo=info)
     return buffer.getvalue()

@@ -13,9 +13,10 @@ from viewer.theme import Color
 SIGNS = {
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#", "%": r"\%", "_": r"\_",
     "^": r"\textasciicircum{}", "~": r"\textasciitilde{}", "×": r"\(\times\)", "−": r"\(-\)", "·": r"\(\cdot\)",
-    "→": r"\(\to\)", "θ": r"\(\theta\)", "²": r"\textsuperscript{2}", "°": r"\textdegree{}", "≥": r"\(\geq\)",
-    "≤": r"\(\leq\)", "√": r"\(\surd\)", "₁": r"\textsubscript{1}", "₂": r"\textsubscript{2}", "…": r"\ldots{}",
-    "–": "--", "≈": r"\(\approx\)", "∞": r"\(\infty\)",
+    "→": r"\(\to\)", "θ": r"\(\theta\)", "η": r"\(\eta\)", "Σ": r"\(\Sigma\)", "√": r"\(\surd\)", "≥": r"\(\geq\)",
+    "≤": r"\(\leq\)", "≈": r"\(\approx\)", "∞": r"\(\infty\)", "₁": r"\textsubscript{1}", "₂": r"\textsubscript{2}",
+    "ₛ": r"\textsubscript{s}", "ₚ": r"\textsubscript{p}", "²": r"\textsuperscript{2}", "ᵖ": r"\textsuperscript{p}",
+    "°": r"\textdegree{}", "…": r"\ldots{}", "–": "--",
 }  # fmt: skip
 
 

@@ -27,13 +27,13 @@ GAP = 0.7  # between two boxes, at least
 SPREAD = 1.6  # how much farther apart they stand where there is room
 SIGN = 0.95  # the width of a sign at a stub's end; its label follows
 SLOT = 0.4  # between two stubs' labels
-STUB = 1.2  # from a box to the sign at a stub's end
+STUB = 1.1  # from a box to the sign at a stub's end
 NOTE = 1.2  # from there to the middle of a leaf's note
 EDGE_LABEL = 1.1  # from a box up to the middle of its ray's label
 EYE = 0.75  # from the upper rim to the eye
 FIRST = 4.8  # from the eye to the first hit
 LINE = 1.3  # from line to line
-PITCH, TALLEST = 6.25, 8.0  # from level to level, at least and at most
+PITCH, TALLEST = 4.85, 8.0  # from level to level, at least and at most
 
 NO_RAY = "no T"  # what total internal reflection leaves of the refracted ray
 LONGEST = 14  # characters of a name; longer ones are cut

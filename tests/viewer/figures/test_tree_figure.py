@@ -168,5 +168,6 @@ def test_mono_has_no_colour(worlds: dict[str, tracer.World]) -> None:
         (figure,) = pages(name, by_depth([tree]), Wishes(MONO, swatches=True))
         for mark in figure.marks:
             inks = [getattr(mark, "fill", None), getattr(mark, "color", None)]
-            inks += [mark.stroke.color] if getattr(mark, "stroke", None) else []
+            stroke = getattr(mark, "stroke", None)
+            inks += [stroke.color] if stroke else []
             assert all(ink[0] == ink[1] == ink[2] for ink in inks if ink), mark

@@ -1,0 +1,100 @@
+"""`raytree export`: names of files, faults in one line, nothing half-written."""
+
+from pathlib import Path
+
+import pytest
+
+from viewer import cli
+
+
+def names(folder: Path) -> set[str]:
+    return {path.name for path in folder.iterdir()}
+
+
+def test_names_in_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = f"{tmp_path}/figures/"
+    assert cli.main(["export", "glass-ball", "--depth", "0..3", "--format", "svg,pdf,json", "-o", out]) == 0
+    stem = "glass-ball_248_180"
+    expected = {f"{stem}_tree_d{d}.svg" for d in range(4)} | {f"{stem}_d{d}.json" for d in range(4)}
+    assert names(tmp_path / "figures") == expected | {f"{stem}_tree_d0-3.pdf"}
+    assert {Path(line).name for line in capsys.readouterr().out.splitlines()} == names(tmp_path / "figures")
+
+
+def test_names_of_steps(tmp_path: Path) -> None:
+    for step, count in (("rays", 6), ("colour", 3)):
+        folder = tmp_path / step
+        arguments = ["--depth", "1", "--step", step, "--format", "svg,pptx,text", "-o", f"{folder}/"]
+        assert cli.main(["export", "mirror-balls", "--pixel", "370,272", *arguments]) == 0
+        stem = "mirror-balls_370_272"
+        first = {"rays": "r", "colour": "c"}[step]
+        assert names(folder) == {
+            *(f"{stem}_tree_d1_{first}{k}.svg" for k in range(count)),
+            f"{stem}_tree_d1_{step}.pptx",
+            f"{stem}_d1.txt",
+        }
+
+
+def test_a_ray_by_hand(tmp_path: Path) -> None:
+    out = tmp_path / "a.svg"
+    assert cli.main(["export", "glass-ball", "--ray", "0,1,6,0,0,-1", "-o", str(out)]) == 0
+    assert "--ray 0.0,1.0,6.0,0.0,0.0,-1.0" in out.read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    (
+        (["-o", "{}/a.xyz"], "{}/a.xyz: must end with one of .svg, .pdf, .png, .tex, .pptx, .dot, .csv, .json, .txt"),
+        (
+            ["-o", "{}/a.svg", "--format", "pdf"],
+            "{}/a.svg: is svg, but --format asks for pdf: name a folder, or one format",
+        ),
+        (["-o", "{}/a.svg", "--depth", "0..3"], "{}/a.svg: 4 pages need a folder, or one of PDF and PPTX"),
+        (["-o", "{}/none/a.svg"], "{}/none/a.svg: folder not found: {}/none"),
+        (["-o", "{}/none/b/"], "{}/none/b: folder not found: {}/none"),
+        (["-o", "{}/file/", "--format", "svg"], "{}/file: must be a folder, got a file"),
+        (["-o", "{}/b", "--format", "svg"], 'raytree export: a folder\'s name ends with "/": -o {}/b/'),
+        (
+            ["-o", "{}/a.svg", "--figure", "hit", "--node", "1"],
+            "raytree: --node 1 must be a ray that meets a surface: 0, 4, 7, 8, 13, 14",
+        ),
+        (
+            ["-o", "{}/a.svg", "--pixel", "9999,0"],
+            "raytree: pixel must be within 0,0 .. 799,599, got 9999,0",
+        ),
+    ),
+)
+def test_faults_are_one_line(
+    arguments: list[str], line: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").write_text("")
+    before = names(tmp_path)
+    assert cli.main(["export", "glass-ball", *(text.format(tmp_path) for text in arguments)]) == 2
+    assert capsys.readouterr().err.strip().splitlines()[-1] == line.format(*[tmp_path] * 2)
+    assert names(tmp_path) == before
+
+
+def test_a_scene_needs_a_pixel(tmp_path: Path, capsys: pytest.CaptureFixture[str], scene_file) -> None:
+    scene = scene_file('format = 1\n[[object]]\nshape = "sphere"\ncenter = [0, 0, 0]\nradius = 1\n')
+    assert cli.main(["export", str(scene), "-o", str(tmp_path / "a.svg")]) == 2
+    assert "which pixel?" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("depth", ("3..1", "a", "0..", "-1"))
+def test_bad_depths(depth: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as leaving:
+        cli.main(["export", "glass-ball", "--depth", depth, "-o", str(tmp_path / "a.svg")])
+    assert leaving.value.code == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_without_the_extra_pptx_is_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import sys
+
+    monkeypatch.setitem(sys.modules, "pptx", None)
+    assert cli.main(["export", "glass-ball", "-o", str(tmp_path / "a.pptx")]) == 2
+    assert capsys.readouterr().err.strip() == (
+        "raytree export: PPTX needs the extra raytree[pptx]: pip install 'raytree[pptx]'"
+    )
+    assert names(tmp_path) == set()
