@@ -11,15 +11,16 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import NoReturn
 
+from viewer.arguments import at_least, depths, listed, pair, six, text_size, view_from, weight
 from viewer.interrupt import Interrupted, interruptible
 
 COMMANDS = ("view", "trace", "render", "export", "plan", "check", "lessons")
 FORMATS = ("text", "json", "csv", "dot")
-FIGURES = ("tree", "hit")
+FIGURES = ("tree", "scene", "both", "hit")
 FILES = ("svg", "pdf", "png", "tikz", "pptx", "dot", "csv", "json", "text")
 
 # Options whose value may begin with a minus sign, which argparse would take for another option.
-NUMERIC = ("--ray", "--pixel", "--size")
+NUMERIC = ("--ray", "--pixel", "--size", "--view")
 
 
 class Parser(argparse.ArgumentParser):
@@ -121,6 +122,12 @@ def make_parser() -> Parser:
     )
     where.add_argument("--ray", type=six, metavar="ox,oy,oz,dx,dy,dz", help="origin and direction of a ray")
     export.add_argument("--figure", choices=FIGURES, default="tree", help="tree by default")
+    export.add_argument(
+        "--view",
+        type=view_from,
+        metavar="A,E,D[,X,Y,Z]",
+        help="scene: azimuth, elevation, distance, target",
+    )
     export.add_argument("--node", type=at_least(0), default=0, metavar="N", help="hit: of this ray; the first")
     export.add_argument("--depth", type=depths, metavar="D|A..B", help="recursion depth, or a page a depth: 0..3")
     export.add_argument(
@@ -201,80 +208,3 @@ def _joined(arguments: list[str]) -> list[str]:
         else:
             joined.append(argument)
     return joined
-
-
-def pair(separator: str):
-    """Reader of two whole numbers, as in 320,240 or 640x480."""
-
-    def read(text: str) -> tuple[int, int]:
-        parts = text.lower().split(separator)
-        if len(parts) != 2 or not all(re.fullmatch(r"\s*-?\d+\s*", part) for part in parts):
-            raise argparse.ArgumentTypeError(f'two whole numbers like 320{separator}240, got "{text}"')
-        first, second = int(parts[0]), int(parts[1])
-        if separator == "x" and not (1 <= first <= 16384 and 1 <= second <= 16384):
-            raise argparse.ArgumentTypeError(f'a size from 1x1 to 16384x16384, got "{text}"')
-        return first, second
-
-    return read
-
-
-def six(text: str) -> tuple[float, ...]:
-    """A ray's origin and direction."""
-    try:
-        numbers = tuple(float(part) for part in text.split(","))
-    except ValueError:
-        numbers = ()
-    if len(numbers) != 6:
-        raise argparse.ArgumentTypeError(f'six numbers ox,oy,oz,dx,dy,dz, got "{text}"')
-    return numbers
-
-
-def at_least(least: int):
-    def read(text: str) -> int:
-        if not re.fullmatch(r"-?\d+", text) or int(text) < least:
-            raise argparse.ArgumentTypeError(f'a whole number >= {least}, got "{text}"')
-        return int(text)
-
-    return read
-
-
-def depths(text: str) -> range:
-    """3 or 0..3, both ends included."""
-    found = re.fullmatch(r"(\d+)(?:\.\.(\d+))?", text)
-    first, last = (int(found[1]), int(found[2] or found[1])) if found else (1, 0)
-    if first > last:
-        raise argparse.ArgumentTypeError(f'a depth like 3, or several like 0..3, got "{text}"')
-    return range(first, last + 1)
-
-
-def listed(names: Sequence[str]):
-    """Reader of some of these names, with commas between."""
-
-    def read(text: str) -> list[str]:
-        chosen = list(dict.fromkeys(part.strip() for part in text.split(",")))
-        for name in chosen:
-            if name not in names:
-                raise argparse.ArgumentTypeError(f'any of {",".join(names)}, got "{name}"')
-        return chosen
-
-    return read
-
-
-def text_size(text: str) -> float:
-    try:
-        size = float(text)
-    except ValueError:
-        size = 0.0
-    if not 4.0 <= size <= 72.0:
-        raise argparse.ArgumentTypeError(f'points from 4 to 72, got "{text}"')
-    return size
-
-
-def weight(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = -1.0
-    if not 0.0 <= number < float("inf"):
-        raise argparse.ArgumentTypeError(f'a number >= 0, got "{text}"')
-    return number

@@ -8,12 +8,13 @@ from pathlib import Path
 import tracer
 from tracer.world import World
 from viewer.commands import compile_once, faults, find, prepared
-from viewer.figures.figure import TEXT_SIZE, Wishes, pages
+from viewer.figures.figure import TEXT_SIZE, Subject, Wishes, pages
 from viewer.figures.formats import FORMATS, Format, format_of
 from viewer.figures.png import PIXELS
 from viewer.figures.stage import Stage, by_colour, by_depth, by_ray
 from viewer.files import Unusable, check_writable, write_atomically
-from viewer.lesson import Lesson
+from viewer.lesson import Lesson, LessonView
+from viewer.orbit import Frame, Orbit, home
 from viewer.progress import Progress
 from viewer.theme import THEMES
 
@@ -45,10 +46,19 @@ def export(options: Namespace) -> int:
         stages = steps(world, options, depths)
     check_pages(target, formats, stages)
     with faults():
-        written = write(target, formats, stages, options, lesson, depths)
+        subject = Subject(stages, world, view_of(options.view, world, lesson))
+        written = write(target, formats, subject, options, lesson, depths)
     for file in written:
         print(file)
     return 0
+
+
+def view_of(numbers: tuple[float, ...] | None, world: World, lesson: Lesson | None) -> Orbit:
+    """From where the scene is seen: azimuth, elevation, distance and target as asked, else as the viewer begins."""
+    frame = Frame.of(world)
+    if numbers is None:
+        return home(world, frame, lesson.view if lesson else None)
+    return home(world, frame, LessonView(*numbers[:3], numbers[3:] or None))  # type: ignore[arg-type]
 
 
 def steps(world: World, options: Namespace, depths: Depths) -> list[Stage]:
@@ -91,9 +101,10 @@ def check_pages(target: Target, formats: list[str], stages: list[Stage]) -> None
 
 
 def write(
-    target: Target, formats: list[str], stages: list[Stage], options: Namespace, lesson: Lesson | None, depths: Depths
+    target: Target, formats: list[str], subject: Subject, options: Namespace, lesson: Lesson | None, depths: Depths
 ) -> list[Path]:
     """All files; those that are written."""
+    stages = list(subject.stages)
     theme = THEMES[options.theme]
     wishes = Wishes(theme, options.text_size, options.swatches, options.fold, options.ground, options.node)
     stem = stem_of(options, lesson)
@@ -102,7 +113,7 @@ def write(
     with Progress("export") as progress:
         for name in formats:
             kind = FORMATS[name]
-            figures = pages(options.figure, stages, wishes, command(options, name)) if kind.write else []
+            figures = pages(options.figure, subject, wishes, command(options, name)) if kind.write else []
             for k, group in enumerate(grouped(kind, stages)):
                 progress(len(files) / (len(formats) * len(stages)))
                 mark = mark_of(group, stages, options.step, depths)
@@ -156,6 +167,8 @@ def command(options: Namespace, format_name: str) -> str:
     if options.depth:
         first, last = options.depth[0], options.depth[-1]
         words += ["--depth", str(first) if first == last else f"{first}..{last}"]
+    if options.view:
+        words += ["--view", ",".join(repr(x) for x in options.view)]
     if options.step != "depth":
         words += ["--step", options.step]
     if options.model:

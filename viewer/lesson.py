@@ -23,6 +23,7 @@ from typing import Any
 
 from tracer import fields
 from viewer.files import Unusable
+from viewer.orbit import AZIMUTH, DISTANCE, ELEVATION
 
 MARK = "+++"
 
@@ -31,9 +32,9 @@ MARK = "+++"
 class LessonView:
     """From where the 3D scene is seen at first."""
 
-    azimuth: float = field(default=38.0, metadata=fields.number())  # degrees from the camera's own side
-    elevation: float = field(default=22.0, metadata=fields.number(above=-90, below=90))  # degrees
-    distance: float = field(default=2.6, metadata=fields.number(above=0))  # in radii of the scene
+    azimuth: float = field(default=AZIMUTH, metadata=fields.number())  # degrees from the camera's own side
+    elevation: float = field(default=ELEVATION, metadata=fields.number(above=-90, below=90))  # degrees
+    distance: float = field(default=DISTANCE, metadata=fields.number(above=0))  # in radii of the scene
     target: tuple[float, float, float] | None = field(default=None, metadata=fields.point())  # None: its middle
 
 

@@ -6,6 +6,7 @@ a scene of light years and one of nanometres, and 32-bit floats have the digits 
 
 import math
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
 
@@ -19,6 +20,7 @@ FOV = math.radians(35)
 CLOSEST, FARTHEST = 0.02, 60.0  # distance to the target
 STEEPEST = math.radians(89)
 MARGIN = 0.04  # of the picture, that stays free about what is taken in
+AZIMUTH, ELEVATION, DISTANCE = 38.0, 22.0, 2.6  # of a view that nobody has chosen: degrees, radii of the scene
 NEAR_SHARE = 1 / 400  # of the distance: the near plane
 
 
@@ -144,6 +146,34 @@ class Orbit:
         lens[2, 2], lens[2, 3] = (far + near) / (near - far), 2 * far * near / (near - far)
         lens[3, 2] = -1.0
         return lens @ look
+
+
+class Chosen(Protocol):
+    """A view that an author chose: degrees, distance in radii of the scene, target in the world or its middle."""
+
+    @property
+    def azimuth(self) -> float: ...
+    @property
+    def elevation(self) -> float: ...
+    @property
+    def distance(self) -> float: ...
+    @property
+    def target(self) -> tuple[float, float, float] | None: ...
+
+
+def home(world: World, frame: Frame, chosen: Chosen | None) -> Orbit:
+    """From where a scene is seen at first: as chosen, or beside its camera with both in the picture."""
+    camera, up = world.view(), world.scene.camera.up
+    if chosen:
+        orbit = Orbit.beside(camera, up, chosen.azimuth, chosen.elevation, chosen.distance)
+        if chosen.target:
+            orbit.target = frame.inside(chosen.target)
+        return orbit
+    orbit = Orbit.beside(camera, up, AZIMUTH, ELEVATION, DISTANCE)
+    eye = frame.inside(camera.eye)
+    orbit.target = 0.35 * eye
+    orbit.take_in(np.stack([eye, np.zeros(3)]))
+    return orbit
 
 
 def project(points: np.ndarray, matrix: np.ndarray, size: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:

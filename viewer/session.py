@@ -11,9 +11,9 @@ import tracer
 from tracer.limits import MODELS, make_limits
 from tracer.tree import RayTree
 from tracer.world import World
-from viewer.lesson import Lesson, LessonView
+from viewer.lesson import Lesson
 from viewer.looks import Look, Notice, Shown
-from viewer.orbit import Frame, Orbit
+from viewer.orbit import Frame, Orbit, home
 from viewer.progressive import Picture, Progressive
 from viewer.theme import DARK, LECTURE_ZOOM, LIGHT, Theme
 from viewer.warmup import Warmup
@@ -257,16 +257,7 @@ class Session:
         """The 3D view as the lesson or the scene begins."""
         if not self.world:
             return
-        view = self.lesson.view if self.lesson else LessonView()
-        up = self.world.scene.camera.up
-        camera = self.world.view()
-        self.orbit = Orbit.beside(camera, up, view.azimuth, view.elevation, view.distance)
-        if view.target:
-            self.orbit.target = self.frame.inside(view.target)
-        if not self.lesson:  # nobody has chosen a view: the scene's middle and its camera are to be seen
-            eye = self.frame.inside(camera.eye)
-            self.orbit.target = 0.35 * eye
-            self.orbit.take_in(np.stack([eye, np.zeros(3)]))
+        self.orbit = home(self.world, self.frame, self.lesson.view if self.lesson else None)
 
     def through_camera(self) -> None:
         """Look at the scene from where its own camera stands."""

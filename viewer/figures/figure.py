@@ -1,18 +1,28 @@
 """From trees to pages: which figures there are, and the pages of one. A new figure: its marks in a file of its own, a
 line in FIGURES."""
 
+from __future__ import annotations
+
+import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from tracer.outline import triple
 from tracer.tree import RayTree
+from tracer.world import World
 from viewer.figures.hitfigure import check_node, hit_marks
-from viewer.figures.marks import Figure, Mark
+from viewer.figures.marks import HEIGHT, WIDTH, Figure, Mark, Rectangle
 from viewer.figures.stage import Stage
 from viewer.figures.treefigure import tree_marks
 from viewer.figures.treeplan import plan_tree
+from viewer.orbit import Orbit
 from viewer.theme import LIGHT, Theme
 
+if TYPE_CHECKING:
+    from viewer.figures.scenefigure import SceneView
+
+DIVIDE = 0.46 * WIDTH  # where the scene ends and the tree begins
 TEXT_SIZE = 18.0  # points: what the last row reads where the figure fills a slide
 
 
@@ -28,31 +38,69 @@ class Wishes:
     node: int = 0  # which hit, where the figure shows one
 
 
-def tree_pages(stages: Sequence[Stage], wishes: Wishes) -> list[list[Mark]]:
-    plan = plan_tree([stage.tree for stage in stages], wishes.text_size, wishes.swatches, wishes.fold)
-    return [tree_marks(plan, stage, wishes.theme) for stage in stages]
+@dataclass(frozen=True)
+class Subject:
+    """What a figure is of: the stages of one tree, the fullest last, and where the scene is to be seen the scene."""
+
+    stages: Sequence[Stage]
+    world: World | None = None
+    orbit: Orbit | None = None  # from where the scene is seen
+
+    def view(self, where: Rectangle) -> SceneView:
+        from viewer.figures.scenefigure import SceneView
+
+        if self.world is None or self.orbit is None:
+            raise ValueError("a figure of the scene needs the scene and from where it is seen")
+        wide = (where[2] - where[0]) / (where[3] - where[1])
+        back = max(1.0, math.sqrt(WIDTH / HEIGHT / wide))  # a narrow picture shows less: from a little farther away
+        return SceneView(self.world, replace(self.orbit, distance=back * self.orbit.distance), where)
 
 
-def hit_pages(stages: Sequence[Stage], wishes: Wishes) -> list[list[Mark]]:
+Pages = list[list[Mark]]
+
+
+def tree_pages(subject: Subject, wishes: Wishes, where: tuple[float, float] = (0.0, WIDTH)) -> Pages:
+    trees = [stage.tree for stage in subject.stages]
+    plan = plan_tree(trees, wishes.text_size, wishes.swatches, wishes.fold, where)
+    return [tree_marks(plan, stage, wishes.theme) for stage in subject.stages]
+
+
+def scene_pages(subject: Subject, wishes: Wishes, where: Rectangle = (0.0, 0.0, WIDTH, HEIGHT)) -> Pages:
+    from viewer.figures.scenefigure import scene_marks
+
+    view = subject.view(where)
+    return [scene_marks(view, stage, wishes.text_size, wishes.theme) for stage in subject.stages]
+
+
+def both_pages(subject: Subject, wishes: Wishes) -> Pages:
+    """Whitted's two panels: the scene, and beside it the tree with the same labels."""
+    scenes = scene_pages(subject, wishes, (0.0, 0.0, DIVIDE - 4.0, HEIGHT))
+    trees = tree_pages(subject, wishes, (DIVIDE + 4.0, WIDTH))
+    return [[*scene, *tree] for scene, tree in zip(scenes, trees, strict=True)]
+
+
+def hit_pages(subject: Subject, wishes: Wishes) -> Pages:
     """Empty before the hit is there."""
-    check_node(stages[-1].tree, wishes.node)
+    check_node(subject.stages[-1].tree, wishes.node)
     return [
         hit_marks(stage, wishes.node, wishes.text_size, wishes.theme) if wishes.node in stage.rows else []
-        for stage in stages
+        for stage in subject.stages
     ]
 
 
-FIGURES: dict[str, Callable[[Sequence[Stage], Wishes], list[list[Mark]]]] = {
+FIGURES: dict[str, Callable[[Subject, Wishes], Pages]] = {
     "tree": tree_pages,
+    "scene": scene_pages,
+    "both": both_pages,
     "hit": hit_pages,
 }
 
 
-def pages(name: str, stages: Sequence[Stage], wishes: Wishes, command: str = "") -> list[Figure]:
-    """The figure of that name, a page a stage; the last stage is the fullest."""
+def pages(name: str, subject: Subject, wishes: Wishes, command: str = "") -> list[Figure]:
+    """The figure of that name, a page a stage."""
     return [
         Figure(title(stage.tree), description(stage.tree), command, tuple(marks), wishes.theme.ground, wishes.ground)
-        for stage, marks in zip(stages, FIGURES[name](stages, wishes), strict=True)
+        for stage, marks in zip(subject.stages, FIGURES[name](subject, wishes), strict=True)
     ]
 
 

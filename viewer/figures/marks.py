@@ -57,6 +57,7 @@ class Shape(Mark):
     fill: Color | None
     stroke: Stroke | None
     closed: bool = True
+    holes: tuple[tuple[Point, ...], ...] = ()
 
 
 @dataclass(frozen=True)

@@ -51,6 +51,9 @@ class _Page:
                 self._box(mark)
             case Disc():
                 self._disc(mark)
+            case Shape() if mark.holes:
+                rings = [self._ring(ring, True) for ring in (mark.corners, *mark.holes)]
+                self._paint([move for ring in rings for move in ring], mark.fill, mark.stroke, "*")
             case Shape():
                 self.path(mark.corners, mark.closed, mark.fill, mark.stroke)
             case Line():
@@ -67,10 +70,13 @@ class _Page:
                 raise TypeError(f"no PDF for {type(mark).__name__}")
 
     def path(self, corners: Sequence[Point], closed: bool, fill: Color | None, stroke: Stroke | None) -> None:
-        moves = [f"{self._point(corner)} {'l' if k else 'm'}" for k, corner in enumerate(corners)]
-        self._paint([*moves, *(["h"] if closed else [])], fill, stroke)
+        self._paint(self._ring(corners, closed), fill, stroke)
 
-    def _paint(self, moves: list[str], fill: Color | None, stroke: Stroke | None) -> None:
+    def _ring(self, corners: Sequence[Point], closed: bool) -> list[str]:
+        moves = [f"{self._point(corner)} {'l' if k else 'm'}" for k, corner in enumerate(corners)]
+        return [*moves, *(["h"] if closed else [])]
+
+    def _paint(self, moves: list[str], fill: Color | None, stroke: Stroke | None, rule: str = "") -> None:
         if fill is None and stroke is None:
             return
         opacity = (fill[3] if fill else 1.0, stroke.color[3] if stroke else 1.0)
@@ -81,7 +87,7 @@ class _Page:
             if stroke:
                 dash = " ".join(_n(x) for x in stroke.dash) if any(stroke.dash) else ""
                 setup.append(f"{_rgb(stroke.color)} RG {_n(stroke.width)} w [{dash}] 0 d")
-            end = "B" if fill and stroke else "f" if fill else "S"
+            end = f"B{rule}" if fill and stroke else f"f{rule}" if fill else "S"
             self.pdf._out(" ".join([*setup, *moves, end]))
 
     def _box(self, box: Box) -> None:

@@ -128,6 +128,9 @@ class _Slide:
     def _outline(self, shape: Shape, shapes: Any) -> None:
         builder = shapes.build_freeform(*map(_emu, shape.corners[0]), scale=1.0)
         builder.add_line_segments([(_emu(x), _emu(y)) for x, y in shape.corners[1:]], close=shape.closed)
+        for hole in shape.holes:
+            builder.move_to(*map(_emu, hole[0]))
+            builder.add_line_segments([(_emu(x), _emu(y)) for x, y in hole[1:]], close=True)
         made = builder.convert_to_shape()
         _name(made, shape.name, "")
         _look(made, shape.fill, shape.stroke)

@@ -44,6 +44,9 @@ def _element(mark: Mark) -> list[str]:
         case Disc():
             place = f'cx="{_n(mark.center[0])}" cy="{_n(mark.center[1])}" r="{_n(mark.radius)}"'
             return [f"<circle {place}{_fill(mark.fill)}{_stroke(mark.stroke)}/>"]
+        case Shape() if mark.holes:
+            path = " ".join(f"M{' L'.join(map(_point, ring))} Z" for ring in (mark.corners, *mark.holes))
+            return [f'<path d="{path}" fill-rule="evenodd"{_fill(mark.fill)}{_stroke(mark.stroke)}/>']
         case Shape():
             points = " ".join(_point(corner) for corner in mark.corners)
             element = "polygon" if mark.closed else "polyline"

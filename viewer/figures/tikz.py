@@ -62,6 +62,9 @@ def _draw(mark: Mark) -> list[str]:
             return [
                 f"\\path[{_options(mark.fill, mark.stroke)}] {_point(mark.center)} circle[radius={_n(mark.radius)}bp];"
             ]
+        case Shape() if mark.holes:
+            rings = " ".join(" -- ".join(map(_point, ring)) + " -- cycle" for ring in (mark.corners, *mark.holes))
+            return [f"\\path[{_options(mark.fill, mark.stroke)},even odd rule] {rings};"]
         case Shape():
             corners = " -- ".join(_point(corner) for corner in mark.corners)
             return [f"\\path[{_options(mark.fill, mark.stroke)}] {corners}{' -- cycle' if mark.closed else ''};"]

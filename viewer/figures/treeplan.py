@@ -60,6 +60,7 @@ class TreePlan:
     tree: RayTree  # the deepest
     size: float
     swatches: bool
+    where: tuple[float, float]  # its left and right on the canvas
     rows: frozenset[int]
     folds: dict[int, Fold]  # by the row where they stand
     inside: dict[int, int]  # a folded row -> the row of its fold
@@ -82,7 +83,8 @@ class TreePlan:
         """What is free beside the eye, on its left and on its right."""
         x, y = self.at[0]
         margin, aside = MARGIN * self.size, 0.5 * self.box[0] + self.size
-        return ((margin, margin, x - aside, y), (x + aside, margin, WIDTH - margin, y))
+        left, right = self.where
+        return ((left + margin, margin, x - aside, y), (x + aside, margin, right - margin, y))
 
     @property
     def top(self) -> float:
@@ -95,10 +97,17 @@ def name_in_box(tree: RayTree, i: int) -> str:
     return name if len(name) <= LONGEST else name[: LONGEST - 1].rstrip() + "…"
 
 
-def plan_tree(trees: Sequence[RayTree], size: float, swatches: bool = False, fold: float = 0.0) -> TreePlan:
+def plan_tree(
+    trees: Sequence[RayTree],
+    size: float,
+    swatches: bool = False,
+    fold: float = 0.0,
+    where: tuple[float, float] = (0.0, WIDTH),
+) -> TreePlan:
     """The plan for these steps of one tree, the deepest last, with text of that size in points.
 
-    Branches that weigh less than `fold` are folded, and as many more as there is no room for.
+    Branches that weigh less than `fold` are folded, and as many more as there is no room for. `where` are the left and
+    right of its part of the canvas.
     """
     tree = trees[-1]
     weights = tree.nodes["weight"].max(axis=1)
@@ -106,21 +115,26 @@ def plan_tree(trees: Sequence[RayTree], size: float, swatches: bool = False, fol
     heaviest = sorted(rays, key=lambda i: (-weights[i], i))
     enough = sum(weights[i] >= fold or i == 0 for i in rays)
     low, high = 1, enough
-    best = _try(trees, set(heaviest[:high]), size, swatches)
+    best = _try(trees, set(heaviest[:high]), size, swatches, where)
     if best is not None:
         return best
     while low < high:  # the most rays that fit; the first hit always does
         middle = (low + high + 1) // 2
-        found = _try(trees, set(heaviest[:middle]), size, swatches)
+        found = _try(trees, set(heaviest[:middle]), size, swatches, where)
         if found is None:
             high = middle - 1
         else:
             low, best = middle, found
-    return best or _try(trees, {0}, size, swatches, anyhow=True)  # type: ignore[return-value]
+    return best or _try(trees, {0}, size, swatches, where, anyhow=True)  # type: ignore[return-value]
 
 
 def _try(
-    trees: Sequence[RayTree], kept: set[int], size: float, swatches: bool, anyhow: bool = False
+    trees: Sequence[RayTree],
+    kept: set[int],
+    size: float,
+    swatches: bool,
+    where: tuple[float, float],
+    anyhow: bool = False,
 ) -> TreePlan | None:
     """The plan with these rays and all others folded; None where it does not fit onto the canvas."""
     tree = trees[-1]
@@ -136,14 +150,15 @@ def _try(
     levels = max(math.floor(place.y) for place in laid.places.values())
     first = margin + (EYE + FIRST) * size
     free = HEIGHT - first - 0.5 * box - (STUB + NOTE + 0.5) * size - margin
-    widest = (WIDTH - 2 * margin + gap) / (right - left)
+    rim = (where[0] + margin - 0.5 * gap, where[1] - margin + 0.5 * gap)
+    widest = (rim[1] - rim[0]) / (right - left)
     if not anyhow and (unit > widest or PITCH * size * levels > free):
         return None
     spread = min(widest, SPREAD * unit) / unit if unit < widest else 1.0
     unit *= spread
     pitch = min(TALLEST * size, free / levels) if levels else 0.0
     # The eye in the middle, where the tree leaves room for that.
-    middle = min(max(0.5 * WIDTH, margin - left * unit - 0.5 * gap), WIDTH - margin - right * unit + 0.5 * gap)
+    middle = min(max(0.5 * (where[0] + where[1]), rim[0] - left * unit), rim[1] - right * unit)
     kinds, depth, parents = (tree.nodes[name] for name in ("kind", "depth", "parent"))
     hang = 0.5 * box + STUB * size
 
@@ -160,7 +175,7 @@ def _try(
     at |= {i: hanging(int(parents[i]), place.x) for i, place in laid.places.items() if kinds[i] == SHADOW}
     bars = {i: hanging(i, place.x) for i, place in laid.bars.items()}
     eye = (at[0][0], margin + EYE * size)
-    return TreePlan(tree, size, swatches, frozenset(rows), folds, inside, at, bars, eye, (column, box))
+    return TreePlan(tree, size, swatches, where, frozenset(rows), folds, inside, at, bars, eye, (column, box))
 
 
 def _folded(tree: RayTree, kept: set[int]) -> tuple[set[int], dict[int, Fold], dict[int, int]]:

@@ -17,11 +17,12 @@ from tests.conftest import LESSONS
 from tracer.nodes import SHADOW
 from tracer.tree import RayTree
 from viewer import lesson
-from viewer.figures.figure import FIGURES, Wishes, pages
+from viewer.figures.figure import FIGURES, Subject, Wishes, pages
 from viewer.figures.font import FONT
 from viewer.figures.formats import FORMATS
 from viewer.figures.marks import Figure, Text
 from viewer.figures.stage import by_depth
+from viewer.orbit import Frame, home
 from viewer.theme import DARK, LIGHT
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -41,11 +42,14 @@ def written(name: str, figures: list[Figure], across: int = 960) -> bytes:
     return write(figures, across)
 
 
-@pytest.fixture(params=[(name, kind) for name in LESSONS for kind in FIGURES], ids=lambda pair: "-".join(pair))
+@pytest.fixture(scope="module", params=[(name, kind) for name in LESSONS for kind in FIGURES], ids=lambda pair: "-".join(pair))
 def figures(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> list[Figure]:
     """Each figure of each shipped scene, from depth 0 to 3."""
     name, kind = request.param
-    return pages(kind, by_depth(trees(worlds, name)), Wishes(DARK, swatches=True, ground=True), "raytree export ...")
+    found = lesson.read(name)
+    orbit = home(worlds[name], Frame.of(worlds[name]), found.view)
+    subject = Subject(by_depth(trees(worlds, name)), worlds[name], orbit)
+    return pages(kind, subject, Wishes(DARK, swatches=True, ground=True), "raytree export ...")
 
 
 def test_svg_has_its_text_as_text(figures: list[Figure], tmp_path: Path) -> None:
@@ -94,7 +98,7 @@ def test_pptx_counts_what_the_tree_counts(worlds: dict[str, tracer.World]) -> No
 
     for name in LESSONS:
         steps = trees(worlds, name)
-        deck = Presentation(io.BytesIO(written("pptx", pages("tree", by_depth(steps), Wishes()))))
+        deck = Presentation(io.BytesIO(written("pptx", pages("tree", Subject(by_depth(steps)), Wishes()))))
         assert len(deck.slides) == len(steps)
         for slide, tree in zip(deck.slides, steps, strict=True):
             kinds = tree.nodes["kind"]
@@ -117,7 +121,7 @@ def test_pptx_counts_what_the_tree_counts(worlds: dict[str, tracer.World]) -> No
 
 def test_png_is_transparent_unless_asked(worlds: dict[str, tracer.World]) -> None:
     for ground in (False, True):
-        figure = pages("tree", by_depth(trees(worlds, "glass-ball")), Wishes(LIGHT, ground=ground))[-1]
+        figure = pages("tree", Subject(by_depth(trees(worlds, "glass-ball"))), Wishes(LIGHT, ground=ground))[-1]
         picture = Image.open(io.BytesIO(written("png", [figure], 640)))
         assert picture.size == (640, 360)
         assert picture.getpixel((2, 357)) == ((233, 236, 240, 255) if ground else (0, 0, 0, 0))

@@ -13,7 +13,7 @@ from tests.viewer.figures.geometry import check
 from tracer.nodes import SHADOW
 from tracer.scene import Light, Material
 from viewer import lesson
-from viewer.figures.figure import Wishes, pages
+from viewer.figures.figure import Subject, Wishes, pages
 from viewer.figures.hitfigure import CENTER
 from viewer.figures.marks import Figure, Line, Text
 from viewer.figures.stage import by_depth
@@ -27,7 +27,7 @@ def turn_of(figure: Figure, name: str, back: bool) -> float:
 
 
 def check_angles(tree: tracer.RayTree, node: int) -> None:
-    (figure,) = pages("hit", by_depth([tree]), Wishes(node=node))
+    (figure,) = pages("hit", Subject(by_depth([tree])), Wishes(node=node))
     check(figure)
     row = tree.nodes[node]
     close = 1e-12
@@ -68,7 +68,7 @@ def test_hits_of_the_lessons(worlds: dict[str, tracer.World]) -> None:
 
 def test_formulas_carry_the_trees_own_numbers(worlds: dict[str, tracer.World]) -> None:
     tree = tracer.trace(worlds["underwater"], lesson.read("underwater").pixel, depth=2)
-    (figure,) = pages("hit", by_depth([tree]), Wishes())
+    (figure,) = pages("hit", Subject(by_depth([tree])), Wishes())
     words = [m.content for m in figure.marks if isinstance(m, Text)]
     assert f"{1.0 - tree.nodes['radicand'][0]:.5g} ≥ 1: total internal reflection" in words
     assert "48.75°" in words  # the critical angle of water to air

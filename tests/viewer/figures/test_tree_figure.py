@@ -14,7 +14,7 @@ from tests.viewer.test_layout import plates
 from tracer.nodes import SHADOW
 from tracer.tree import RayTree
 from viewer import lesson
-from viewer.figures.figure import Wishes, pages
+from viewer.figures.figure import Subject, Wishes, pages
 from viewer.figures.labels import ray_label
 from viewer.figures.marks import Box, Figure, Line, Text
 from viewer.figures.stage import by_colour, by_depth, by_ray
@@ -52,7 +52,7 @@ def check_whole(figure: Figure, tree: RayTree, size: float = 18.0) -> None:
 def test_random_trees(seed: int, most: int, lights: int, depth: int, swatches: bool, size: float) -> None:
     """From one ray to five hundred, lopsided ones too; small text shows many rays, large text folds."""
     tree = random_tree(seed, most, lights, depth)
-    (figure,) = pages("tree", by_depth([tree]), Wishes(swatches=swatches, text_size=size))
+    (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(swatches=swatches, text_size=size))
     check_whole(figure, tree, size)
 
 
@@ -61,7 +61,7 @@ def test_a_tree_of_five_hundred_rays(lights: int) -> None:
     tree = max((random_tree(seed, 500, lights, 9) for seed in range(40)), key=len)
     assert len(tree) >= 500
     for size in (4.0, 18.0):
-        (figure,) = pages("tree", by_depth([tree]), Wishes(text_size=size))
+        (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(text_size=size))
         check_whole(figure, tree, size)
 
 
@@ -69,7 +69,7 @@ def test_a_tree_of_five_hundred_rays(lights: int) -> None:
 def test_trees_of_the_lessons_grow_and_nothing_moves(worlds: dict[str, tracer.World], theme: Theme) -> None:
     for name in LESSONS:
         trees = [tracer.trace(worlds[name], lesson.read(name).pixel, depth=d) for d in range(4)]
-        figures = pages("tree", by_depth(trees), Wishes(theme, swatches=True))
+        figures = pages("tree", Subject(by_depth(trees)), Wishes(theme, swatches=True))
         last = places(figures[-1])
         for figure, tree in zip(figures, trees, strict=True):
             check_whole(figure, tree)
@@ -94,14 +94,15 @@ def places(figure: Figure) -> dict[tuple, tuple]:
 
 def test_steps_by_ray_and_by_colour_keep_all_places(worlds: dict[str, tracer.World]) -> None:
     tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=3)
-    (whole,) = pages("tree", by_depth([tree]), Wishes(swatches=True))
+    (whole,) = pages("tree", Subject(by_depth([tree])), Wishes(swatches=True))
     for stages in (by_ray(tree), by_colour(tree)):
-        figures = pages("tree", stages, Wishes(swatches=True))
+        figures = pages("tree", Subject(stages), Wishes(swatches=True))
         for figure in figures:
             check(figure)
             assert places(figure).items() <= places(whole).items()
         assert places(figures[-1]) == places(whole)
-    shown = [len({m.name for m in f.marks if m.name.startswith("ray-")}) for f in pages("tree", by_ray(tree), Wishes())]
+    grown = pages("tree", Subject(by_ray(tree)), Wishes())
+    shown = [len({m.name for m in figure.marks if m.name.startswith("ray-")}) for figure in grown]
     assert shown == list(range(1, len(tree) + 1))
 
 
@@ -145,7 +146,7 @@ def test_same_subtree_looks_the_same() -> None:
 def test_light_branches_are_folded_on_wish() -> None:
     """What weighs less than asked is in folds, and a fold says how much it weighs."""
     tree = plates(2, 4, 1)
-    (figure,) = pages("tree", by_depth([tree]), Wishes(fold=0.1))
+    (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(fold=0.1))
     check_whole(figure, tree)
     weights = tree.nodes["weight"].max(axis=1)
     assert all(weights[i] >= 0.1 for i in hits(figure))
@@ -157,7 +158,7 @@ def test_light_branches_are_folded_on_wish() -> None:
 def test_total_internal_reflection_has_a_stub_with_a_bar(worlds: dict[str, tracer.World]) -> None:
     tree = tracer.trace(worlds["underwater"], lesson.read("underwater").pixel, depth=3)
     assert tree.kind(int(tree.children[0][-1])) == "tir"
-    (figure,) = pages("tree", by_depth([tree]), Wishes())
+    (figure,) = pages("tree", Subject(by_depth([tree])), Wishes())
     assert [m.content for m in figure.marks if m.name == "bar-0" and isinstance(m, Text)] == ["no T"]
     assert sum(isinstance(m, Line) for m in figure.marks if m.name == "bar-0") == 2
 
@@ -165,7 +166,7 @@ def test_total_internal_reflection_has_a_stub_with_a_bar(worlds: dict[str, trace
 def test_mono_has_no_colour(worlds: dict[str, tracer.World]) -> None:
     tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=3)
     for name in ("tree", "hit"):
-        (figure,) = pages(name, by_depth([tree]), Wishes(MONO, swatches=True))
+        (figure,) = pages(name, Subject(by_depth([tree])), Wishes(MONO, swatches=True))
         for mark in figure.marks:
             inks = [getattr(mark, "fill", None), getattr(mark, "color", None)]
             stroke = getattr(mark, "stroke", None)

@@ -1,0 +1,167 @@
+"""The scene as a figure: rays land where the camera projects their points, outlines where the things end, and what is
+hidden is what something opaque stands before."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+import tracer
+from tests.conftest import LESSONS
+from tests.scenes import MATTE, box, world_of
+from tests.viewer.figures.geometry import overlap
+from tracer.camera import View, make_view
+from tracer.nodes import SHADOW
+from tracer.scene import Camera, Light, Material, Object
+from tracer.shapes.sphere import Sphere
+from viewer import lesson
+from viewer.figures.figure import Subject, Wishes, pages
+from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text
+from viewer.figures.scenery import camera_of, scenery, simpler
+from viewer.figures.stage import by_depth
+from viewer.orbit import Frame, Orbit, home
+
+CANVAS = (0.0, 0.0, WIDTH, HEIGHT)
+
+
+def seen_by(camera: Camera) -> View:
+    """The tracer's own camera: another projection than the 3D view's matrix."""
+    assert camera.position
+    assert camera.look_at
+    return make_view(camera.position, camera.look_at, camera.up, camera.fov, (int(WIDTH), int(HEIGHT)))
+
+
+def landing(view: View, point: np.ndarray) -> tuple[float, float]:
+    """The pixel whose ray meets the point."""
+    gaze = np.asarray(point) - view.eye
+    depth = float(gaze @ view.forward)
+    right, up = np.array(view.right), np.array(view.up)
+    u = float(gaze @ right) / depth / float(right @ right)
+    v = float(gaze @ up) / depth / float(up @ up)
+    return (0.5 * (view.width + u * view.height), 0.5 * (view.height - v * view.height))
+
+
+def within(point: tuple[float, float], rim: float = 0.0) -> bool:
+    return rim < point[0] < WIDTH - rim and rim < point[1] < HEIGHT - rim
+
+
+def subject(world: tracer.World, name: str, depths: range = range(4)) -> Subject:
+    found = lesson.read(name)
+    trees = [tracer.trace(world, found.pixel, depth=d) for d in depths]
+    return Subject(by_depth(trees), world, home(world, Frame.of(world), found.view))
+
+
+@pytest.mark.parametrize("name", LESSONS)
+def test_rays_land_where_the_camera_projects_their_points(worlds: dict[str, tracer.World], name: str) -> None:
+    what = subject(worlds[name], name, range(3, 4))
+    (figure,) = pages("scene", what, Wishes())
+    assert what.orbit
+    view = seen_by(camera_of(what.orbit, Frame.of(worlds[name])))
+    tree = what.stages[0].tree
+    checked = 0
+    for i in range(len(tree)):
+        row = tree.nodes[i]
+        if row["t"] == 0.0:
+            continue
+        ends = [m for m in figure.marks if isinstance(m, Line) and m.name == f"ray-{i}"]
+        for point, first in ((row["origin"], True), (row["point"], False)):
+            if np.isnan(point).any() or (np.asarray(point) - view.eye) @ view.forward <= 1e-3:
+                continue
+            wanted = landing(view, point)
+            if not within(wanted):
+                continue
+            places = [line.start if first else line.end for line in ends]
+            assert min(math.dist(wanted, place) for place in places) < 1e-6 * WIDTH, (name, i)
+            checked += 1
+    assert checked >= 2
+
+
+def test_a_balls_outline_is_its_silhouette() -> None:
+    """Of a ball from a pinhole: the rays that touch it make one angle with the one through its middle."""
+    middle, radius = np.array([0.4, -0.2, 0.3]), 0.7
+    world = world_of(Object(Sphere((0.4, -0.2, 0.3), radius), MATTE, "ball"))
+    orbit = Orbit(0.7, 0.4, 4.0)
+    camera = camera_of(orbit, Frame.of(world))
+    view = seen_by(camera)
+    (part,) = scenery(world, camera, CANVAS).opaque
+    ((area,),) = part.faces
+    away = middle - view.eye
+    widest = math.asin(radius / np.linalg.norm(away))
+    for x, y in area.outline:
+        d = np.array(view.forward) + (2 * x - WIDTH) / HEIGHT * np.array(view.right)
+        d += (HEIGHT - 2 * y) / HEIGHT * np.array(view.up)
+        angle = math.acos(float(d @ away) / np.linalg.norm(d) / np.linalg.norm(away))
+        point = HEIGHT / 2 / np.linalg.norm(view.up)  # points a radian in the middle of the picture, more at its rim
+        assert abs(angle - widest) * point < 0.6
+    assert not area.holes
+
+
+def test_what_is_hidden_is_faint() -> None:
+    """A light's ray passes behind a box: between the two edges it is faint, as long as the box is wide."""
+    wall = box((-0.5, -1.0, 1.0), (0.5, 1.0, 1.2))
+    floor = Object(Sphere((3.0, 0.0, 0.0), 0.5), Material("m", diffuse=1.0), "ball")
+    lamp = Light("lamp", position=(-3.0, 0.0, 0.0))
+    world = world_of(wall, floor, lights=[lamp])
+    tree = tracer.trace(world, ray=((0.0, 3.0, 0.0), (2.6, -2.8, 0.0)), depth=0)
+    (i,) = (k for k in range(len(tree)) if tree.nodes["kind"][k] == SHADOW)
+    orbit = Orbit(0.0, 0.0, 2.6)
+    frame = Frame.of(world)
+    orbit.north, orbit.up = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
+    (figure,) = pages("scene", Subject(by_depth([tree]), world, orbit), Wishes())
+    view = seen_by(camera_of(orbit, frame))
+    lines = [m for m in figure.marks if isinstance(m, Line) and m.name == f"ray-{i}"]
+    faint = [line for line in lines if line.stroke.color[3] < 1.0]
+    assert len(faint) == 1
+    # The box's front edges, as the eye sees them.
+    edges = sorted(landing(view, np.array([x, 0.0, 1.2]))[0] for x in (-0.5, 0.5))
+    assert sorted(p[0] for p in (faint[0].start, faint[0].end)) == pytest.approx(edges, abs=0.2)
+
+
+@pytest.mark.parametrize("name", LESSONS)
+def test_labels_avoid_each_other_and_stay_inside(worlds: dict[str, tracer.World], name: str) -> None:
+    for figure in pages("scene", subject(worlds[name], name), Wishes()):
+        check_labels(figure)
+
+
+def check_labels(figure: Figure) -> None:
+    texts = [mark for mark in figure.marks if isinstance(mark, Text)]
+    for a, b in itertools.combinations(texts, 2):
+        assert not overlap(a.box(), b.box()), (a, b)
+    for text in texts:
+        left, top, right, bottom = text.box()
+        assert left >= 0.0 and top >= 0.0 and right <= WIDTH and bottom <= HEIGHT
+        assert text.size >= 18.0
+    for mark in figure.marks:
+        for x, y in mark.corners if isinstance(mark, Shape) else ():
+            assert -3.0 <= x <= WIDTH + 3.0 and -1.0 <= y <= HEIGHT + 1.0
+
+
+@pytest.mark.parametrize("name", LESSONS)
+def test_things_stay_while_rays_come(worlds: dict[str, tracer.World], name: str) -> None:
+    figures = pages("scene", subject(worlds[name], name), Wishes())
+    things = [[m for m in figure.marks if m.name.startswith("object-") and "label" not in m.name] for figure in figures]
+    assert all(step == things[-1] for step in things)
+    lines = [{m for m in figure.marks if isinstance(m, Line) and m.name.startswith("ray-")} for figure in figures]
+    for before, after in itertools.pairwise(lines):
+        assert {(m.name, m.start, m.end) for m in before} <= {(m.name, m.start, m.end) for m in after}
+
+
+def test_both_panels_call_rays_the_same(worlds: dict[str, tracer.World]) -> None:
+    (figure,) = pages("both", subject(worlds["glass-ball"], "glass-ball", range(3, 4)), Wishes())
+    check_labels(figure)
+    left, right = set(), set()
+    for mark in figure.marks:
+        if isinstance(mark, Text) and mark.name.startswith("ray-"):
+            (left if mark.at[0] < 0.45 * WIDTH else right).add(mark.content.split()[0])
+    assert len(left) >= 8
+    assert left <= right
+
+
+def test_simpler_outlines_stay_where_they_were() -> None:
+    turn = np.linspace(0.0, 2.0 * math.pi, 721)[:-1]
+    ring = np.stack([100.0 * np.cos(turn), 100.0 * np.sin(turn)], axis=1)
+    fewer = simpler(ring)
+    assert len(fewer) < 80
+    middles = 0.5 * (fewer + np.roll(fewer, -1, axis=0))
+    assert np.hypot(*middles.T).min() > 100.0 - 0.2 - 1e-9

@@ -1,0 +1,268 @@
+"""What of a scene is seen from a figure's eye, as outlines: who is where, and how the light falls on it.
+
+The tracer itself is asked. An image of the scene with every material replaced holds in red the number of the part that
+is seen and in green the cosine at which it is seen; where that number changes is an outline. Only camera rays and rays
+back to the eye are traced, for any shape that the tracer knows, and what hides what is exact.
+"""
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import contourpy
+import numpy as np
+
+import tracer
+from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, Tracing
+from tracer.shapes.box import Box
+from tracer.shapes.disc import Disc
+from tracer.shapes.mesh import Mesh
+from tracer.shapes.planar import unit_normal
+from tracer.shapes.plane import Plane
+from tracer.shapes.polygon import Polygon
+from tracer.shapes.triangle import Triangle
+from tracer.vector import tame, unit
+from tracer.world import World
+from viewer.figures.marks import Point, Rectangle
+from viewer.orbit import FOV, Frame, Orbit
+
+FINE = 2  # rays a point across and down: an outline is sure to a quarter of a point
+STRAIGHT = 0.2  # points: how far a simpler outline may be off
+SMALL = 6.0  # square points: smaller spots are noise
+DARKER = (0.75, 0.45)  # cosines below which a surface is a shade darker
+COARSE, MOST_SPOTS = 4, 30  # points between places that may be named, and how many of them
+FACETS = 400  # triangles of a cut stone whose edges are drawn; finer ones are round
+FLAT = (Plane, Polygon, Triangle, Disc)
+
+
+@dataclass(frozen=True)
+class Area:
+    """One connected spot of the picture, in points; with holes where something stands before it."""
+
+    outline: tuple[Point, ...]
+    holes: tuple[tuple[Point, ...], ...]
+
+
+@dataclass(frozen=True)
+class Part:
+    """What is seen of one object: the spots of its faces, and where they are one and two shades darker."""
+
+    number: int  # of the object
+    faces: tuple[tuple[Area, ...], ...]
+    shades: tuple[tuple[Area, ...], ...]
+    spots: tuple[Point, ...]  # well within it, those farthest from its rim first
+
+
+@dataclass(frozen=True)
+class Scenery:
+    opaque: tuple[Part, ...]
+    glass: tuple[Part, ...]  # before all that is opaque; what is behind it is seen through it
+
+
+def camera_of(orbit: Orbit, frame: Frame) -> Camera:
+    """The 3D view's eye as a camera of the scene."""
+
+    def outside(place: np.ndarray) -> tuple[float, float, float]:
+        x, y, z = (frame.middle + frame.radius * place).tolist()
+        return (x, y, z)
+
+    _, up = orbit.axes
+    return Camera(outside(orbit.eye), outside(orbit.target), tuple(up.tolist()), math.degrees(FOV))  # type: ignore[arg-type]
+
+
+def solid_objects(world: World, camera: Camera) -> list[int]:
+    """Numbers of the opaque objects that hide what is behind them: walls do so from their camera's side only."""
+    eye, own = np.array(camera.position), np.array(world.view().eye)
+    found = []
+    for k, item in enumerate(world.scene.objects):
+        if item.material.transmit > 0.0:
+            continue
+        if isinstance(item.shape, FLAT):
+            from_behind = _side(item, eye) * _side(item, own) < 0.0
+        else:
+            from_behind = item.shape.contains(own) and not item.shape.contains(eye)
+        if not from_behind:
+            found.append(k)
+    return found
+
+
+def _side(item: Object, eye: np.ndarray) -> float:
+    """On which side of a flat object an eye is: the sign."""
+    match item.shape:
+        case Plane(point=point, normal=normal) | Disc(center=point, normal=normal):
+            n = np.array(unit(tame(normal)))
+        case Polygon(vertices=corners) | Triangle(vertices=corners):
+            point, n = corners[0], unit_normal(np.array(corners, float))
+        case _:
+            return 0.0
+    return float(np.sign((eye - np.array(point)) @ n))
+
+
+def scenery(world: World, camera: Camera, where: Rectangle) -> Scenery:
+    """What is seen within this rectangle of the canvas."""
+    objects = world.scene.objects
+    clear = [k for k, item in enumerate(objects) if item.material.transmit > 0.0]
+    solid = solid_objects(world, camera)
+    opaque = _parts(objects, solid, camera, where, solid)
+    if not clear:
+        return Scenery(opaque, ())
+    # What is opaque is to be named where no glass is before it.
+    together = _parts(objects, [*solid, *clear], camera, where, [*solid, *clear])
+    free = {part.number: part.spots for part in together}
+    opaque = tuple(replace(part, spots=free.get(part.number, part.spots)) for part in opaque)
+    return Scenery(opaque, tuple(part for part in together if part.number in clear))
+
+
+def _parts(
+    objects: Sequence[Object], seen: Sequence[int], camera: Camera, where: Rectangle, wanted: Sequence[int]
+) -> tuple[Part, ...]:
+    """The wanted of these objects, nearer ones later; all of `seen` hide one another."""
+    faces = [(k, face) for k in seen for face in _faces(objects[k])]
+    if not faces:
+        return ()
+    paint = [
+        Object(shape, Material(color=((number + 1) / len(faces), 1.0, 1.0), ambient=1.0, diffuse=1.0))
+        for number, (_, face) in enumerate(faces)
+        for shape in face.shapes
+    ]
+    left, top, right, bottom = where
+    size = (round(right - left), round(bottom - top))
+    scene = Scene(
+        tuple(paint),
+        (Light("eye", position=camera.position, color=(0.0, 1.0, 0.0)),),
+        camera,
+        Image(FINE * size[0], FINE * size[1]),
+        Background((0.0, 0.0, 0.0)),
+        Tracing(depth=0, ambient=(1.0, 0.0, 0.0)),
+    )
+    pixels = tracer.render(tracer.prepare(scene)).pixels
+    numbers = np.rint(pixels[..., 0] * len(faces)).astype(int) - 1
+    cosine = pixels[..., 1].copy()
+    for number, (_, face) in enumerate(faces):  # a flat face is of one shade
+        here = numbers == number
+        if face.flat and here.any():
+            cosine[here] = cosine[here].mean()
+    found = []
+    for k in wanted:
+        own = [number for number, (owner, _) in enumerate(faces) if owner == k]
+        spots = [_areas(numbers == number, where) for number in own]
+        mine = np.isin(numbers, own)
+        shades = tuple(_areas(mine & (cosine < below), where) for below in DARKER)
+        if any(spots):
+            found.append(Part(k, tuple(spot for spot in spots if spot), shades, _within(mine, where)))
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class Face:
+    """What of an object has an outline of its own."""
+
+    shapes: tuple
+    flat: bool
+
+
+def _faces(item: Object) -> list[Face]:
+    """Boxes and cut stones face by face, for their edges are to be seen; any other shape as it is."""
+    match item.shape:
+        case Box():
+            return _box_faces(item.shape)
+        case Mesh():
+            corners = item.shape.placed()
+            if len(corners) <= FACETS and item.shape.smooth() is None:
+                return _facets(corners)
+    return [Face((item.shape,), isinstance(item.shape, FLAT))]
+
+
+def _box_faces(box: Box) -> list[Face]:
+    low, high = np.array(box.min), np.array(box.max)
+    found = []
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for end in (low, high):
+            corners = np.tile(end, (4, 1))
+            corners[:, u] = (low[u], high[u], high[u], low[u])
+            corners[:, v] = (low[v], low[v], high[v], high[v])
+            found.append(Face((Polygon(tuple(tuple(corner) for corner in corners.tolist())),), True))
+    return found
+
+
+def _facets(corners: np.ndarray) -> list[Face]:
+    """Triangles (n, 3, 3) by the plane they lie in."""
+    n = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    size = np.linalg.norm(n, axis=1, keepdims=True)
+    n, corners = (n / np.where(size > 0.0, size, 1.0))[size[:, 0] > 0.0], corners[size[:, 0] > 0.0]
+    extent = float(np.abs(corners - corners[0, 0]).max()) or 1.0
+    planes = np.c_[n, ((corners[:, 0] - corners[0, 0]) * n).sum(axis=1) / extent]
+    _, which = np.unique(np.round(planes, 5) + 0.0, axis=0, return_inverse=True)
+    groups = [corners[which.ravel() == k] for k in range(int(which.max()) + 1)]
+    return [Face(tuple(Triangle(tuple(map(tuple, t))) for t in group.tolist()), True) for group in groups]
+
+
+def _areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
+    """The outlines of what is true, in points of the canvas."""
+    if not mask.any():
+        return ()
+    height, width = (n // FINE for n in mask.shape)
+    cover = mask.reshape(height, FINE, width, FINE).mean(axis=(1, 3))
+    # At the rim a spot goes on as it was, and ends outside.
+    cover = np.pad(np.pad(cover, 1, mode="edge"), 1)
+    x, y = np.arange(width + 4) - 1.5, np.arange(height + 4) - 1.5
+    maker = contourpy.contour_generator(x, y, cover, fill_type=contourpy.FillType.OuterOffset)
+    found = []
+    for points, offsets in zip(*maker.filled(0.5, 2.0), strict=True):
+        clipped = np.clip(points, 0.0, (width, height)) + where[:2]
+        rings = [simpler(clipped[a:b]) for a, b in itertools.pairwise(offsets)]
+        rings = [ring for ring in rings if len(ring) > 2 and _size(ring) >= SMALL]
+        if rings:
+            outline, *holes = (tuple(map(tuple, ring.tolist())) for ring in rings)
+            found.append(Area(outline, tuple(holes)))
+    return tuple(found)
+
+
+def _within(mask: np.ndarray, where: Rectangle) -> tuple[Point, ...]:
+    """Some places inside what is true: its rim is taken off until nothing is left, and the last ones come first."""
+    found: list[Point] = []
+    left = mask[:: FINE * COARSE, :: FINE * COARSE]
+    while left.any():
+        rows, columns = np.nonzero(left)
+        steps = np.linspace(0, len(rows) - 1, min(3, len(rows))).astype(int)
+        found[:0] = [(where[0] + COARSE * float(columns[k]), where[1] + COARSE * float(rows[k])) for k in steps]
+        inner = np.pad(left, 1)
+        left = left & inner[:-2, 1:-1] & inner[2:, 1:-1] & inner[1:-1, :-2] & inner[1:-1, 2:]
+    return tuple(found[:MOST_SPOTS])
+
+
+def simpler(ring: np.ndarray) -> np.ndarray:
+    """A closed outline with fewer corners, nowhere farther off than STRAIGHT (Ramer 1972; Douglas & Peucker 1973)."""
+    ring = ring[:-1] if len(ring) > 1 and (ring[0] == ring[-1]).all() else ring
+    if len(ring) < 4:
+        return ring
+    far = int(np.argmax(((ring - ring[0]) ** 2).sum(axis=1)))
+    kept = {0, far}
+    closed = np.concatenate([ring, ring[:1]])
+    waiting = [(0, far), (far, len(ring))]
+    while waiting:
+        a, b = waiting.pop()
+        if b - a < 2:
+            continue
+        along = closed[b] - closed[a]
+        length = math.hypot(*along)
+        between = closed[a + 1 : b] - closed[a]
+        away = np.abs(between @ (-along[1], along[0])) / length if length > 0.0 else np.hypot(*between.T)
+        k = int(np.argmax(away))
+        if away[k] > STRAIGHT:
+            kept.add(a + 1 + k)
+            waiting += [(a, a + 1 + k), (a + 1 + k, b)]
+    return ring[sorted(kept)]
+
+
+def _size(ring: np.ndarray) -> float:
+    x, y = ring.T
+    return 0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
+
+
+def blockers(world: World, camera: Camera) -> World | None:
+    """The scene of what can hide a ray from the figure's eye."""
+    kept = tuple(world.scene.objects[k] for k in solid_objects(world, camera))
+    return tracer.prepare(replace(world.scene, objects=kept, camera=camera)) if kept else None
