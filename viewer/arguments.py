@@ -46,9 +46,9 @@ def view_from(text: str) -> tuple[float, ...]:
     numbers: tuple[float, ...] = ()
     with contextlib.suppress(ValueError):
         numbers = tuple(float(part) for part in text.split(","))
-    if len(numbers) in (3, 6) and all(abs(number) < float("inf") for number in numbers):
-        if -90.0 < numbers[1] < 90.0 and numbers[2] > 0.0:
-            return numbers
+    finite = all(abs(number) < float("inf") for number in numbers)
+    if finite and len(numbers) in (3, 6) and -90.0 < list(numbers)[1] < 90.0 and list(numbers)[2] > 0.0:
+        return numbers
     asked = "azimuth, elevation (-90 to 90) and distance (> 0) like 38,22,2.6"
     raise argparse.ArgumentTypeError(f'{asked}, got "{text}"')
 

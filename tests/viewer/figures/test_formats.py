@@ -42,7 +42,9 @@ def written(name: str, figures: list[Figure], across: int = 960) -> bytes:
     return write(figures, across)
 
 
-@pytest.fixture(scope="module", params=[(name, kind) for name in LESSONS for kind in FIGURES], ids=lambda pair: "-".join(pair))
+@pytest.fixture(
+    scope="module", params=[(name, kind) for name in LESSONS for kind in FIGURES], ids=lambda pair: "-".join(pair)
+)
 def figures(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> list[Figure]:
     """Each figure of each shipped scene, from depth 0 to 3."""
     name, kind = request.param
