@@ -2,6 +2,7 @@
 
 import shlex
 from argparse import Namespace
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -41,16 +42,49 @@ def export(options: Namespace) -> int:
     compile_once()
     with faults():
         world = prepared(path)
-        own = lesson.depth if lesson and lesson.depth is not None else world.scene.tracing.depth
-        depths = options.depth or range(own, own + 1)
-        stages = steps(world, options, depths)
-    check_pages(target, formats, stages)
-    with faults():
-        subject = Subject(stages, world, view_of(options.view, world, lesson))
-        written = write(target, formats, subject, options, lesson, depths)
+        with Progress("export") as progress:
+            written = make(options, world, lesson, target, formats, progress)
     for file in written:
         print(file)
     return 0
+
+
+def make(
+    options: Namespace,
+    world: World,
+    lesson: Lesson | None,
+    target: Target,
+    formats: list[str],
+    progress: Callable[[float], None] = lambda share: None,
+) -> list[Path]:
+    """What these options ask for, of a scene that is there already; the files that are written."""
+    own = lesson.depth if lesson and lesson.depth is not None else world.scene.tracing.depth
+    depths = options.depth or range(own, own + 1)
+    stages = steps(world, options, depths)
+    check_pages(target, formats, stages)
+    subject = Subject(stages, world, view_of(options.view, world, lesson))
+    theme = THEMES[options.theme]
+    wishes = Wishes(theme, options.text_size, options.swatches, options.fold, options.ground, options.node)
+    stem = stem_of(options, lesson)
+    files: list[tuple[Path, bytes]] = []
+    for name in formats:
+        kind = FORMATS[name]
+        figures = pages(options.figure, subject, wishes, command(options, name)) if kind.write else []
+        for k, group in enumerate(grouped(kind, stages, options.step)):
+            progress(len(files) / (len(formats) * len(stages)))
+            if kind.write:
+                mark = mark_of(group, stages, options.step, depths)
+                content = kind.write(figures if kind.many_pages else figures[k : k + 1], options.width)
+                files.append((target.file(f"{stem}_{options.figure}_{mark}", kind.suffix), content))
+            else:
+                assert kind.data
+                tree = group[-1].tree
+                files.append((target.file(f"{stem}_d{tree.depth}", kind.suffix), kind.data(tree).encode("utf-8")))
+    if target.folder:
+        target.path.mkdir(exist_ok=True)
+    for file, content in files:
+        write_atomically(file, content)
+    return [file for file, _ in files]
 
 
 def view_of(numbers: tuple[float, ...] | None, world: World, lesson: Lesson | None) -> Orbit:
@@ -100,46 +134,11 @@ def check_pages(target: Target, formats: list[str], stages: list[Stage]) -> None
         raise Unusable(f"{target.path}: {len(stages)} pages need a folder, or one of PDF and PPTX")
 
 
-def write(
-    target: Target, formats: list[str], subject: Subject, options: Namespace, lesson: Lesson | None, depths: Depths
-) -> list[Path]:
-    """All files; those that are written."""
-    stages = list(subject.stages)
-    theme = THEMES[options.theme]
-    wishes = Wishes(theme, options.text_size, options.swatches, options.fold, options.ground, options.node)
-    stem = stem_of(options, lesson)
-    last = depths[-1]
-    files: list[tuple[Path, bytes]] = []
-    with Progress("export") as progress:
-        for name in formats:
-            kind = FORMATS[name]
-            figures = pages(options.figure, subject, wishes, command(options, name)) if kind.write else []
-            for k, group in enumerate(grouped(kind, stages)):
-                progress(len(files) / (len(formats) * len(stages)))
-                mark = mark_of(group, stages, options.step, depths)
-                if kind.write:
-                    content = kind.write(figures if kind.many_pages else figures[k : k + 1], options.width)
-                    files.append((target.file(f"{stem}_{options.figure}_{mark}", kind.suffix), content))
-                else:
-                    assert kind.data
-                    tree = group[-1].tree
-                    where = target.file(f"{stem}_d{tree.depth if options.step == 'depth' else last}", kind.suffix)
-                    files.append((where, kind.data(tree).encode("utf-8")))
-    if target.folder:
-        target.path.mkdir(exist_ok=True)
-    for file, content in files:
-        write_atomically(file, content)
-    return [file for file, _ in files]
-
-
-def grouped(kind: Format, stages: list[Stage]) -> list[list[Stage]]:
+def grouped(kind: Format, stages: list[Stage], step: str) -> list[list[Stage]]:
     """The pages of each file: all in one where the format has pages; data is of a whole tree."""
     if kind.many_pages:
         return [stages]
-    if kind.data:
-        trees = {id(stage.tree): [stage] for stage in stages}
-        return list(trees.values())
-    return [[stage] for stage in stages]
+    return [stages[-1:]] if kind.data and step != "depth" else [[stage] for stage in stages]
 
 
 def mark_of(group: list[Stage], stages: list[Stage], step: str, depths: Depths) -> str:

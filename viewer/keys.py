@@ -23,6 +23,8 @@ HELP = (
     ("Tab", "lecture size: everything larger"),
     ("Esc", "select nothing, pick nothing"),
     ("F5", "read the scene's file again (it is, when it is saved)"),
+    ("Ctrl+S", "export what is on show as a figure (menu Figure: which, and how)"),
+    ("Ctrl+C", "copy the command line that makes it again"),
     ("Ctrl+O, Ctrl+Q", "open a scene; quit"),
     ("H or ?", "this help"),
 )
@@ -43,6 +45,11 @@ def handle(session: Session) -> None:
             session.wants_quit = True
         if imgui.is_key_pressed(key.o, False):
             session.wants_open = True
+        if imgui.is_key_pressed(key.s, False):
+            session.takehome.make(session)
+        if imgui.is_key_pressed(key.c, False) and session.takehome.command:
+            imgui.set_clipboard_text(session.takehome.command)
+            session.notice.say("the figure's command line is copied")
         return
     _typed(session)
     step = 10 if io.key_shift else 1

@@ -15,6 +15,7 @@ from viewer.lesson import Lesson
 from viewer.looks import Look, Notice, Shown
 from viewer.orbit import Frame, Orbit, home
 from viewer.progressive import Picture, Progressive
+from viewer.takehome import TakeHome
 from viewer.theme import DARK, LECTURE_ZOOM, LIGHT, Theme
 from viewer.warmup import Warmup
 from viewer.watch import Watch
@@ -53,6 +54,7 @@ class Session:
         self.selected: int | None = None
         self.seen_finished: Picture | None = None  # the finished image that the last update knew of
         self.notice = Notice()
+        self.takehome = TakeHome()
         self.shows_help = False
         self.wants_open = False  # the dialog that opens a scene
         self.wants_quit = False
@@ -108,7 +110,7 @@ class Session:
 
     def update(self) -> bool:
         """Take in what happened in the background since the last frame; whether there is anything new to see."""
-        news = self.notice.passes()
+        news = self.notice.passes() | self.takehome.finish(self)
         if self.watch.changed():
             self.reload()
         if self.loading and self.loading.done():

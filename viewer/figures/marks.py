@@ -127,3 +127,9 @@ class Figure:
     ground: bool = False  # whether it brings that along; else it is transparent
     width: float = WIDTH
     height: float = HEIGHT
+
+    def _repr_svg_(self) -> str:
+        """What a notebook shows."""
+        from viewer.figures.svg import write_svg
+
+        return write_svg(self).decode("utf-8")

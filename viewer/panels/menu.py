@@ -10,6 +10,8 @@ from viewer import lesson as lessons
 from viewer.files import Unusable
 from viewer.panels import draw as d
 from viewer.session import Session
+from viewer.takehome import FIGURES, FORMATS
+from viewer.theme import THEMES
 
 OPEN = "Open a scene"
 
@@ -29,6 +31,9 @@ def draw(session: Session) -> bool:
             imgui.separator()
             if imgui.menu_item_simple("Quit", "Ctrl+Q"):
                 session.wants_quit = True
+            imgui.end_menu()
+        if imgui.begin_menu("Figure"):
+            _figure_menu(session)
             imgui.end_menu()
         if imgui.begin_menu("Lessons"):
             for name in lessons.names():
@@ -80,6 +85,27 @@ def save_image(session: Session) -> None:
         session.notice.say(f"wrote {path.resolve()}" + ("" if picture.finished else " (not finished yet)"))
     except Unusable as unusable:
         session.faults = list(unusable.faults)
+
+
+def _figure_menu(session: Session) -> None:
+    """What Ctrl+S writes, as last chosen."""
+    home = session.takehome
+    if imgui.menu_item_simple("Export", "Ctrl+S", False, session.tree is not None):
+        home.make(session)
+    if imgui.menu_item_simple("Copy its command line", "Ctrl+C", False, bool(home.command)):
+        imgui.set_clipboard_text(home.command)
+    imgui.separator()
+    for name, label in FIGURES.items():
+        if imgui.menu_item_simple(label, "", home.figure == name):
+            home.figure = name
+    imgui.separator()
+    for name, label in FORMATS.items():
+        if imgui.menu_item_simple(label, "", home.format == name):
+            home.format = name
+    imgui.separator()
+    for name, label in {"": "The window's theme", **{name: f"{name.capitalize()} theme" for name in THEMES}}.items():
+        if imgui.menu_item_simple(label, "", home.theme == name):
+            home.theme = name
 
 
 def _lesson_item(session: Session, name: str) -> None:

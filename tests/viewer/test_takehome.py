@@ -1,0 +1,100 @@
+"""Ctrl+S in the window: the figure of what is on show, and the command line that makes the same bytes again."""
+
+import shlex
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from imgui_bundle import imgui
+
+import tracer
+from tests.viewer.driver import Driver, viewer
+from viewer import cli
+from viewer.takehome import FIGURES, free
+
+
+@pytest.fixture
+def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Driver]:
+    monkeypatch.chdir(tmp_path)
+    with viewer() as driver:
+        yield driver
+
+
+def press_save(room: Driver) -> None:
+    """And wait for what comes of it, however it ends."""
+    room.press(imgui.Key.mod_ctrl, imgui.Key.s)
+    if room.session.takehome.making:
+        room.session.takehome.making.exception()
+    room.frames()
+    assert room.session.takehome.making is None
+
+
+def save(room: Driver) -> Path:
+    """Press Ctrl+S; the file that comes of it."""
+    before = set(Path().iterdir())
+    press_save(room)
+    (path,) = set(Path().iterdir()) - before
+    return path
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_the_command_line_makes_the_same_file(room: Driver, figure: str, tmp_path: Path) -> None:
+    room.open("glass-ball")
+    room.session.orbit.turn(0.3, 0.1)
+    room.type("2")
+    room.session.takehome.figure = figure
+    if figure == "hit":
+        room.session.select(4)
+    path = save(room)
+    assert path.name == f"glass-ball_248_180_{figure}_d2.svg"
+    assert f"wrote {path.resolve()}" in room.session.notice.text
+    command = shlex.split(room.session.takehome.command)
+    assert command[0] == "raytree"
+    assert cli.main([*command[1:], "-o", "again.svg"]) == 0
+    assert Path("again.svg").read_bytes() == path.read_bytes()
+
+
+def test_an_earlier_figure_is_never_lost(room: Driver) -> None:
+    room.open("mirror-balls")
+    first, second = save(room), save(room)
+    assert second.name == first.with_stem(f"{first.stem}-2").name
+    assert first.read_bytes() == second.read_bytes()
+    assert free(first).name == f"{first.stem}-3.svg"
+
+
+def test_copying_the_command_line(room: Driver) -> None:
+    room.open("mirror-balls")
+    room.session.takehome.figure = "tree"
+    save(room)
+    room.press(imgui.Key.mod_ctrl, imgui.Key.c)
+    assert imgui.get_clipboard_text() == room.session.takehome.command
+    assert "--figure=tree" in room.session.takehome.command
+
+
+def test_without_a_pixel_there_is_nothing_to_export(room: Driver, tmp_path: Path) -> None:
+    room.open("mirror-balls")
+    room.session.clear()
+    room.session.clear()
+    press_save(room)
+    assert room.session.notice.text == "nothing to export yet: pick a pixel"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_hit_that_is_none_is_said(room: Driver, tmp_path: Path) -> None:
+    """The selected ray leaves the scene: there is no hit to show."""
+    room.open("glass-ball")
+    tree = room.session.tree
+    assert tree
+    room.session.select(next(i for i in range(len(tree)) if tree.end(i) == "background"))
+    room.session.takehome.figure = "hit"
+    press_save(room)
+    assert room.session.faults == ["--node 3 must be a ray that meets a surface: 0, 4, 7, 8, 13, 14"]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_notebooks_show_the_figure(worlds: dict[str, tracer.World]) -> None:
+    tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=2)
+    text = tree._repr_svg_()
+    assert text is not None
+    assert text.startswith("<?xml")
+    assert "glass ball" in text

@@ -1,0 +1,11 @@
+"""What a notebook shows of a tree. `tracer` knows no viewer: it asks who has announced a drawer (pyproject.toml)."""
+
+from tracer.tree import RayTree
+from viewer.figures.figure import Subject, Wishes, pages
+from viewer.figures.stage import by_depth
+from viewer.figures.svg import write_svg
+
+
+def tree_svg(tree: RayTree) -> str:
+    (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(ground=True, swatches=True))
+    return write_svg(figure).decode("utf-8")
