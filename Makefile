@@ -11,7 +11,10 @@ PROGRAMS := Xvfb:xvfb xdotool:xdotool openbox:openbox povray:povray setpriv:util
 	pdftotext:poppler-utils
 LIBRARIES := libEGL.so.1:libegl1 libGL.so.1:libgl1 swrast_dri.so:libgl1-mesa-dri
 
-.PHONY: run test check bench bench-quick bench-stable picture clean
+# What only `make test-all` uses: an office program and TeX, which read what is exported.
+OFFICE := soffice:libreoffice-impress pdflatex:texlive-latex-extra kpsewhich:texlive-pictures
+
+.PHONY: run test test-all check bench bench-quick bench-stable picture gallery clean
 
 run: .venv/installed
 	@$(BIN)/raytree
@@ -19,6 +22,11 @@ run: .venv/installed
 test: .venv/installed-dev
 	@sh .ci/system-packages '$(PROGRAMS)' '$(LIBRARIES)'
 	$(BIN)/python -m pytest -q
+
+# With the tests that need an office program and TeX, which take hundreds of megabytes.
+test-all: .venv/installed-dev
+	@sh .ci/system-packages '$(PROGRAMS) $(OFFICE)' '$(LIBRARIES)'
+	$(BIN)/python -m pytest -q -m ''
 
 check: .venv/installed-dev
 	$(BIN)/ruff format --check .
@@ -43,6 +51,10 @@ bench-stable: .venv/installed-dev
 # The README's picture of the viewer, by the viewer.
 picture: .venv/installed
 	$(BIN)/raytree view glass-ball --screenshot docs/viewer.png
+
+# The gallery of figures: docs/figures.md with its pictures.
+gallery: .venv/installed
+	$(BIN)/python -m viewer.figures.gallery docs
 
 .venv/installed: pyproject.toml
 	@test -n "$(PYTHON)" || { echo "raytree needs Python 3.11 or later: no python3 of that version was found"; exit 1; }

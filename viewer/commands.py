@@ -151,19 +151,13 @@ def compile_once() -> float:
 
 
 def as_text(tree: tracer.RayTree, name: str, rays: int) -> str:
-    match name:
-        case "json":
-            return tree.to_json()
-        case "csv":
-            from viewer.figures.csv import write_csv
+    if name == "text":
+        return tree.to_text(rays or None)
+    from viewer.figures.formats import FORMATS
 
-            return write_csv(tree)
-        case "dot":
-            from viewer.figures.dot import write_dot
-
-            return write_dot(tree)
-        case _:
-            return tree.to_text(rays or None)
+    data = FORMATS[name].data
+    assert data
+    return data(tree)
 
 
 def put(text: str) -> None:

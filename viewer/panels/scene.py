@@ -7,11 +7,12 @@ from imgui_bundle import imgui
 
 from tracer.nodes import SHADOW
 from viewer.canvas import Canvas, texture_ref
+from viewer.figures.labels import ray_label
 from viewer.orbit import project
 from viewer.panels import draw as d
 from viewer.raylines import nearest_row
 from viewer.session import Session
-from viewer.theme import SMALL, STYLES, faded
+from viewer.theme import SMALL, faded
 
 TITLE = "Scene"
 
@@ -183,4 +184,4 @@ class _Overlay:
             color = session.theme.ray(kind)
             if session.selected is not None and i != session.selected:
                 color = faded(color, 0.7)
-            self.label(at, f"{STYLES[kind].letter} {i}" if i else "E", color, (8, 4))
+            self.label(at, ray_label(tree, i), color, (8, 4))
