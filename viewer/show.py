@@ -31,6 +31,7 @@ def show(path: Path, lesson: Lesson | None, options: Namespace) -> int:
     except NoWindow as reason:
         return without_display(path, lesson, options, str(reason))
     app = App(window, Session())
+    app.session.takehome.remember(_settings().with_name("figure.json"))
     try:
         app.session.open(path, lesson, options.depth, options.pixel, options.model)
         app.run()

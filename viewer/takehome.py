@@ -1,5 +1,7 @@
 """What is on show as a figure to take home: the very command that makes it again is what makes it."""
 
+import contextlib
+import json
 import math
 import shlex
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -7,7 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from viewer.files import Unusable
+from viewer.files import Unusable, write_atomically
+from viewer.theme import THEMES
 
 if TYPE_CHECKING:
     from viewer.session import Session
@@ -25,6 +28,23 @@ class TakeHome:
     theme: str = ""  # the window's where none is chosen
     command: str = ""  # that made the last figure
     making: Future | None = None
+    kept: Path | None = None  # where the choice is kept from one start to the next
+
+    def remember(self, path: Path) -> None:
+        """Choose as last time, and keep the choice there from now on."""
+        self.kept = path
+        try:
+            found = json.loads(path.read_text("utf-8"))
+            if found["figure"] in FIGURES and found["format"] in FORMATS and found["theme"] in ("", *THEMES):
+                self.figure, self.format, self.theme = found["figure"], found["format"], found["theme"]
+        except (OSError, ValueError, KeyError, TypeError):
+            return  # never chosen, or not by us
+
+    def _keep(self) -> None:
+        if self.kept:
+            choice = {"figure": self.figure, "format": self.format, "theme": self.theme}
+            with contextlib.suppress(Unusable):  # then it is for this time only
+                write_atomically(self.kept, json.dumps(choice).encode("utf-8"))
 
     def words(self, session: "Session") -> list[str]:
         """The command's arguments for what is on show, but for where to."""
@@ -55,6 +75,7 @@ class TakeHome:
         words = self.words(session)
         options = cli.make_parser().parse_args([*words, "-o", "."])
         self.command = shlex.join(["raytree", *words])
+        self._keep()
         world, lesson = session.world, session.lesson
         stem = f"{exporting.stem_of(options, lesson)}_{self.figure}_d{session.depth}"
         path = free(Path(stem + KINDS[self.format].suffix))

@@ -10,7 +10,7 @@ from imgui_bundle import imgui
 import tracer
 from tests.viewer.driver import Driver, viewer
 from viewer import cli
-from viewer.takehome import FIGURES, free
+from viewer.takehome import FIGURES, TakeHome, free
 
 
 @pytest.fixture
@@ -69,6 +69,25 @@ def test_copying_the_command_line(room: Driver) -> None:
     room.press(imgui.Key.mod_ctrl, imgui.Key.c)
     assert imgui.get_clipboard_text() == room.session.takehome.command
     assert "--figure=tree" in room.session.takehome.command
+
+
+def test_the_choice_is_kept(room: Driver, tmp_path: Path) -> None:
+    """From one start to the next; what is no choice of ours counts as none."""
+    kept = tmp_path / "kept" / "figure.json"
+    kept.parent.mkdir()
+    room.open("mirror-balls")
+    mine = room.session.takehome
+    mine.remember(kept)
+    mine.figure, mine.format, mine.theme = "tree", "tikz", "mono"
+    save(room)
+    later = TakeHome()
+    later.remember(kept)
+    assert (later.figure, later.format, later.theme) == ("tree", "tikz", "mono")
+    for text in ("", "[]", '{"figure": "cake"}', '{"figure": "cake", "format": "svg", "theme": ""}'):
+        kept.write_text(text)
+        fresh = TakeHome()
+        fresh.remember(kept)
+        assert (fresh.figure, fresh.format, fresh.theme) == ("both", "svg", "")
 
 
 def test_without_a_pixel_there_is_nothing_to_export(room: Driver, tmp_path: Path) -> None:

@@ -31,7 +31,7 @@ FINE = 2  # rays a point across and down: an outline is sure to a quarter of a p
 STRAIGHT = 0.2  # points: how far a simpler outline may be off
 SMALL = 6.0  # square points: smaller spots are noise
 DARKER = (0.75, 0.45)  # cosines below which a surface is a shade darker
-COARSE, MOST_SPOTS = 4, 30  # points between places that may be named, and how many of them
+COARSE, RING, MOST_SPOTS = 4, 12, 80  # points between places that may be named; places in a ring of them, in all
 FACETS = 400  # triangles of a cut stone whose edges are drawn; finer ones are round
 FLAT = (Plane, Polygon, Triangle, Disc)
 
@@ -205,8 +205,10 @@ def _areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
         return ()
     height, width = (n // FINE for n in mask.shape)
     cover = mask.reshape(height, FINE, width, FINE).mean(axis=(1, 3))
-    # At the rim a spot goes on as it was, and ends outside.
-    cover = np.pad(np.pad(cover, 1, mode="edge"), 1)
+    # At the rim a spot goes on as it was, and ends outside. Nearly level edges are stairs, a ray high: smoothed.
+    cover = np.pad(cover, 2, mode="edge")
+    cover = 0.25 * (cover[:-2] + 2.0 * cover[1:-1] + cover[2:])
+    cover = np.pad(0.25 * (cover[:, :-2] + 2.0 * cover[:, 1:-1] + cover[:, 2:]), 1)
     x, y = np.arange(width + 4) - 1.5, np.arange(height + 4) - 1.5
     maker = contourpy.contour_generator(x, y, cover, fill_type=contourpy.FillType.OuterOffset)
     found = []
@@ -221,16 +223,16 @@ def _areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
 
 
 def _within(mask: np.ndarray, where: Rectangle) -> tuple[Point, ...]:
-    """Some places inside what is true: its rim is taken off until nothing is left, and the last ones come first."""
+    """Places all over what is true: its rim is taken off until nothing is left, and the last ones come first."""
     found: list[Point] = []
     left = mask[:: FINE * COARSE, :: FINE * COARSE]
     while left.any():
         rows, columns = np.nonzero(left)
-        steps = np.linspace(0, len(rows) - 1, min(3, len(rows))).astype(int)
+        steps = np.linspace(0, len(rows) - 1, min(RING, len(rows))).astype(int)
         found[:0] = [(where[0] + COARSE * float(columns[k]), where[1] + COARSE * float(rows[k])) for k in steps]
         inner = np.pad(left, 1)
         left = left & inner[:-2, 1:-1] & inner[2:, 1:-1] & inner[1:-1, :-2] & inner[1:-1, 2:]
-    return tuple(found[:MOST_SPOTS])
+    return tuple(found[:: -(-len(found) // MOST_SPOTS)])
 
 
 def simpler(ring: np.ndarray) -> np.ndarray:

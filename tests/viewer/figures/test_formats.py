@@ -157,3 +157,18 @@ def test_same_input_same_bytes(tmp_path: Path) -> None:
         found.append({path.name: path.read_bytes() for path in folder.iterdir()})
     assert len(found[0]) == 4 * 7 + 2
     assert found[0] == found[1]
+
+
+def test_every_file_says_which_command_made_it(worlds: dict[str, tracer.World], tmp_path: Path) -> None:
+    from pptx import Presentation
+
+    command = "raytree export glass-ball --theme light"
+    found = pages("tree", Subject(by_depth(trees(worlds, "glass-ball"))), Wishes(), command)
+    assert ElementTree.fromstring(written("svg", found)).findtext(f"{SVG}metadata") == command
+    assert Image.open(io.BytesIO(written("png", found))).info["Source"] == command
+    assert f"% {command}" in written("tikz", found).decode("utf-8").splitlines()
+    assert Presentation(io.BytesIO(written("pptx", found))).core_properties.comments == command
+    (tmp_path / "a.pdf").write_bytes(written("pdf", found))
+    said = subprocess.run(["pdfinfo", tmp_path / "a.pdf"], capture_output=True, text=True, check=True).stdout
+    assert re.search(rf"^Keywords:\s+{command}$", said, re.MULTILINE)
+    assert re.search(rf"^Title:\s+{re.escape(found[0].title)}$", said, re.MULTILINE)
