@@ -20,7 +20,7 @@ from viewer.orbit import Orbit
 from viewer.theme import LIGHT, Theme
 
 if TYPE_CHECKING:
-    from viewer.figures.scenefigure import SceneView
+    from viewer.figures.sceneview import SceneView
 
 DIVIDE = 0.46 * WIDTH  # where the scene ends and the tree begins
 TEXT_SIZE = 18.0  # points: what the last row reads where the figure fills a slide
@@ -47,7 +47,7 @@ class Subject:
     orbit: Orbit | None = None  # from where the scene is seen
 
     def view(self, where: Rectangle) -> SceneView:
-        from viewer.figures.scenefigure import SceneView
+        from viewer.figures.sceneview import SceneView
 
         if self.world is None or self.orbit is None:
             raise ValueError("a figure of the scene needs the scene and from where it is seen")

@@ -6,22 +6,20 @@ their labels are those of the tree figure.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-import tracer
 from tracer.nodes import KINDS, SHADOW
 from tracer.scene import Material
 from tracer.tree import RayTree, name_of
-from tracer.world import World
 from viewer.figures import signs
-from viewer.figures.font import text_box
 from viewer.figures.labels import ray_label, ray_title
-from viewer.figures.marks import Line, Mark, Point, Rectangle, Shape, Stroke, Text
-from viewer.figures.scenery import Area, Part, blockers, camera_of, scenery
+from viewer.figures.marks import Line, Mark, Point, Shape, Stroke
+from viewer.figures.names import Names
+from viewer.figures.outlines import Area
+from viewer.figures.scenery import Part
+from viewer.figures.sceneview import SceneView, clipped
 from viewer.figures.stage import Stage
-from viewer.orbit import Frame, Orbit, project
 from viewer.picture import srgb
 from viewer.raylines import RayLine, ray_lines
 from viewer.theme import ARROW_AT, HALO, STYLES, Arrow, Color, Theme, faded
@@ -30,74 +28,9 @@ PALE = 0.45  # how much of the paper's colour things take, so that rays stand ou
 SHADE = 0.09  # opacity of what makes a turned-away surface darker
 GLASS = 0.13  # opacity of glass
 OUTLINE, CREASE = 1.3, 0.8  # widths
-BACKING = 0.7  # opacity of the paper behind a label
 FAINT = 0.3  # opacity of what is hidden of a ray
-PIECES = 24  # in which a ray is asked for whether it is seen; borders are then halved
-HALVINGS = 7
 SLIM = 0.7  # of a shadow ray's width: there are many, and they are not what the figure is about
 LABELS = 14  # rays that are named, the heaviest
-
-
-@dataclass(frozen=True)
-class Stretch:
-    """A part of a ray's line on the canvas, from share `begin` to share `end` of its length."""
-
-    begin: float
-    end: float
-    seen: bool
-
-
-class SceneView:
-    """A scene from one eye within one rectangle: worked out once for all steps of a figure."""
-
-    def __init__(self, world: World, orbit: Orbit, where: Rectangle) -> None:
-        self.world, self.where = world, where
-        self.frame = Frame.of(world)
-        self.camera = camera_of(orbit, self.frame)
-        self.size = (where[2] - where[0], where[3] - where[1])
-        self.matrix = orbit.matrix(self.size[0] / self.size[1])
-        self.seen = scenery(world, self.camera, where)
-        self.blockers = blockers(world, self.camera)
-        self.stretches: dict[tuple, list[Stretch]] = {}
-
-    def at(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(places on the canvas, depths) of points of the frame (n, 3)."""
-        places, depths = project(points, self.matrix, self.size)
-        return places + self.where[:2], depths
-
-    def hidden(self, point: np.ndarray) -> bool:
-        """Whether something opaque stands between the eye and a point of the frame."""
-        if self.blockers is None:
-            return False
-        eye = np.array(self.camera.position)
-        gaze = self.frame.middle + self.frame.radius * point - eye
-        far = float(np.linalg.norm(gaze))
-        tree = tracer.trace(self.blockers, ray=(eye.tolist(), gaze.tolist()), depth=0)
-        return bool(tree.nodes["t"][0] < far * (1.0 - 1e-6))
-
-    def parts(self, line: RayLine) -> list[Stretch]:
-        """Where a ray is seen and where not. Shares are of its length in space."""
-        key = (*line.start, *line.end)
-        if key not in self.stretches:
-            self.stretches[key] = self._parts(line)
-        return self.stretches[key]
-
-    def _parts(self, line: RayLine) -> list[Stretch]:
-        def hidden(share: float) -> bool:
-            return self.hidden(line.start + share * (line.end - line.start))
-
-        shares = [(k + 0.5) / PIECES for k in range(PIECES)]
-        states = [hidden(share) for share in shares]
-        borders, found = [0.0], []
-        for k in range(PIECES - 1):
-            if states[k] != states[k + 1]:
-                low, high = shares[k], shares[k + 1]
-                for _ in range(HALVINGS):
-                    middle = 0.5 * (low + high)
-                    low, high = (middle, high) if hidden(middle) == states[k] else (low, middle)
-                found.append(Stretch(borders[-1], 0.5 * (low + high), not states[k]))
-                borders.append(0.5 * (low + high))
-        return [*found, Stretch(borders[-1], 1.0, not states[-1])]
 
 
 def scene_marks(view: SceneView, stage: Stage, size: float, theme: Theme) -> list[Mark]:
@@ -110,8 +43,7 @@ class _Drawing:
         self.tree: RayTree = stage.tree
         self.scene = view.world.scene
         self.marks: list[Mark] = []
-        self.taken: list[Rectangle] = []  # by labels and signs
-        self.ways: list[tuple[Point, Point]] = []  # of rays
+        self.names = Names(view.where, size, theme)
         for part in view.seen.opaque:
             self._thing(part, 1.0)
         for part in view.seen.glass:
@@ -158,7 +90,7 @@ class _Drawing:
             if piece is None:
                 continue
             a, b = piece
-            self.ways.append(piece)
+            self.names.ways.append(piece)
             if not stretch.seen:
                 self.marks.append(Line(name, a, b, faint, title=title))
                 continue
@@ -204,18 +136,14 @@ class _Drawing:
             at = self._place(self.view.frame.inside(light.position))
             if at:
                 self.marks += signs.sun(f"light-{j}", at, 1.4 * self.size, self.theme.sun)
-                self._take(at, 1.2 * self.size)
-                self._label(f"light-{j}", light.name or f"light {j}", [at], self.theme.text)
+                self.names.take(at, 1.2 * self.size)
+                self.marks += self.names.label(f"light-{j}", light.name or f"light {j}", [at], self.theme.text)
 
     def _eye(self) -> None:
         at = self._place(self.view.frame.inside(self.view.world.view().eye))
         if at:
             self.marks += signs.eye(at, self.size, self.theme)
-            self._take(at, 1.6 * self.size)
-
-    def _take(self, at: Point, wide: float) -> None:
-        x, y = at
-        self.taken.append((x - 0.5 * wide, y - 0.5 * wide, x + 0.5 * wide, y + 0.5 * wide))
+            self.names.take(at, 1.6 * self.size)
 
     def _labels(self, lines: Sequence[RayLine]) -> None:
         """Names of rays, the heaviest first, then of what they meet."""
@@ -231,37 +159,13 @@ class _Drawing:
                     (x0, y0), (x1, y1) = piece
                     spots.append((x0 + share * (x1 - x0), y0 + share * (y1 - y0)))
             color = self.theme.ray(line.kind)
-            self._label(f"ray-{line.row}", ray_label(self.tree, line.row), spots, color)
+            self.marks += self.names.label(f"ray-{line.row}", ray_label(self.tree, line.row), spots, color)
         met = {int(nodes["object"][line.row]) for line in rays if nodes["object"][line.row] >= 0}
         for part in (*self.view.seen.opaque, *self.view.seen.glass):
             if part.number in met:
-                self._label(
+                self.marks += self.names.label(
                     f"object-{part.number}", name_of(self.scene, part.number), part.spots, self.theme.text, True
                 )
-
-    def _label(self, name: str, content: str, spots: Sequence[Point], color: Color, upon: bool = False) -> None:
-        """Beside one of these spots or upon it, where it covers no label and as few rays as can be; else left out."""
-        best = None
-        for order, (x, y) in enumerate(spots):
-            for ring in (0.0,) if upon else (0.75, 1.3, 2.0):
-                for turn in range(1 if upon else 12):
-                    angle = 2.0 * math.pi * turn / 12
-                    right = math.cos(angle)
-                    anchor = "middle" if upon or abs(right) < 0.3 else "start" if right > 0.0 else "end"
-                    at = (x + ring * self.size * right, y + ring * self.size * math.sin(angle))
-                    box = text_box(at, content, self.size, anchor)
-                    if not _within(box, self.view.where) or any(_overlap(box, other) for other in self.taken):
-                        continue
-                    cost = (sum(_cuts(way, box) for way in self.ways), ring, order, turn)
-                    if best is None or cost < best[0]:
-                        best = (cost, at, anchor, box)
-        if best:
-            _, at, anchor, box = best
-            self.taken.append(box)
-            left, top, right, bottom = box
-            corners = ((left - 2.0, top), (right + 2.0, top), (right + 2.0, bottom), (left - 2.0, bottom))
-            self.marks.append(Shape(f"{name}-label", corners, faded(self.theme.ground, BACKING), None))
-            self.marks.append(Text(f"{name}-label", at, content, self.size, color, anchor))
 
 
 def look(material: Material, theme: Theme) -> Color:
@@ -273,38 +177,6 @@ def look(material: Material, theme: Theme) -> Color:
         encoded = np.full(3, 0.55 + 0.45 * float(encoded @ (0.2126, 0.7152, 0.0722)))
     r, g, b = ((1.0 - PALE) * encoded + PALE * np.array(theme.ground[:3])).tolist()
     return (r, g, b, 1.0)
-
-
-def clipped(piece: tuple[Point, Point], box: Rectangle) -> tuple[Point, Point] | None:
-    """The part of a stretch within a rectangle (Liang & Barsky, ACM Trans. Graph. 3(1), 1984)."""
-    (x0, y0), (x1, y1) = piece
-    enters, leaves = 0.0, 1.0
-    for a, b, low, high in ((x0, x1, box[0], box[2]), (y0, y1, box[1], box[3])):
-        if a == b:
-            if not low <= a <= high:
-                return None
-            continue
-        near, far = sorted(((low - a) / (b - a), (high - a) / (b - a)))
-        enters, leaves = max(enters, near), min(leaves, far)
-    if enters >= leaves:
-        return None
-
-    def at(share: float) -> Point:
-        return (x0 + share * (x1 - x0), y0 + share * (y1 - y0))
-
-    return at(enters), at(leaves)
-
-
-def _cuts(piece: tuple[Point, Point], box: Rectangle) -> bool:
-    return clipped(piece, box) is not None
-
-
-def _overlap(a: Rectangle, b: Rectangle) -> bool:
-    return min(a[2], b[2]) > max(a[0], b[0]) and min(a[3], b[3]) > max(a[1], b[1])
-
-
-def _within(a: Rectangle, b: Rectangle) -> bool:
-    return a[0] >= b[0] and a[1] >= b[1] and a[2] <= b[2] and a[3] <= b[3]
 
 
 def _last(piece: tuple[Point, Point], length: float) -> tuple[Point, Point]:

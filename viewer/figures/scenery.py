@@ -5,12 +5,10 @@ is seen and in green the cosine at which it is seen; where that number changes i
 back to the eye are traced, for any shape that the tracer knows, and what hides what is exact.
 """
 
-import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import contourpy
 import numpy as np
 
 import tracer
@@ -25,23 +23,12 @@ from tracer.shapes.triangle import Triangle
 from tracer.vector import tame, unit
 from tracer.world import World
 from viewer.figures.marks import Point, Rectangle
+from viewer.figures.outlines import FINE, Area, areas, spots_of
 from viewer.orbit import FOV, Frame, Orbit
 
-FINE = 2  # rays a point across and down: an outline is sure to a quarter of a point
-STRAIGHT = 0.2  # points: how far a simpler outline may be off
-SMALL = 6.0  # square points: smaller spots are noise
 DARKER = (0.75, 0.45)  # cosines below which a surface is a shade darker
-COARSE, RING, MOST_SPOTS = 4, 12, 80  # points between places that may be named; places in a ring of them, in all
 FACETS = 400  # triangles of a cut stone whose edges are drawn; finer ones are round
 FLAT = (Plane, Polygon, Triangle, Disc)
-
-
-@dataclass(frozen=True)
-class Area:
-    """One connected spot of the picture, in points; with holes where something stands before it."""
-
-    outline: tuple[Point, ...]
-    holes: tuple[tuple[Point, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -146,11 +133,11 @@ def _parts(
     found = []
     for k in wanted:
         own = [number for number, (owner, _) in enumerate(faces) if owner == k]
-        spots = [_areas(numbers == number, where) for number in own]
+        spots = [areas(numbers == number, where) for number in own]
         mine = np.isin(numbers, own)
-        shades = tuple(_areas(mine & (cosine < below), where) for below in DARKER)
+        shades = tuple(areas(mine & (cosine < below), where) for below in DARKER)
         if any(spots):
-            found.append(Part(k, tuple(spot for spot in spots if spot), shades, _within(mine, where)))
+            found.append(Part(k, tuple(spot for spot in spots if spot), shades, spots_of(mine, where)))
     return tuple(found)
 
 
@@ -197,71 +184,6 @@ def _facets(corners: np.ndarray) -> list[Face]:
     _, which = np.unique(np.round(planes, 5) + 0.0, axis=0, return_inverse=True)
     groups = [corners[which.ravel() == k] for k in range(int(which.max()) + 1)]
     return [Face(tuple(Triangle(tuple(map(tuple, t))) for t in group.tolist()), True) for group in groups]
-
-
-def _areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
-    """The outlines of what is true, in points of the canvas."""
-    if not mask.any():
-        return ()
-    height, width = (n // FINE for n in mask.shape)
-    cover = mask.reshape(height, FINE, width, FINE).mean(axis=(1, 3))
-    # At the rim a spot goes on as it was, and ends outside. Nearly level edges are stairs, a ray high: smoothed.
-    cover = np.pad(cover, 2, mode="edge")
-    cover = 0.25 * (cover[:-2] + 2.0 * cover[1:-1] + cover[2:])
-    cover = np.pad(0.25 * (cover[:, :-2] + 2.0 * cover[:, 1:-1] + cover[:, 2:]), 1)
-    x, y = np.arange(width + 4) - 1.5, np.arange(height + 4) - 1.5
-    maker = contourpy.contour_generator(x, y, cover, fill_type=contourpy.FillType.OuterOffset)
-    found = []
-    for points, offsets in zip(*maker.filled(0.5, 2.0), strict=True):
-        clipped = np.clip(points, 0.0, (width, height)) + where[:2]
-        rings = [simpler(clipped[a:b]) for a, b in itertools.pairwise(offsets)]
-        rings = [ring for ring in rings if len(ring) > 2 and _size(ring) >= SMALL]
-        if rings:
-            outline, *holes = (tuple(map(tuple, ring.tolist())) for ring in rings)
-            found.append(Area(outline, tuple(holes)))
-    return tuple(found)
-
-
-def _within(mask: np.ndarray, where: Rectangle) -> tuple[Point, ...]:
-    """Places all over what is true: its rim is taken off until nothing is left, and the last ones come first."""
-    found: list[Point] = []
-    left = mask[:: FINE * COARSE, :: FINE * COARSE]
-    while left.any():
-        rows, columns = np.nonzero(left)
-        steps = np.linspace(0, len(rows) - 1, min(RING, len(rows))).astype(int)
-        found[:0] = [(where[0] + COARSE * float(columns[k]), where[1] + COARSE * float(rows[k])) for k in steps]
-        inner = np.pad(left, 1)
-        left = left & inner[:-2, 1:-1] & inner[2:, 1:-1] & inner[1:-1, :-2] & inner[1:-1, 2:]
-    return tuple(found[:: -(-len(found) // MOST_SPOTS)])
-
-
-def simpler(ring: np.ndarray) -> np.ndarray:
-    """A closed outline with fewer corners, nowhere farther off than STRAIGHT (Ramer 1972; Douglas & Peucker 1973)."""
-    ring = ring[:-1] if len(ring) > 1 and (ring[0] == ring[-1]).all() else ring
-    if len(ring) < 4:
-        return ring
-    far = int(np.argmax(((ring - ring[0]) ** 2).sum(axis=1)))
-    kept = {0, far}
-    closed = np.concatenate([ring, ring[:1]])
-    waiting = [(0, far), (far, len(ring))]
-    while waiting:
-        a, b = waiting.pop()
-        if b - a < 2:
-            continue
-        along = closed[b] - closed[a]
-        length = math.hypot(*along)
-        between = closed[a + 1 : b] - closed[a]
-        away = np.abs(between @ (-along[1], along[0])) / length if length > 0.0 else np.hypot(*between.T)
-        k = int(np.argmax(away))
-        if away[k] > STRAIGHT:
-            kept.add(a + 1 + k)
-            waiting += [(a, a + 1 + k), (a + 1 + k, b)]
-    return ring[sorted(kept)]
-
-
-def _size(ring: np.ndarray) -> float:
-    x, y = ring.T
-    return 0.5 * abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
 
 
 def blockers(world: World, camera: Camera) -> World | None:

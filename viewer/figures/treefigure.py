@@ -9,12 +9,13 @@ import numpy as np
 from tracer.nodes import SHADOW
 from tracer.tree import RayTree
 from viewer.figures import signs
+from viewer.figures.folds import Fold
 from viewer.figures.font import text_width
 from viewer.figures.labels import end_label, hit_label, ray_label, ray_title
 from viewer.figures.legend import Entry, legend
 from viewer.figures.marks import Box, Disc, Line, Mark, Point, Stroke, Text
 from viewer.figures.stage import Stage
-from viewer.figures.treeplan import NO_RAY, NOTE, PADDING, SIGN, SWATCH, Fold, TreePlan, edge_label, name_in_box
+from viewer.figures.treeplan import NO_RAY, NOTE, PADDING, SIGN, SWATCH, TreePlan, edge_label, name_in_box
 from viewer.picture import srgb
 from viewer.theme import BLOCKED_DASH, STYLES, Color, Theme
 

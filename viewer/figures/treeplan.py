@@ -6,16 +6,16 @@ Where a slide is too small for the whole tree, the lightest branches are folded 
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tracer.nodes import SHADOW
 from tracer.tree import RayTree
+from viewer.figures.folds import Fold, folded
 from viewer.figures.font import text_width
 from viewer.figures.labels import end_label, factor_label, hit_label, ray_label
 from viewer.figures.layout import Room, layout
 from viewer.figures.marks import HEIGHT, WIDTH, Point, Rectangle
-from viewer.wording import shown
 
 # In sizes of the text.
 MARGIN = 0.6
@@ -37,20 +37,6 @@ PITCH, TALLEST = 4.85, 8.0  # from level to level, at least and at most
 
 NO_RAY = "no T"  # what total internal reflection leaves of the refracted ray
 LONGEST = 14  # characters of a name; longer ones are cut
-
-
-@dataclass(frozen=True)
-class Fold:
-    """A branch, or two of one hit, in one box: which stands where the heavier one's first hit would."""
-
-    row: int
-    roots: tuple[int, ...]
-    weight: float  # of its first rays, together
-
-    def words(self, rows: Iterable[int], inside: dict[int, int]) -> tuple[str, str]:
-        """(how many rays, their share of the weight), as far as these rows go."""
-        count = sum(inside.get(i) == self.row for i in rows)
-        return (f"+{count} ray{'s' if count > 1 else ''}", f"{shown(100.0 * self.weight, 2)} %")
 
 
 @dataclass(frozen=True)
@@ -138,7 +124,7 @@ def _try(
 ) -> TreePlan | None:
     """The plan with these rays and all others folded; None where it does not fit onto the canvas."""
     tree = trees[-1]
-    rows, folds, inside = _folded(tree, kept)
+    rows, folds, inside = folded(tree, kept)
     column, slot = _widths(trees, rows, folds, inside, size, swatches)
     margin, gap, box = MARGIN * size, GAP * size, BOX * size
     unit = column + gap
@@ -176,26 +162,6 @@ def _try(
     bars = {i: hanging(i, place.x) for i, place in laid.bars.items()}
     eye = (at[0][0], margin + EYE * size)
     return TreePlan(tree, size, swatches, where, frozenset(rows), folds, inside, at, bars, eye, (column, box))
-
-
-def _folded(tree: RayTree, kept: set[int]) -> tuple[set[int], dict[int, Fold], dict[int, int]]:
-    """(rows drawn each for itself, folds, folded row -> its fold): of a hit's branches that are not kept, one fold."""
-    nodes = tree.nodes
-    weights = nodes["weight"].max(axis=1)
-    rows = kept | {c for i in kept for c in tree.children[i] if nodes["kind"][c] == SHADOW}
-    folds: dict[int, Fold] = {}
-    inside: dict[int, int] = {}
-    for i in sorted(kept):
-        roots = tuple(c for c in tree.children[i] if c not in kept and nodes["kind"][c] != SHADOW)
-        if roots:
-            row = max(roots, key=lambda c: (weights[c], -c))
-            folds[row] = Fold(row, roots, float(sum(weights[c] for c in roots)))
-            inside |= dict.fromkeys(roots, row)
-    for i in range(len(tree)):  # a parent stands before its children
-        parent = int(nodes["parent"][i])
-        if parent in inside and i not in inside:
-            inside[i] = inside[parent]
-    return rows, folds, inside
 
 
 def _widths(

@@ -18,7 +18,8 @@ from tracer.shapes.sphere import Sphere
 from viewer import lesson
 from viewer.figures.figure import Subject, Wishes, pages
 from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text
-from viewer.figures.scenery import camera_of, scenery, simpler
+from viewer.figures.outlines import simpler
+from viewer.figures.scenery import camera_of, scenery
 from viewer.figures.stage import by_depth
 from viewer.orbit import Frame, Orbit, home
 

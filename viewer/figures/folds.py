@@ -1,0 +1,42 @@
+"""Branches of a tree that a figure does not draw ray by ray: each is one box that says how many rays it stands for."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from tracer.nodes import SHADOW
+from tracer.tree import RayTree
+from viewer.wording import shown
+
+
+@dataclass(frozen=True)
+class Fold:
+    """A branch, or two of one hit, in one box: which stands where the heavier one's first hit would."""
+
+    row: int
+    roots: tuple[int, ...]
+    weight: float  # of its first rays, together
+
+    def words(self, rows: Iterable[int], inside: dict[int, int]) -> tuple[str, str]:
+        """(how many rays, their share of the weight), as far as these rows go."""
+        count = sum(inside.get(i) == self.row for i in rows)
+        return (f"+{count} ray{'s' if count > 1 else ''}", f"{shown(100.0 * self.weight, 2)} %")
+
+
+def folded(tree: RayTree, kept: set[int]) -> tuple[set[int], dict[int, Fold], dict[int, int]]:
+    """(rows drawn each for itself, folds, folded row -> its fold): of a hit's branches that are not kept, one fold."""
+    nodes = tree.nodes
+    weights = nodes["weight"].max(axis=1)
+    rows = kept | {c for i in kept for c in tree.children[i] if nodes["kind"][c] == SHADOW}
+    folds: dict[int, Fold] = {}
+    inside: dict[int, int] = {}
+    for i in sorted(kept):
+        roots = tuple(c for c in tree.children[i] if c not in kept and nodes["kind"][c] != SHADOW)
+        if roots:
+            row = max(roots, key=lambda c: (weights[c], -c))
+            folds[row] = Fold(row, roots, float(sum(weights[c] for c in roots)))
+            inside |= dict.fromkeys(roots, row)
+    for i in range(len(tree)):  # a parent stands before its children
+        parent = int(nodes["parent"][i])
+        if parent in inside and i not in inside:
+            inside[i] = inside[parent]
+    return rows, folds, inside
