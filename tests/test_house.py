@@ -32,13 +32,17 @@ def test_tracer_never_imports_the_viewer_nor_its_libraries() -> None:
 
 
 def test_one_place_knows_each_library() -> None:
-    """Numba: `jit` and what compiled code is made of; glfw: `window`; trimesh: `formats.meshes`; Dask: `cluster`."""
+    """Numba: `jit` and what compiled code is made of; glfw: `window`; trimesh: `formats.meshes`; Dask: `cluster`; a file's format: its writer."""
     homes = {
         "numba": {"tracer/jit.py", "tracer/intrinsics.py", "tracer/bundle.py", "tracer/lanes.py"},
         "llvmlite": {"tracer/intrinsics.py", "tracer/bundle.py", "tracer/lanes.py"},
         "glfw": {"viewer/window.py"},
         "trimesh": {"tracer/formats/meshes.py"},
         "distributed": {"tracer/cluster.py"},
+        "fpdf": {"viewer/figures/pdf.py"},
+        "pypdfium2": {"viewer/figures/png.py"},
+        "pptx": {"viewer/figures/pptx.py"},
+        "contourpy": {"viewer/figures/outlines.py"},
     }
     for library, home in homes.items():
         users = {str(path.relative_to(ROOT)) for path in SOURCES if library in {n.split(".")[0] for n in imports(path)}}

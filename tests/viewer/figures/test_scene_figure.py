@@ -53,13 +53,19 @@ def subject(world: tracer.World, name: str, depths: range = range(4)) -> Subject
     return Subject(by_depth(trees), world, home(world, Frame.of(world), found.view))
 
 
-@pytest.mark.parametrize("name", LESSONS)
-def test_rays_land_where_the_camera_projects_their_points(worlds: dict[str, tracer.World], name: str) -> None:
-    what = subject(worlds[name], name, range(3, 4))
-    (figure,) = pages("scene", what, Wishes())
+@pytest.fixture(scope="module", params=LESSONS)
+def grown(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> tuple[Subject, list[Figure]]:
+    """Each lesson's scene with the rays of depth 0 to 3."""
+    what = subject(worlds[request.param], request.param)
+    return what, pages("scene", what, Wishes())
+
+
+def test_rays_land_where_the_camera_projects_their_points(grown: tuple[Subject, list[Figure]]) -> None:
+    what, (*_, figure) = grown
+    assert what.world
     assert what.orbit
-    view = seen_by(camera_of(what.orbit, Frame.of(worlds[name])))
-    tree, near = what.stages[0].tree, 1e-3 * Frame.of(worlds[name]).radius
+    view = seen_by(camera_of(what.orbit, Frame.of(what.world)))
+    tree, near = what.stages[-1].tree, 1e-3 * Frame.of(what.world).radius
     checked = 0
     for i in range(len(tree)):
         row = tree.nodes[i]
@@ -73,7 +79,7 @@ def test_rays_land_where_the_camera_projects_their_points(worlds: dict[str, trac
             if not within(wanted):
                 continue
             places = [line.start if first else line.end for line in ends]
-            assert min(math.dist(wanted, place) for place in places) < 1e-6 * WIDTH, (name, i)
+            assert min(math.dist(wanted, place) for place in places) < 1e-6 * WIDTH, i
             checked += 1
     assert checked >= 2
 
@@ -120,9 +126,8 @@ def test_what_is_hidden_is_faint() -> None:
     assert sorted(p[0] for p in (faint[0].start, faint[0].end)) == pytest.approx(edges, abs=0.2)
 
 
-@pytest.mark.parametrize("name", LESSONS)
-def test_labels_avoid_each_other_and_stay_inside(worlds: dict[str, tracer.World], name: str) -> None:
-    for figure in pages("scene", subject(worlds[name], name), Wishes()):
+def test_labels_avoid_each_other_and_stay_inside(grown: tuple[Subject, list[Figure]]) -> None:
+    for figure in grown[1]:
         check_labels(figure)
 
 
@@ -139,9 +144,8 @@ def check_labels(figure: Figure) -> None:
             assert -3.0 <= x <= WIDTH + 3.0 and -1.0 <= y <= HEIGHT + 1.0
 
 
-@pytest.mark.parametrize("name", LESSONS)
-def test_things_stay_while_rays_come(worlds: dict[str, tracer.World], name: str) -> None:
-    figures = pages("scene", subject(worlds[name], name), Wishes())
+def test_things_stay_while_rays_come(grown: tuple[Subject, list[Figure]]) -> None:
+    _, figures = grown
     things = [[m for m in figure.marks if m.name.startswith("object-") and "label" not in m.name] for figure in figures]
     assert all(step == things[-1] for step in things)
     lines = [{m for m in figure.marks if isinstance(m, Line) and m.name.startswith("ray-")} for figure in figures]
