@@ -32,7 +32,9 @@ def test_tracer_never_imports_the_viewer_nor_its_libraries() -> None:
 
 
 def test_one_place_knows_each_library() -> None:
-    """Numba: `jit` and what compiled code is made of; glfw: `window`; trimesh: `formats.meshes`; Dask: `cluster`; a file's format: its writer."""
+    """Numba: `jit` and what compiled code is made of; glfw: `window`; trimesh: `formats.meshes`; Dask: `cluster`;
+    a file's format: its writer.
+    """
     homes = {
         "numba": {"tracer/jit.py", "tracer/intrinsics.py", "tracer/bundle.py", "tracer/lanes.py"},
         "llvmlite": {"tracer/intrinsics.py", "tracer/bundle.py", "tracer/lanes.py"},
