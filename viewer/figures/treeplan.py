@@ -96,22 +96,40 @@ def plan_tree(
     right of its part of the canvas.
     """
     tree = trees[-1]
-    weights = tree.nodes["weight"].max(axis=1)
-    rays = [i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW]
+    weights, kinds = tree.nodes["weight"].max(axis=1), tree.nodes["kind"]
+    fitting = int(_room_below(size) / (PITCH * size))  # levels below the first
+
+    def followed(i: int) -> bool:
+        return any(kinds[c] != SHADOW for c in tree.children[i])
+
+    rays = [i for i in range(len(tree)) if kinds[i] != SHADOW and (weights[i] >= fold or i == 0)]
+    rays = [i for i in rays if tree.nodes["depth"][i] < fitting + (not followed(i)) or i == 0]
     heaviest = sorted(rays, key=lambda i: (-weights[i], i))
-    enough = sum(weights[i] >= fold or i == 0 for i in rays)
-    low, high = 1, enough
-    best = _try(trees, set(heaviest[:high]), size, swatches, where)
-    if best is not None:
-        return best
-    while low < high:  # the most rays that fit; the first hit always does
-        middle = (low + high + 1) // 2
+    low, high = 0, len(heaviest)
+    best = None
+    while low < high:  # the most rays that fit, all of them at first
+        middle = high if best is None and low == 0 and high == len(heaviest) else (low + high + 1) // 2
         found = _try(trees, set(heaviest[:middle]), size, swatches, where)
         if found is None:
             high = middle - 1
         else:
             low, best = middle, found
-    return best or _try(trees, {0}, size, swatches, where, anyhow=True)  # type: ignore[return-value]
+    if best is None:  # even the first hit alone is too large: it is drawn all the same
+        return _try(trees, {0}, size, swatches, where, anyhow=True)  # type: ignore[return-value]
+    # A branch of one ray takes no more room as itself than as a fold.
+    single = {root for branch in best.folds.values() for root in branch.roots if not tree.children[root]}
+    single = {i for i in single if weights[i] >= fold}
+    return _try(trees, set(heaviest[:low]) | single, size, swatches, where) or best
+
+
+def _first(size: float) -> float:
+    """How far down the first hit stands."""
+    return (MARGIN + EYE + FIRST) * size
+
+
+def _room_below(size: float) -> float:
+    """From the first hit to the last level's."""
+    return HEIGHT - _first(size) - (0.5 * BOX + STUB + NOTE + 0.5 + MARGIN) * size
 
 
 def _try(
@@ -134,8 +152,7 @@ def _try(
     left = min(place.x for place in laid.places.values()) - 0.5
     right = max(place.x for place in laid.places.values()) + 0.5
     levels = max(math.floor(place.y) for place in laid.places.values())
-    first = margin + (EYE + FIRST) * size
-    free = HEIGHT - first - 0.5 * box - (STUB + NOTE + 0.5) * size - margin
+    first, free = _first(size), _room_below(size)
     rim = (where[0] + margin - 0.5 * gap, where[1] - margin + 0.5 * gap)
     widest = (rim[1] - rim[0]) / (right - left)
     if not anyhow and (unit > widest or PITCH * size * levels > free):
