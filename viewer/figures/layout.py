@@ -25,6 +25,7 @@ class Room:
     edge: float = 0.2  # between a stub and the edges beside it
     sides: bool = False  # rays leave at a node's sides, not from its middle, and what hangs on it is as wide as itself
     passes: float = 0.5  # how far down to the next level it hangs: there its neighbours' edges must have parted from it
+    crowded: bool = False  # it hangs so far down that it must not come near what the next level has in its place
     bars: bool = False  # whether total internal reflection has a stub for the ray that does not go on
 
 
@@ -104,7 +105,9 @@ def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtr
         offsets |= {row: x + shift for row, x in sub.offsets.items()}
         bars |= {row: x + shift for row, x in sub.bars.items()}
         passed = room.passes * shift
-        if room.sides:
+        if room.crowded:
+            passed = shift + (-room.left if shift < 0.0 else room.right)
+        elif room.sides:
             passed += (1.0 - room.passes) * (-room.left if shift < 0.0 else room.right)
         left[1], right[1] = min(left[1], passed), max(right[1], passed)
         for level, (low, high) in enumerate(zip(sub.left, sub.right, strict=True), start=2):

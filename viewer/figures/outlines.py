@@ -59,7 +59,7 @@ def spots_of(mask: np.ndarray, where: Rectangle) -> tuple[Point, ...]:
         found[:0] = [(where[0] + COARSE * float(columns[k]), where[1] + COARSE * float(rows[k])) for k in steps]
         inner = np.pad(left, 1)
         left = left & inner[:-2, 1:-1] & inner[2:, 1:-1] & inner[1:-1, :-2] & inner[1:-1, 2:]
-    return tuple(found[:: -(-len(found) // MOST_SPOTS)])
+    return tuple(found[:: max(1, -(-len(found) // MOST_SPOTS))])
 
 
 def simpler(ring: np.ndarray) -> np.ndarray:

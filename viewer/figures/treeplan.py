@@ -5,7 +5,6 @@ leave at a box's left side, refracted ones at its right, stubs to the lights han
 Where a slide is too small for the whole tree, the lightest branches are folded into one box that says what is in it.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -33,6 +32,7 @@ EDGE_LABEL = 1.1  # from a box up to the middle of its ray's label
 EYE = 0.75  # from the upper rim to the eye
 FIRST = 4.8  # from the eye to the first hit
 LINE = 1.3  # from line to line
+CLEAR = 6.3  # from level to level, at least, where a leaf's note may hang beside what is on the next level
 PITCH, TALLEST = 4.85, 8.0  # from level to level, at least and at most
 
 NO_RAY = "no T"  # what total internal reflection leaves of the refracted ray
@@ -147,12 +147,13 @@ def _try(
     margin, gap, box = MARGIN * size, GAP * size, BOX * size
     unit = column + gap
     stub = slot / unit
-    room = Room(left=0.5, right=0.5, stub_gap=stub, stub_half=0.5 * stub, sides=True, passes=0.9, bars=True)
+    first, free = _first(size), _room_below(size)
+    levels = max(int(tree.nodes["depth"][i]) for i in (*rows, *folds))
+    crowded = CLEAR * size * levels > free
+    room = Room(0.5, 0.5, stub, 0.5 * stub, sides=True, passes=0.9, crowded=crowded, bars=True)
     laid = layout(tree, rows | folds.keys(), room)
     left = min(place.x for place in laid.places.values()) - 0.5
     right = max(place.x for place in laid.places.values()) + 0.5
-    levels = max(math.floor(place.y) for place in laid.places.values())
-    first, free = _first(size), _room_below(size)
     rim = (where[0] + margin - 0.5 * gap, where[1] - margin + 0.5 * gap)
     widest = (rim[1] - rim[0]) / (right - left)
     if not anyhow and (unit > widest or PITCH * size * levels > free):

@@ -56,6 +56,15 @@ def test_random_trees(seed: int, most: int, lights: int, depth: int, swatches: b
     check_whole(figure, tree, size)
 
 
+@pytest.mark.parametrize("depth", (3, 4))
+def test_trees_as_deep_as_a_slide_allows(depth: int) -> None:
+    """Where levels stand as close as can be, and leaves beside what goes on."""
+    for seed in range(150):
+        tree = random_tree(seed, 14, seed % 3, depth)
+        (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(swatches=seed % 2 == 0))
+        check_whole(figure, tree)
+
+
 @pytest.mark.parametrize("lights", (0, 2))
 def test_a_tree_of_five_hundred_rays(lights: int) -> None:
     tree = max((random_tree(seed, 500, lights, 9) for seed in range(40)), key=len)
@@ -68,7 +77,7 @@ def test_a_tree_of_five_hundred_rays(lights: int) -> None:
 @pytest.mark.parametrize("theme", (LIGHT, DARK, MONO))
 def test_trees_of_the_lessons_grow_and_nothing_moves(worlds: dict[str, tracer.World], theme: Theme) -> None:
     for name in LESSONS:
-        trees = [tracer.trace(worlds[name], lesson.read(name).pixel, depth=d) for d in range(4)]
+        trees = [tracer.trace(worlds[name], lesson.read(name).pixel, depth=d) for d in range(5)]
         figures = pages("tree", Subject(by_depth(trees)), Wishes(theme, swatches=True))
         last = places(figures[-1])
         for figure, tree in zip(figures, trees, strict=True):
