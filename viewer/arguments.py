@@ -47,9 +47,9 @@ def view_from(text: str) -> tuple[float, ...]:
     with contextlib.suppress(ValueError):
         numbers = tuple(float(part) for part in text.split(","))
     finite = all(abs(number) < float("inf") for number in numbers)
-    if finite and len(numbers) in (3, 6) and -90.0 < list(numbers)[1] < 90.0 and list(numbers)[2] > 0.0:
+    if finite and len(numbers) in (3, 6) and -90.0 <= list(numbers)[1] <= 90.0 and list(numbers)[2] > 0.0:
         return numbers
-    asked = "azimuth, elevation (-90 to 90) and distance (> 0) like 38,22,2.6"
+    asked = "degrees about and above (-90 to 90) and a distance > 0 like 38,22,2.6, or these and a target X,Y,Z"
     raise argparse.ArgumentTypeError(f'{asked}, got "{text}"')
 
 
@@ -75,13 +75,19 @@ def listed(names: Sequence[str]):
     return read
 
 
+def pixels(text: str) -> int:
+    if not re.fullmatch(r"\d+", text) or not 16 <= int(text) <= 16384:
+        raise argparse.ArgumentTypeError(f'pixels from 16 to 16384, got "{text}"')
+    return int(text)
+
+
 def text_size(text: str) -> float:
     try:
         size = float(text)
     except ValueError:
         size = 0.0
-    if not 4.0 <= size <= 72.0:
-        raise argparse.ArgumentTypeError(f'points from 4 to 72, got "{text}"')
+    if not 8.0 <= size <= 48.0:
+        raise argparse.ArgumentTypeError(f'points from 8 to 48, got "{text}"')
     return size
 
 

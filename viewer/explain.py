@@ -13,6 +13,7 @@ from tracer import optics
 from tracer.limits import MODELS
 from tracer.nodes import SHADOW
 from tracer.outline import WHY
+from tracer.pairs import U
 from tracer.scene import Material
 from tracer.shading import surface_color
 from tracer.tree import RayTree
@@ -219,13 +220,18 @@ def _fresnel(tree: RayTree, i: int, material: Material) -> Section:
     c2 = math.sqrt(max(optics.radicand(optics.sine(v, normal), n1, n2), 0.0))
     r, t = optics.fresnel(c1, n1, n2)
     section = Section("Fresnel", "reflected kr + kt R,  refracted kt T")
-    section.add("rₛ = (n₁c₁ − n₂c₂) / (n₁c₁ + n₂c₂)", shown((n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2)))
-    section.add("rₚ = (n₂c₁ − n₁c₂) / (n₂c₁ + n₁c₂)", shown((n2 * c1 - n1 * c2) / (n2 * c1 + n1 * c2)))
+    section.add("rₛ = (n₁c₁ − n₂c₂) / (n₁c₁ + n₂c₂)", shown(_share(n1 * c1, n2 * c2)))
+    section.add("rₚ = (n₂c₁ − n₁c₂) / (n₂c₁ + n₁c₂)", shown(_share(n2 * c1, n1 * c2)))
     section.add("R = (rₛ² + rₚ²) / 2", shown(r))
     section.add("T, computed for itself", shown(t))
     section.add("kr + kt R", shown(material.reflect + material.transmit * r))
     section.add("kt T", shown(material.transmit * t))
     return section
+
+
+def _share(a: float, b: float) -> float:
+    """(a - b) / (a + b), and 0 where the difference is no more than the rounding of a and b, as at Brewster's angle."""
+    return (a - b) / (a + b) if abs(a - b) > 4.0 * U * (a + b) else 0.0
 
 
 def _reflection(tree: RayTree, i: int) -> Section:

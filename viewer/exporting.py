@@ -1,5 +1,6 @@
 """`raytree export`: a pixel's ray tree as figures and as data, page by page, into a file or a folder."""
 
+import math
 import shlex
 from argparse import Namespace
 from collections.abc import Callable
@@ -15,11 +16,12 @@ from viewer.figures.png import PIXELS
 from viewer.figures.stage import Stage, by_colour, by_depth, by_ray
 from viewer.files import Unusable, check_writable, write_atomically
 from viewer.lesson import Lesson, LessonView
-from viewer.orbit import Frame, Orbit, home
+from viewer.orbit import STEEPEST, Frame, Orbit, home
 from viewer.progress import Progress
 from viewer.theme import THEMES
 
 Depths = range
+FARTHER = 1.8  # times a lesson's distance, at most, from which the eye is to be seen as well
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,10 @@ def export(options: Namespace) -> int:
     if not options.pixel and not options.ray:
         raise Unusable("raytree export: which pixel? --pixel X,Y, or --ray ox,oy,oz,dx,dy,dz")
     target, formats = chosen(options)
+    if options.step != "depth" and options.depth and len(options.depth) > 1:
+        raise Unusable(f"raytree export: --step {options.step} goes through one tree: give one depth")
+    if options.step != "depth" and options.figure == "hit":
+        raise Unusable(f"raytree export: a hit has no steps: --step {options.step} is for tree, scene and both")
     compile_once()
     with faults():
         world = prepared(path)
@@ -64,7 +70,8 @@ def make(
     check_pages(target, formats, stages)
     subject = Subject(stages, world, view_of(options.view, world, lesson))
     theme = THEMES[options.theme]
-    wishes = Wishes(theme, options.text_size, options.swatches, options.fold, options.ground, options.node)
+    swatches = options.swatches or options.step == "colour"  # else nothing would flow
+    wishes = Wishes(theme, options.text_size, swatches, options.fold, options.ground, options.node)
     stem = stem_of(options, lesson)
     files: list[tuple[Path, bytes]] = []
     for name in formats:
@@ -88,11 +95,20 @@ def make(
 
 
 def view_of(numbers: tuple[float, ...] | None, world: World, lesson: Lesson | None) -> Orbit:
-    """From where the scene is seen: azimuth, elevation, distance and target as asked, else as the viewer begins."""
+    """From where the scene is seen: azimuth, elevation, distance and target as asked.
+
+    Else as the viewer begins, and as much farther away as it takes to see the eye that the rays come from.
+    """
     frame = Frame.of(world)
     if numbers is None:
-        return home(world, frame, lesson.view if lesson else None)
-    return home(world, frame, LessonView(*numbers[:3], numbers[3:] or None))  # type: ignore[arg-type]
+        orbit = home(world, frame, lesson.view if lesson else None)
+        nearest = orbit.distance
+        orbit.take_in(frame.inside(world.view().eye)[None])
+        orbit.distance = min(orbit.distance, FARTHER * nearest)
+        return orbit
+    azimuth, elevation, distance, *target = numbers
+    steep = math.degrees(STEEPEST)
+    return home(world, frame, LessonView(azimuth, min(steep, max(-steep, elevation)), distance, tuple(target) or None))  # type: ignore[arg-type]
 
 
 def steps(world: World, options: Namespace, depths: Depths) -> list[Stage]:

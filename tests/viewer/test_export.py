@@ -58,6 +58,18 @@ def test_a_ray_by_hand(tmp_path: Path) -> None:
             "raytree: --node 1 must be a ray that meets a surface: 0, 4, 7, 8, 13, 14",
         ),
         (
+            ["-o", "{}/a.pdf", "--step", "rays", "--depth", "0..3"],
+            "raytree export: --step rays goes through one tree: give one depth",
+        ),
+        (
+            ["-o", "{}/a.pdf", "--step", "rays", "--figure", "hit"],
+            "raytree export: a hit has no steps: --step rays is for tree, scene and both",
+        ),
+        (
+            ["-o", "{}/a.svg", "--figure", "hit", "--text-size", "28"],
+            "raytree: a hit has room for text of 20 points at most, got 28",
+        ),
+        (
             ["-o", "{}/a.svg", "--pixel", "9999,0"],
             "raytree: pixel must be within 0,0 .. 799,599, got 9999,0",
         ),
@@ -98,3 +110,13 @@ def test_without_the_extra_pptx_is_one_line(
         "raytree export: PPTX needs the extra raytree[pptx]: pip install 'raytree[pptx]'"
     )
     assert names(tmp_path) == set()
+
+
+def test_an_nff_scene_of_many_small_things(tmp_path: Path) -> None:
+    """Of balls smaller than a point nothing is named; the figure is drawn."""
+    balls = "\n".join(f"s {0.003 * k} {0.4 * (k % 7)} {0.3 * (k % 5)} 0.002" for k in range(60))
+    view = "v\\nfrom 0 -5 1\\nat 0 0 1\\nup 0 0 1\\nangle 40\\nhither 1\\nresolution 64 64\\nl 3 -4 5"
+    text = f"{view}\\nf 1 1 1 1 0 0 0 1\\n{balls}\\ns 0 0 1 0.5\\n"
+    (tmp_path / "small.nff").write_text(text)
+    out = str(tmp_path / "a.svg")
+    assert cli.main(["export", str(tmp_path / "small.nff"), "--pixel", "32,32", "--figure", "both", "-o", out]) == 0

@@ -66,10 +66,9 @@ def tree_pages(subject: Subject, wishes: Wishes, where: tuple[float, float] = (0
 
 
 def scene_pages(subject: Subject, wishes: Wishes, where: Rectangle = (0.0, 0.0, WIDTH, HEIGHT)) -> Pages:
-    from viewer.figures.scenefigure import scene_marks
+    from viewer.figures import scenefigure
 
-    view = subject.view(where)
-    return [scene_marks(view, stage, wishes.text_size, wishes.theme) for stage in subject.stages]
+    return scenefigure.scene_pages(subject.view(where), subject.stages, wishes.text_size, wishes.theme)
 
 
 def both_pages(subject: Subject, wishes: Wishes) -> Pages:

@@ -19,7 +19,12 @@ class Fold:
     def words(self, rows: Iterable[int], inside: dict[int, int]) -> tuple[str, str]:
         """(how many rays, their share of the weight), as far as these rows go."""
         count = sum(inside.get(i) == self.row for i in rows)
-        return (f"+{count} ray{'s' if count > 1 else ''}", f"{shown(100.0 * self.weight, 2)} %")
+        return (f"+{count} ray{'s' if count > 1 else ''}", f"{percent(self.weight)} %")
+
+
+def percent(share: float) -> str:
+    """Two digits, or what stands before the point."""
+    return f"{100.0 * share:.0f}" if share >= 0.0995 else shown(100.0 * share, 2)
 
 
 def folded(tree: RayTree, kept: set[int]) -> tuple[set[int], dict[int, Fold], dict[int, int]]:

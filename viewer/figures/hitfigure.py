@@ -24,6 +24,7 @@ TOP, BOTTOM = 12.0, HEIGHT - 12.0
 WORDS = 536.0  # where the formulas begin
 ARC = 62.0  # the radius of an angle's arc
 LINE = 1.28  # from line to line of the formulas, in sizes of the text
+LARGEST = 20.0  # points
 BETWEEN = 0.5  # between two sections of them, in lines, where there is room
 VECTORS = ("v", "n", "r", "t")
 TINTS = (0.06, 0.16)  # of the medium of lower and of higher index
@@ -46,6 +47,8 @@ def check_node(tree: RayTree, node: int) -> None:
 
 class _Drawing:
     def __init__(self, stage: Stage, node: int, size: float, theme: Theme) -> None:
+        if size > LARGEST:
+            raise ValueError(f"a hit has room for text of {LARGEST:g} points at most, got {size:g}")
         self.tree: RayTree = stage.tree
         check_node(self.tree, node)
         self.stage, self.node, self.size, self.theme = stage, node, size, theme
@@ -127,12 +130,12 @@ class _Drawing:
         self.marks.append(Line(f"ray-{i}", start, end, stroke, style.arrow, 0.6, title=ray_title(self.tree, i)))
 
     def _no_ray(self) -> None:
-        """Nothing is refracted: a stub along the surface with a bar."""
+        """Nothing is refracted: a short broken stub below the surface with a bar across it, no ray."""
         color = self.theme.ray("refraction")
-        end = (CENTER[0] + 0.5 * REACH, CENTER[1] + 0.9 * self.size)
+        end = (CENTER[0] + 0.25 * REACH, CENTER[1] + 1.4 * self.size)
         title = "total internal reflection: no ray is refracted"
-        self.marks.append(Line("bar", CENTER, end, Stroke(color, STYLES["refraction"].width), title=title))
-        self.marks += signs.bar("bar", end, self.size, color)
+        self.marks.append(Line("bar", CENTER, end, Stroke(color, 2.0, (4.0, 4.0)), title=title))
+        self.marks += signs.cross("bar", end, self.size, color)
         self.marks.append(Text("bar", (end[0] + 0.7 * self.size, end[1]), "no T", self.size, color, "start"))
 
     def _arc(self, name: str, begin: float, end: float, kind: str) -> None:

@@ -22,26 +22,25 @@ class Entry:
 
 
 def legend(entries: Sequence[Entry], corners: Sequence[Rectangle], size: float, theme: Theme) -> list[Mark]:
-    """Rays first in one corner, lights in the other; what no corner has room for is left out."""
-    rays = [entry for entry in entries if entry.what in STYLES]
-    lights = [entry for entry in entries if entry.what not in STYLES]
+    """Rays first in the first corner, lights in the second; what has no room there goes where there is some.
+
+    What has room in no corner is left out.
+    """
+    placed: dict[int, list[Entry]] = {k: [] for k in range(len(corners))}
+    for entry in entries:
+        first = 0 if entry.what in STYLES else 1
+        for k in (first, 1 - first, *range(2, len(corners))):
+            left, top, right, bottom = corners[k]
+            if entry.width(size) <= right - left and top + (len(placed[k]) + 1) * LINE * size <= bottom:
+                placed[k].append(entry)
+                break
     marks: list[Mark] = []
-    used = [0] * len(corners)
-    for column, block in enumerate((rays, lights)):
-        for entry in block:
-            for k in (column, 1 - column):
-                left, top, right, bottom = corners[k]
-                y = top + (used[k] + 0.5) * LINE * size
-                if entry.width(size) <= right - left and y + 0.5 * LINE * size <= bottom:
-                    begin = left if k == 0 else right - _widest(block if k == column else entries, size)
-                    marks += _entry(entry, (begin, y), size, theme)
-                    used[k] += 1
-                    break
+    for k, block in placed.items():
+        left, top, right, _ = corners[k]
+        begin = right - max((entry.width(size) for entry in block), default=0.0) if k == 1 else left
+        for row, entry in enumerate(block):
+            marks += _entry(entry, (begin, top + (row + 0.5) * LINE * size), size, theme)
     return marks
-
-
-def _widest(entries: Sequence[Entry], size: float) -> float:
-    return max(entry.width(size) for entry in entries)
 
 
 def _entry(entry: Entry, at: tuple[float, float], size: float, theme: Theme) -> list[Mark]:

@@ -13,6 +13,7 @@ from tracer.nodes import KINDS, SHADOW
 from tracer.scene import Material
 from tracer.tree import RayTree, name_of
 from viewer.figures import signs
+from viewer.figures.font import text_width
 from viewer.figures.labels import ray_label, ray_title
 from viewer.figures.marks import Line, Mark, Point, Shape, Stroke
 from viewer.figures.names import Names
@@ -30,11 +31,21 @@ GLASS = 0.13  # opacity of glass
 OUTLINE, CREASE = 1.3, 0.8  # widths
 FAINT = 0.3  # opacity of what is hidden of a ray
 SLIM = 0.7  # of a shadow ray's width: there are many, and they are not what the figure is about
+SPOTS = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)  # of a ray's length, beside which it may be named
 LABELS = 14  # rays that are named, the heaviest
 
 
-def scene_marks(view: SceneView, stage: Stage, size: float, theme: Theme) -> list[Mark]:
-    return _Drawing(view, stage, size, theme).marks
+Named = tuple[frozenset[int], list[Mark]]  # the rays with which a name comes (none: it is always there), and its marks
+
+
+def scene_pages(view: SceneView, stages: Sequence[Stage], size: float, theme: Theme) -> list[list[Mark]]:
+    """A page a stage. Names are placed for the last, the fullest, and come with what they name: none ever moves."""
+    names = _Drawing(view, stages[-1], size, theme).named()
+    return [
+        _Drawing(view, stage, size, theme).marks
+        + [mark for rows, marks in names if not rows or rows & stage.rows for mark in marks]
+        for stage in stages
+    ]
 
 
 class _Drawing:
@@ -49,12 +60,11 @@ class _Drawing:
         for part in view.seen.glass:
             self._thing(part, GLASS)
         lines = ray_lines(self.tree, len(self.tree), view.frame, frozenset(KINDS))
-        lines = [line for line in lines if line.row in stage.rows]
-        for line in sorted(lines, key=lambda line: -line.row):  # the first rays over the later ones
+        self.lines = [line for line in lines if line.row in stage.rows]
+        for line in sorted(self.lines, key=lambda line: -line.row):  # the first rays over the later ones
             self._ray(line)
-        self._lights()
+        self.lights = self._lights()
         self._eye()
-        self._labels(lines)
 
     # --- things -------------------------------------------------------------------------------------------------------
 
@@ -85,6 +95,7 @@ class _Drawing:
         slim = SLIM if line.kind == "shadow" else 1.0
         stroke = Stroke(color, strong * slim * style.width, line.dash)
         faint = Stroke(faded(color, FAINT), style.width, line.dash)
+        arrow = self._arrow_at(line)
         for stretch in self.view.parts(line):
             piece = self._on_canvas(line, stretch.begin, stretch.end)
             if piece is None:
@@ -97,13 +108,24 @@ class _Drawing:
             if line.kind != "shadow":
                 self.marks.append(Line("halo", a, b, Stroke(self.theme.ground, stroke.width + 2.0 * HALO)))
             self.marks.append(Line(name, a, b, stroke, title=title))
-            head = self._on_canvas(line, stretch.begin, ARROW_AT) if stretch.begin < ARROW_AT < stretch.end else None
+            head = self._on_canvas(line, stretch.begin, arrow) if stretch.begin < arrow < stretch.end else None
             if head and style.arrow is not Arrow.NONE and math.dist(*head) > 1.0:
                 self.marks.append(Line(name, *_last(head, 2.0), Stroke(color, stroke.width), style.arrow, 1.0))
         if line.blocked:
             at = self._on_canvas(line, 0.999, 1.0)
             if at:
                 self.marks += signs.cross(name, at[1], self.size, color)
+
+    def _arrow_at(self, line: RayLine) -> float:
+        """Where its arrow stands, of its length: as always or, if that is outside, in the middle of what is seen."""
+        shares = np.linspace(0.0, 1.0, 101)
+        places, depths = self.view.at(line.start + shares[:, None] * (line.end - line.start))
+        left, top, right, bottom = self.view.where
+        x, y = places.T
+        inside = (depths > 0.0) & (x > left) & (x < right) & (y > top) & (y < bottom)
+        if inside[round(100 * ARROW_AT)] or not inside.any():
+            return ARROW_AT
+        return float(np.median(shares[inside]))
 
     def _on_canvas(self, line: RayLine, begin: float, end: float) -> tuple[Point, Point] | None:
         """A stretch of a ray where it is before the eye and within the figure; None where it is not."""
@@ -129,15 +151,16 @@ class _Drawing:
         inside = left + room < x < right - room and top + room < y < bottom - room
         return (x, y) if depths[0] > 0.0 and inside else None
 
-    def _lights(self) -> None:
+    def _lights(self) -> dict[int, Point]:
+        """Where lights are, of those within the picture."""
+        found = {}
         for j, light in enumerate(self.scene.lights):
-            if light.position is None:
-                continue
-            at = self._place(self.view.frame.inside(light.position))
+            at = self._place(self.view.frame.inside(light.position)) if light.position else None
             if at:
                 self.marks += signs.sun(f"light-{j}", at, 1.4 * self.size, self.theme.sun)
                 self.names.take(at, 1.2 * self.size)
-                self.marks += self.names.label(f"light-{j}", light.name or f"light {j}", [at], self.theme.text)
+                found[j] = at
+        return found
 
     def _eye(self) -> None:
         at = self._place(self.view.frame.inside(self.view.world.view().eye))
@@ -145,27 +168,36 @@ class _Drawing:
             self.marks += signs.eye(at, self.size, self.theme)
             self.names.take(at, 1.6 * self.size)
 
-    def _labels(self, lines: Sequence[RayLine]) -> None:
-        """Names of rays, the heaviest first, then of what they meet."""
+    def named(self) -> list[Named]:
+        """Names of lights, of rays, the heaviest first, then of what these meet."""
+        found: list[Named] = []
+        for j, at in self.lights.items():
+            name = self.scene.lights[j].name or f"light {j}"
+            found.append((frozenset(), self.names.label(f"light-{j}", name, [at], self.theme.text)))
         nodes = self.tree.nodes
-        rays = [line for line in lines if nodes["kind"][line.row] != SHADOW]
-        shadows = [line for line in lines if nodes["kind"][line.row] == SHADOW]
+        rays = [line for line in self.lines if nodes["kind"][line.row] != SHADOW]
+        shadows = [line for line in self.lines if nodes["kind"][line.row] == SHADOW]
         rays.sort(key=lambda line: (-nodes["weight"][line.row].max(), line.row))
         for line in [*rays, *shadows][:LABELS]:
-            spots = []
-            for share in (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8):
-                piece = self._on_canvas(line, 0.0, 1.0)
-                if piece:
-                    (x0, y0), (x1, y1) = piece
-                    spots.append((x0 + share * (x1 - x0), y0 + share * (y1 - y0)))
-            color = self.theme.ray(line.kind)
-            self.marks += self.names.label(f"ray-{line.row}", ray_label(self.tree, line.row), spots, color)
-        met = {int(nodes["object"][line.row]) for line in rays if nodes["object"][line.row] >= 0}
+            piece = self._on_canvas(line, 0.0, 1.0)
+            if piece:
+                (x0, y0), (x1, y1) = piece
+                spots = [(x0 + share * (x1 - x0), y0 + share * (y1 - y0)) for share in SPOTS]
+                label, color = ray_label(self.tree, line.row), self.theme.ray(line.kind)
+                found.append((frozenset((line.row,)), self.names.label(f"ray-{line.row}", label, spots, color)))
         for part in (*self.view.seen.opaque, *self.view.seen.glass):
-            if part.number in met:
-                self.marks += self.names.label(
-                    f"object-{part.number}", name_of(self.scene, part.number), part.spots, self.theme.text, True
-                )
+            rows = frozenset(line.row for line in rays if nodes["object"][line.row] == part.number)
+            if rows:
+                name = name_of(self.scene, part.number)
+                upon = _wide(part) > 1.2 * text_width(name, self.size)  # else the name would hide the thing
+                label = self.names.label(f"object-{part.number}", name, part.spots, self.theme.text, upon)
+                found.append((rows, label))
+        return found
+
+
+def _wide(part: Part) -> float:
+    across = [x for face in part.faces for area in face for x, _ in area.outline]
+    return max(across) - min(across)
 
 
 def look(material: Material, theme: Theme) -> Color:

@@ -65,12 +65,17 @@ class TreePlan:
         return FOLD * self.size
 
     @property
-    def corners(self) -> tuple[Rectangle, Rectangle]:
-        """What is free beside the eye, on its left and on its right."""
+    def corners(self) -> tuple[Rectangle, ...]:
+        """What is free beside the eye, on its left and on its right, and below the tree."""
         x, y = self.at[0]
         margin, aside = MARGIN * self.size, 0.5 * self.box[0] + self.size
         left, right = self.where
-        return ((left + margin, margin, x - aside, y), (x + aside, margin, right - margin, y))
+        lowest = max(place[1] for place in self.at.values()) + 0.5 * self.fold_height + (STUB + NOTE) * self.size
+        return (
+            (left + margin, margin, x - aside, y),
+            (x + aside, margin, right - margin, y),
+            (left + margin, lowest, right - margin, HEIGHT - margin),
+        )
 
     @property
     def top(self) -> float:

@@ -148,6 +148,8 @@ def test_things_stay_while_rays_come(grown: tuple[Subject, list[Figure]]) -> Non
     _, figures = grown
     things = [[m for m in figure.marks if m.name.startswith("object-") and "label" not in m.name] for figure in figures]
     assert all(step == things[-1] for step in things)
+    names = [{m for m in figure.marks if isinstance(m, Text)} for figure in figures]
+    assert all(before <= after for before, after in itertools.pairwise(names))
     lines = [{m for m in figure.marks if isinstance(m, Line) and m.name.startswith("ray-")} for figure in figures]
     for before, after in itertools.pairwise(lines):
         assert {(m.name, m.start, m.end) for m in before} <= {(m.name, m.start, m.end) for m in after}

@@ -15,10 +15,12 @@ from tracer.nodes import SHADOW
 from tracer.tree import RayTree
 from viewer import lesson
 from viewer.figures.figure import Subject, Wishes, pages
+from viewer.figures.folds import percent
 from viewer.figures.labels import ray_label
-from viewer.figures.marks import Box, Figure, Line, Text
+from viewer.figures.marks import Box, Disc, Figure, Line, Text
 from viewer.figures.stage import by_colour, by_depth, by_ray
 from viewer.figures.treeplan import plan_tree
+from viewer.orbit import Frame, home
 from viewer.theme import DARK, LIGHT, MONO, Theme
 
 
@@ -181,3 +183,24 @@ def test_mono_has_no_colour(worlds: dict[str, tracer.World]) -> None:
             stroke = getattr(mark, "stroke", None)
             inks += [stroke.color] if stroke else []
             assert all(ink[0] == ink[1] == ink[2] for ink in inks if ink), mark
+
+
+def test_shares_are_said_as_people_say_them() -> None:
+    said = [percent(share) for share in (1.0, 0.9996, 0.876, 0.1, 0.0312, 0.004)]
+    assert said == ["100", "100", "88", "10", "3.1", "0.4"]
+
+
+def test_the_legend_explains_every_sign_and_hides_nothing(worlds: dict[str, tracer.World]) -> None:
+    """In the narrow half of two panels too: there it stands below the tree."""
+    world = worlds["underwater"]
+    tree = tracer.trace(world, lesson.read("underwater").pixel, depth=3)
+    orbit = home(world, Frame.of(world), lesson.read("underwater").view)
+    for name in ("tree", "both"):
+        (figure,) = pages(name, Subject(by_depth([tree]), world, orbit), Wishes())
+        words = {mark.content: mark for mark in figure.marks if isinstance(mark, Text)}
+        assert {"total internal reflection", "to a light", "faces away from light"} <= set(words)
+        eye = [m for m in figure.marks if m.name == "eye" and isinstance(m, Disc)][-1]
+        for mark in figure.marks:
+            if mark.name.startswith("legend-") and isinstance(mark, Line):
+                for x, y in (mark.start, mark.end):
+                    assert abs(x - eye.center[0]) > 18.0 or abs(y - eye.center[1]) > 18.0
