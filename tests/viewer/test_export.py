@@ -110,13 +110,3 @@ def test_without_the_extra_pptx_is_one_line(
         "raytree export: PPTX needs the extra raytree[pptx]: pip install 'raytree[pptx]'"
     )
     assert names(tmp_path) == set()
-
-
-def test_an_nff_scene_of_many_small_things(tmp_path: Path) -> None:
-    """Balls of a point across have no place for a name; the figure is drawn."""
-    balls = "\n".join(f"s {0.003 * k} {0.4 * (k % 7)} {0.3 * (k % 5)} 0.018" for k in range(60))
-    view = "v\nfrom 0 -5 1\nat 0 0 1\nup 0 0 1\nangle 40\nhither 1\nresolution 64 64\nl 3 -4 5"
-    text = f"{view}\nf 1 1 1 1 0 0 0 1\n{balls}\ns 0 0 1 0.5\n"
-    (tmp_path / "small.nff").write_text(text)
-    out = str(tmp_path / "a.svg")
-    assert cli.main(["export", str(tmp_path / "small.nff"), "--pixel", "32,32", "--figure", "both", "-o", out]) == 0

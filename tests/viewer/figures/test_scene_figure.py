@@ -18,7 +18,7 @@ from tracer.shapes.sphere import Sphere
 from viewer import lesson
 from viewer.figures.figure import Subject, Wishes, pages
 from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text
-from viewer.figures.outlines import simpler
+from viewer.figures.outlines import simpler, spots_of
 from viewer.figures.scenery import camera_of, scenery
 from viewer.figures.stage import by_depth
 from viewer.orbit import Frame, Orbit, home
@@ -173,3 +173,16 @@ def test_simpler_outlines_stay_where_they_were() -> None:
     assert len(fewer) < 80
     middles = 0.5 * (fewer + np.roll(fewer, -1, axis=0))
     assert np.hypot(*middles.T).min() > 100.0 - 0.2 - 1e-9
+
+
+def test_names_stand_well_within_what_they_name() -> None:
+    """The first place is the farthest from the rim; what is smaller than the places are apart has none."""
+    mask = np.zeros((200, 400), bool)
+    mask[16:184, 16:184] = True
+    spots = spots_of(mask, (100.0, 50.0, 300.0, 150.0))
+    x, y = spots[0]
+    assert math.dist((x, y), (150.0, 100.0)) < 6.0
+    assert all(108.0 <= x <= 192.0 and 58.0 <= y <= 142.0 for x, y in spots)
+    speck = np.zeros((200, 400), bool)
+    speck[3:6, 3:6] = True
+    assert spots_of(speck, (0.0, 0.0, 200.0, 100.0)) == ()
