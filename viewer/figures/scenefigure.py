@@ -6,6 +6,7 @@ their labels are those of the tree figure.
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -78,6 +79,10 @@ class _Drawing:
             for area in face:
                 width = CREASE if len(part.faces) > 1 else OUTLINE
                 self._area(name, area, fill, Stroke(theme.muted, width), title if k == 0 else "")
+        checker = item.material.checker
+        if opacity == 1.0 and checker:
+            for area in part.checks:
+                self._area(name, area, look(replace(item.material, color=checker.color), theme), None)
         if opacity == 1.0:
             for shade in part.shades:
                 for area in shade:
@@ -189,8 +194,9 @@ class _Drawing:
             rows = frozenset(line.row for line in rays if nodes["object"][line.row] == part.number)
             if rows:
                 name = name_of(self.scene, part.number)
-                upon = _wide(part) > 1.2 * text_width(name, self.size)  # else the name would hide the thing
-                label = self.names.label(f"object-{part.number}", name, part.spots, self.theme.text, upon)
+                upon = _wide(part) > 1.1 * text_width(name, self.size)  # else the name would hide the thing
+                spots = part.spots if upon else part.spots[:1]
+                label = self.names.label(f"object-{part.number}", name, spots, self.theme.text, upon)
                 found.append((rows, label))
         return found
 

@@ -1,7 +1,8 @@
 """What of a scene is seen from a figure's eye, as outlines: who is where, and how the light falls on it.
 
 The tracer itself is asked. An image of the scene with every material replaced holds in red the number of the part that
-is seen and in green the cosine at which it is seen; where that number changes is an outline. Only camera rays and rays
+is seen, in green the cosine at which it is seen, and in blue which of the checkers' two colours it has; where a number
+changes is an outline. Only camera rays and rays
 back to the eye are traced, for any shape that the tracer knows, and what hides what is exact.
 """
 
@@ -12,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import tracer
-from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, Tracing
+from tracer.scene import Background, Camera, Checker, Image, Light, Material, Object, Scene, Tracing
 from tracer.shapes.box import Box
 from tracer.shapes.disc import Disc
 from tracer.shapes.mesh import Mesh
@@ -37,6 +38,7 @@ class Part:
 
     number: int  # of the object
     faces: tuple[tuple[Area, ...], ...]
+    checks: tuple[Area, ...]  # squares of the checkers' other colour
     shades: tuple[tuple[Area, ...], ...]
     spots: tuple[Point, ...]  # well within it, those farthest from its rim first
 
@@ -109,8 +111,8 @@ def _parts(
     if not faces:
         return ()
     paint = [
-        Object(shape, Material(color=((number + 1) / len(faces), 1.0, 1.0), ambient=1.0, diffuse=1.0))
-        for number, (_, face) in enumerate(faces)
+        Object(shape, _numbered((number + 1) / len(faces), objects[k], shape))
+        for number, (k, face) in enumerate(faces)
         for shape in face.shapes
     ]
     left, top, right, bottom = where
@@ -121,7 +123,7 @@ def _parts(
         camera,
         Image(FINE * size[0], FINE * size[1]),
         Background((0.0, 0.0, 0.0)),
-        Tracing(depth=0, ambient=(1.0, 0.0, 0.0)),
+        Tracing(depth=0, ambient=(1.0, 0.0, 1.0)),
     )
     pixels = tracer.render(tracer.prepare(scene)).pixels
     numbers = np.rint(pixels[..., 0] * len(faces)).astype(int) - 1
@@ -137,8 +139,17 @@ def _parts(
         mine = np.isin(numbers, own)
         shades = tuple(areas(mine & (cosine < below), where) for below in DARKER)
         if any(spots):
-            found.append(Part(k, tuple(spot for spot in spots if spot), shades, spots_of(mine, where)))
+            seen_faces = tuple(spot for spot in spots if spot)
+            checks = areas(mine & (pixels[..., 2] < 0.5), where)
+            found.append(Part(k, seen_faces, checks, shades, spots_of(mine, where)))
     return tuple(found)
+
+
+def _numbered(red: float, item: Object, shape: object) -> Material:
+    """The material that says by its colours which part is seen. What is cut into faces has lost its checkers' axes."""
+    checker = item.material.checker if shape is item.shape else None
+    squares = Checker((red, 1.0, 0.0), checker.size) if checker else None
+    return Material(color=(red, 1.0, 1.0), ambient=1.0, diffuse=1.0, checker=squares)
 
 
 @dataclass(frozen=True)

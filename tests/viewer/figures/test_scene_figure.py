@@ -13,7 +13,9 @@ from tests.scenes import MATTE, box, world_of
 from tests.viewer.figures.geometry import overlap
 from tracer.camera import View, make_view
 from tracer.nodes import SHADOW
-from tracer.scene import Camera, Light, Material, Object
+from tracer.scene import Camera, Checker, Light, Material, Object
+from tracer.shading import surface_color
+from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from viewer import lesson
 from viewer.figures.figure import Subject, Wishes, pages
@@ -186,3 +188,23 @@ def test_names_stand_well_within_what_they_name() -> None:
     speck = np.zeros((200, 400), bool)
     speck[3:6, 3:6] = True
     assert spots_of(speck, (0.0, 0.0, 200.0, 100.0)) == ()
+
+
+def test_checkers_are_where_the_floor_has_them(worlds: dict[str, tracer.World]) -> None:
+    """The middle of each square, followed back to the floor, has the other colour there."""
+    checks = Material("floor", diffuse=1.0, checker=Checker((0.2, 0.2, 0.2), 1.0))
+    floor = Object(Polygon(((-4.0, 0.0, -4.0), (-4.0, 0.0, 4.0), (4.0, 0.0, 4.0), (4.0, 0.0, -4.0))), checks, "floor")
+    world = world_of(floor)
+    camera = camera_of(Orbit(0.5, 0.9, 3.0), Frame.of(world))
+    view = seen_by(camera)
+    (part,) = scenery(world, camera, CANVAS).opaque
+    assert len(part.checks) >= 8
+    material, this = world.arrays.materials[0], world.arrays.objects[0]
+    for area in part.checks:
+        if area.holes or len(area.outline) > 8:
+            continue  # squares that touch at their corners
+        x, y = np.mean(area.outline, axis=0)
+        d = np.array(view.forward) + (2 * x - WIDTH) / HEIGHT * np.array(view.right)
+        d += (HEIGHT - 2 * y) / HEIGHT * np.array(view.up)
+        point = np.array(view.eye) - view.eye[1] / d[1] * d
+        assert surface_color(material, this, tuple(point.tolist())) == (0.2, 0.2, 0.2)
