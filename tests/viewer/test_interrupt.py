@@ -31,7 +31,9 @@ CASES = {
 def test_signal_ends_a_command_that_leaves_nothing_behind(name: str, tmp_path: Path) -> None:
     arguments, said, number = CASES[name]
     if "long.nff" in arguments:
-        (tmp_path / "long.nff").write_text("f 1 1 1 1 0 0 0 1\n" + "p 3 0 0 0 1 0 0 0 1 0\n" * 200_000)
+        (tmp_path / "long.nff").write_text(
+            "f 1 1 1 1 0 0 0 1\n" + "p 3 0 0 0 1 0 0 0 1 0\n" * 600_000
+        )  # seconds of reading
     if "large.toml" in arguments:
         scene = lesson.read("two-lights").scene.read_text().replace("width = 800", "width = 8000")
         (tmp_path / "large.toml").write_text(scene.replace("height = 600", "height = 6000"))
