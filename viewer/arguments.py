@@ -43,12 +43,12 @@ def at_least(least: int):
 
 def view_from(text: str) -> tuple[float, ...]:
     """From where the scene is seen: degrees about and above it, radii of the scene, and what is looked at."""
-    numbers: tuple[float, ...] = ()
+    numbers: list[float] = []
     with contextlib.suppress(ValueError):
-        numbers = tuple(float(part) for part in text.split(","))
+        numbers += [float(part) for part in text.split(",")]
     finite = all(abs(number) < float("inf") for number in numbers)
-    if finite and len(numbers) in (3, 6) and -90.0 <= list(numbers)[1] <= 90.0 and list(numbers)[2] > 0.0:
-        return numbers
+    if finite and len(numbers) in (3, 6) and -90.0 <= numbers[1] <= 90.0 and numbers[2] > 0.0:
+        return tuple(numbers)
     asked = "degrees about and above (-90 to 90) and a distance > 0 like 38,22,2.6, or these and a target X,Y,Z"
     raise argparse.ArgumentTypeError(f'{asked}, got "{text}"')
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from viewer.files import Unusable, write_atomically
+from viewer.theme import Color
 
 BINS = 4096  # of linear light: more than sRGB's steepest slope of 255 * 12.92, so that none holds two borders
 
@@ -26,6 +27,15 @@ def srgb(linear: np.ndarray) -> np.ndarray:
     x = np.fmin(np.fmax(linear, 0.0), 1.0)
     value = FIRST[(x * BINS).astype(np.intp)]
     return value + (x >= BORDERS[value])
+
+
+LUMINANCE = (0.2126, 0.7152, 0.0722)  # of sRGB's red, green and blue (Rec. 709)
+
+
+def as_shown(rgb: object) -> Color:
+    """Linear RGB as the colour a picture shows."""
+    r, g, b = (srgb(np.asarray(rgb, float)) / 255.0).tolist()
+    return (r, g, b, 1.0)
 
 
 COMPRESSION = 4  # of zlib's levels: half the time of its usual 6, for 5 % more bytes

@@ -9,7 +9,8 @@ import pytest
 import tracer
 from tests.scenes import ball, plane, world_of
 from tracer.scene import Light, Material
-from viewer.explain import Section, explain, headline
+from viewer.explain import explain, headline
+from viewer.sections import Section
 from viewer.wording import shown
 
 LAMPS = [

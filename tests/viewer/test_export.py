@@ -4,7 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from viewer import cli
+from viewer import cli, takehome
+from viewer.figures.figure import FIGURES
+from viewer.figures.formats import FORMATS
 
 
 def names(folder: Path) -> set[str]:
@@ -110,3 +112,11 @@ def test_without_the_extra_pptx_is_one_line(
         "raytree export: PPTX needs the extra raytree[pptx]: pip install 'raytree[pptx]'"
     )
     assert names(tmp_path) == set()
+
+
+def test_the_command_line_knows_every_figure_and_format() -> None:
+    """It names them itself, so that --help loads nothing."""
+    assert tuple(FIGURES) == cli.FIGURES
+    assert tuple(FORMATS) == cli.FILES
+    assert set(takehome.FIGURES) == set(FIGURES)
+    assert set(takehome.FORMATS) == {name for name, kind in FORMATS.items() if kind.write}

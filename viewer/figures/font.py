@@ -11,6 +11,7 @@ FALLBACK = ("Verdana", "Helvetica", "Arial", "sans-serif")
 # Of the font's size: from the baseline to a capital's top, to an ascender's, to a descender's.
 CAPITAL, ASCENT, DESCENT = 0.729, 0.78, 0.24
 BASELINE = 0.5 * CAPITAL  # below the middle of a line of text
+ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}  # which share of a text's width stands left of its place
 
 _UNITS = 2048  # the font's own: widths come out exact
 
@@ -31,6 +32,6 @@ def text_width(content: str, size: float) -> float:
 def text_box(at: tuple[float, float], content: str, size: float, anchor: str) -> tuple[float, float, float, float]:
     """(left, top, right, bottom) of a line of text whose middle, left or right end stands at `at`."""
     width = text_width(content, size)
-    left = at[0] - {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor] * width
+    left = at[0] - ANCHORS[anchor] * width
     baseline = at[1] + BASELINE * size
     return (left, baseline - ASCENT * size, left + width, baseline + DESCENT * size)

@@ -8,12 +8,13 @@ import math
 
 from tracer.nodes import SHADOW
 from tracer.tree import RayTree
-from viewer.explain import Section, directions, turned
+from viewer.directions import directions, turned
 from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.labels import factor_label, hit_label, ray_label, ray_title
 from viewer.figures.marks import HEIGHT, WIDTH, Line, Mark, Point, Shape, Stroke, Text
 from viewer.figures.stage import Stage
+from viewer.sections import Section
 from viewer.theme import STYLES, Color, Theme, faded
 from viewer.wording import angle, shown
 

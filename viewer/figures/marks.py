@@ -4,7 +4,9 @@ Lengths are points (1/72 inch) from the canvas's top left corner, y downwards. T
 points is 18 points where the figure fills the slide.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import groupby
 
 from viewer.figures.font import text_box
 from viewer.theme import Arrow, Color
@@ -13,6 +15,28 @@ WIDTH, HEIGHT = 960.0, 540.0
 
 Point = tuple[float, float]
 Rectangle = tuple[float, float, float, float]  # left, top, right, bottom
+
+
+Piece = tuple[Point, Point]
+
+
+def shares_within(piece: Piece, box: Rectangle) -> tuple[float, float] | None:
+    """From which share to which a stretch is within a rectangle (Liang & Barsky, ACM Trans. Graph. 3(1), 1984)."""
+    (x0, y0), (x1, y1) = piece
+    enters, leaves = 0.0, 1.0
+    for a, b, low, high in ((x0, x1, box[0], box[2]), (y0, y1, box[1], box[3])):
+        if a == b:
+            if not low <= a <= high:
+                return None
+            continue
+        near, far = sorted(((low - a) / (b - a), (high - a) / (b - a)))
+        enters, leaves = max(enters, near), min(leaves, far)
+    return (enters, leaves) if enters < leaves else None
+
+
+def along(piece: Piece, share: float) -> Point:
+    (x0, y0), (x1, y1) = piece
+    return (x0 + share * (x1 - x0), y0 + share * (y1 - y0))
 
 
 @dataclass(frozen=True)
@@ -32,7 +56,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Box(Mark):
-    """A rectangle about `center` with one line of text in it."""
+    """A rectangle about `center`; the text in it names it as `inside`."""
 
     center: Point
     size: tuple[float, float]
@@ -77,25 +101,16 @@ class Line(Mark):
     hole: Rectangle | None = None
 
     def at(self, share: float) -> Point:
-        (x0, y0), (x1, y1) = self.start, self.end
-        return (x0 + share * (x1 - x0), y0 + share * (y1 - y0))
+        return along((self.start, self.end), share)
 
-    def pieces(self) -> list[tuple[Point, Point]]:
+    def pieces(self) -> list[Piece]:
         """What is drawn of it."""
         if self.hole is None:
             return [(self.start, self.end)]
-        enters, leaves = 0.0, 1.0
-        for axis in (0, 1):
-            a, b = self.start[axis], self.end[axis]
-            low, high = self.hole[axis], self.hole[axis + 2]
-            if a == b:
-                if not low < a < high:
-                    return [(self.start, self.end)]
-                continue
-            near, far = sorted(((low - a) / (b - a), (high - a) / (b - a)))
-            enters, leaves = max(enters, near), min(leaves, far)
-        if enters >= leaves:
+        inside = shares_within((self.start, self.end), self.hole)
+        if inside is None:
             return [(self.start, self.end)]
+        enters, leaves = inside
         return [piece for piece in ((self.start, self.at(enters)), (self.at(leaves), self.end)) if piece[0] != piece[1]]
 
 
@@ -127,6 +142,12 @@ class Figure:
     ground: bool = False  # whether it brings that along; else it is transparent
     width: float = WIDTH
     height: float = HEIGHT
+
+    def groups(self) -> Iterator[tuple[str, str, list[Mark]]]:
+        """(name, title, marks) of marks of one name that follow each other."""
+        for name, marks in groupby(self.marks, key=lambda mark: mark.name):
+            group = list(marks)
+            yield name, next((mark.title for mark in group if mark.title), ""), group
 
     def _repr_svg_(self) -> str:
         """What a notebook shows."""

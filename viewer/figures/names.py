@@ -4,8 +4,7 @@ import math
 from collections.abc import Sequence
 
 from viewer.figures.font import text_box
-from viewer.figures.marks import Mark, Point, Rectangle, Shape, Text
-from viewer.figures.sceneview import clipped
+from viewer.figures.marks import Mark, Piece, Point, Rectangle, Shape, Text, shares_within
 from viewer.theme import Color, Theme, faded
 
 BACKING = 0.7  # opacity of the paper behind a label
@@ -19,7 +18,7 @@ class Names:
     def __init__(self, where: Rectangle, size: float, theme: Theme) -> None:
         self.where, self.size, self.theme = where, size, theme
         self.taken: list[Rectangle] = []  # by names and signs
-        self.ways: list[tuple[Point, Point]] = []  # of rays
+        self.ways: list[Piece] = []  # of rays
 
     def take(self, at: Point, wide: float) -> None:
         x, y = at
@@ -33,7 +32,7 @@ class Names:
                 box = text_box(at, content, self.size, anchor)
                 if not _within(box, self.where) or any(_overlap(box, other) for other in self.taken):
                     continue
-                crossed = sum(clipped(way, box) is not None for way in self.ways)
+                crossed = sum(shares_within(way, box) is not None for way in self.ways)
                 if best is None or (crossed, *cost, order) < best[0]:
                     best = ((crossed, *cost, order), at, anchor, box)
         if best is None:

@@ -5,9 +5,9 @@ import math
 from collections.abc import Sequence
 
 from viewer.figures.arrows import heads
-from viewer.figures.font import BASELINE, FAMILY, FONT, text_width
+from viewer.figures.font import BASELINE, FAMILY, FONT
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
-from viewer.theme import Color
+from viewer.theme import Color, in_bytes
 
 UNDATED = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)  # the same figure is the same file on every day
 ROUND = 0.5522847498  # how far a quarter circle's control points stand from its ends, in radii
@@ -107,12 +107,10 @@ class _Page:
         self._box(Box(disc.name, disc.center, (2 * disc.radius, 2 * disc.radius), disc.radius, disc.fill, disc.stroke))
 
     def _text(self, text: Text) -> None:
-        r, g, b = (round(255 * x) for x in text.color[:3])
-        left = text.at[0] - {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor] * text_width(text.content, text.size)
         with self.pdf.local_context(fill_opacity=text.color[3]):
             self.pdf.set_font(FAMILY, size=text.size)
-            self.pdf.set_text_color(r, g, b)
-            self.pdf.text(left, text.at[1] + BASELINE * text.size, text.content)
+            self.pdf.set_text_color(*in_bytes(text.color))
+            self.pdf.text(text.box()[0], text.at[1] + BASELINE * text.size, text.content)
 
     def _point(self, p: Point) -> str:
         return f"{_n(p[0])} {_n(self.height - p[1])}"

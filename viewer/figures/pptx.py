@@ -9,10 +9,10 @@ import zipfile
 from collections.abc import Sequence
 from typing import Any
 
-from viewer.figures.font import FAMILY, text_width
+from viewer.figures.font import ANCHORS, FAMILY, text_width
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
 from viewer.files import Unusable
-from viewer.theme import Arrow, Color
+from viewer.theme import Arrow, Color, in_bytes
 
 EMU = 12_700  # of PowerPoint's units a point
 UNDATED = datetime.datetime(2000, 1, 1)  # the same figure is the same file on every day
@@ -138,7 +138,7 @@ class _Slide:
     def _text(self, text: Text) -> None:
         """A little wider than it is: another font may take more room."""
         width, height = 1.15 * text_width(text.content, text.size) + 4.0, 1.2 * text.size
-        left = text.at[0] - {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor] * width
+        left = text.at[0] - ANCHORS[text.anchor] * width
         made = self.shapes.add_textbox(*_rectangle(left, text.at[1] - 0.5 * height, width, height))
         _name(made, f"{text.name} label", "")
         if text.on_line:
@@ -196,7 +196,7 @@ def _paint(fill: Any, color: Color) -> None:
 def _rgb(color: Color) -> Any:
     from pptx.dml.color import RGBColor
 
-    return RGBColor(*(round(255 * x) for x in color[:3]))
+    return RGBColor(*in_bytes(color))
 
 
 def _element(name: str, **attributes: str) -> Any:

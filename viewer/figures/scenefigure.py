@@ -16,13 +16,13 @@ from tracer.tree import RayTree, name_of
 from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.labels import ray_label, ray_title
-from viewer.figures.marks import Line, Mark, Point, Shape, Stroke
+from viewer.figures.marks import Line, Mark, Piece, Point, Shape, Stroke, along, shares_within
 from viewer.figures.names import Names
 from viewer.figures.outlines import Area
 from viewer.figures.scenery import Part
-from viewer.figures.sceneview import SceneView, clipped
+from viewer.figures.sceneview import SceneView
 from viewer.figures.stage import Stage
-from viewer.picture import srgb
+from viewer.picture import LUMINANCE, as_shown
 from viewer.raylines import RayLine, ray_lines
 from viewer.theme import ARROW_AT, HALO, STYLES, Arrow, Color, Theme, faded
 
@@ -132,7 +132,7 @@ class _Drawing:
             return ARROW_AT
         return float(np.median(shares[inside]))
 
-    def _on_canvas(self, line: RayLine, begin: float, end: float) -> tuple[Point, Point] | None:
+    def _on_canvas(self, line: RayLine, begin: float, end: float) -> Piece | None:
         """A stretch of a ray where it is before the eye and within the figure; None where it is not."""
         ends = np.array([line.start + share * (line.end - line.start) for share in (begin, end)])
         places, depths = self.view.at(ends)
@@ -143,7 +143,9 @@ class _Drawing:
             share = (near - depths[0]) / (depths[1] - depths[0])
             ends[int(np.argmin(depths))] = ends[0] + share * (ends[1] - ends[0])
             places, _ = self.view.at(ends)
-        return clipped(_pair(places), self.view.where)
+        piece = _pair(places)
+        inside = shares_within(piece, self.view.where)
+        return (along(piece, inside[0]), along(piece, inside[1])) if inside else None
 
     # --- signs and labels ---------------------------------------------------------------------------------------------
 
@@ -186,8 +188,7 @@ class _Drawing:
         for line in [*rays, *shadows][:LABELS]:
             piece = self._on_canvas(line, 0.0, 1.0)
             if piece:
-                (x0, y0), (x1, y1) = piece
-                spots = [(x0 + share * (x1 - x0), y0 + share * (y1 - y0)) for share in SPOTS]
+                spots = [along(piece, share) for share in SPOTS]
                 label, color = ray_label(self.tree, line.row), self.theme.ray(line.kind)
                 found.append((frozenset((line.row,)), self.names.label(f"ray-{line.row}", label, spots, color)))
         for part in (*self.view.seen.opaque, *self.view.seen.glass):
@@ -210,20 +211,20 @@ def look(material: Material, theme: Theme) -> Color:
     """A thing's own colour, paler: what its light would be, or grey where it only mirrors."""
     strength = min(1.0, material.ambient + material.diffuse)
     color = np.array(material.color) * strength + 0.55 * min(1.0, material.reflect)
-    encoded = srgb(np.clip(color, 0.0, 1.0)) / 255.0
+    encoded = np.array(as_shown(color)[:3])
     if theme.mono:
-        encoded = np.full(3, 0.55 + 0.45 * float(encoded @ (0.2126, 0.7152, 0.0722)))
+        encoded = np.full(3, 0.55 + 0.45 * float(encoded @ LUMINANCE))
     r, g, b = ((1.0 - PALE) * encoded + PALE * np.array(theme.ground[:3])).tolist()
     return (r, g, b, 1.0)
 
 
-def _last(piece: tuple[Point, Point], length: float) -> tuple[Point, Point]:
+def _last(piece: Piece, length: float) -> Piece:
     """The end of a stretch, so long."""
     (x0, y0), (x1, y1) = piece
     share = min(1.0, length / max(1e-9, math.dist(*piece)))
     return (x1 - share * (x1 - x0), y1 - share * (y1 - y0)), (x1, y1)
 
 
-def _pair(places: np.ndarray) -> tuple[Point, Point]:
+def _pair(places: np.ndarray) -> Piece:
     (x0, y0), (x1, y1) = places.tolist()
     return (x0, y0), (x1, y1)

@@ -106,7 +106,7 @@ def scenery(world: World, camera: Camera, where: Rectangle) -> Scenery:
 def _parts(
     objects: Sequence[Object], seen: Sequence[int], camera: Camera, where: Rectangle, wanted: Sequence[int]
 ) -> tuple[Part, ...]:
-    """The wanted of these objects, nearer ones later; all of `seen` hide one another."""
+    """The wanted of these objects; all of `seen` hide one another."""
     faces = [(k, face) for k in seen for face in _faces(objects[k])]
     if not faces:
         return ()

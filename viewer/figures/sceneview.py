@@ -9,7 +9,7 @@ import numpy as np
 
 import tracer
 from tracer.world import World
-from viewer.figures.marks import Point, Rectangle
+from viewer.figures.marks import Rectangle
 from viewer.figures.scenery import blockers, camera_of, scenery
 from viewer.orbit import Frame, Orbit, project
 from viewer.raylines import RayLine
@@ -78,23 +78,3 @@ class SceneView:
                 found.append(Stretch(borders[-1], 0.5 * (low + high), not states[k]))
                 borders.append(0.5 * (low + high))
         return [*found, Stretch(borders[-1], 1.0, not states[-1])]
-
-
-def clipped(piece: tuple[Point, Point], box: Rectangle) -> tuple[Point, Point] | None:
-    """The part of a stretch within a rectangle (Liang & Barsky, ACM Trans. Graph. 3(1), 1984)."""
-    (x0, y0), (x1, y1) = piece
-    enters, leaves = 0.0, 1.0
-    for a, b, low, high in ((x0, x1, box[0], box[2]), (y0, y1, box[1], box[3])):
-        if a == b:
-            if not low <= a <= high:
-                return None
-            continue
-        near, far = sorted(((low - a) / (b - a), (high - a) / (b - a)))
-        enters, leaves = max(enters, near), min(leaves, far)
-    if enters >= leaves:
-        return None
-
-    def at(share: float) -> Point:
-        return (x0 + share * (x1 - x0), y0 + share * (y1 - y0))
-
-    return at(enters), at(leaves)

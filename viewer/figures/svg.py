@@ -1,12 +1,11 @@
 """Figures as SVG: text as text, marks of one name in a group of that name, attributes that every program reads."""
 
-from itertools import groupby
 from xml.sax.saxutils import escape, quoteattr
 
 from viewer.figures.arrows import heads
 from viewer.figures.font import BASELINE, FALLBACK, FAMILY
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
-from viewer.theme import Color
+from viewer.theme import Color, in_bytes
 
 
 def write_svg(figure: Figure) -> bytes:
@@ -21,12 +20,11 @@ def write_svg(figure: Figure) -> bytes:
     ]
     if figure.ground:
         lines.append(f'<rect width="{w}" height="{h}"{_fill(figure.paper)}/>')
-    for name, marks in groupby(figure.marks, key=lambda mark: mark.name):
-        group = list(marks)
-        title = next((mark.title for mark in group if mark.title), "")
+    known: set[str] = set()
+    for name, title, group in figure.groups():
         # A name comes once a file; what is drawn of it later has it as its class.
-        first = not any(line.startswith(f'<g id="{name}"') for line in lines)
-        lines.append(f"<g {'id' if first else 'class'}={quoteattr(name)}>")
+        lines.append(f"<g {'class' if name in known else 'id'}={quoteattr(name)}>")
+        known.add(name)
         if title:
             lines.append(f"<title>{escape(title)}</title>")
         for mark in group:
@@ -85,7 +83,7 @@ def _stroke(stroke: Stroke | None) -> str:
 
 
 def _paint(what: str, color: Color) -> str:
-    r, g, b = (round(255 * x) for x in color[:3])
+    r, g, b = in_bytes(color)
     opacity = f' {what}-opacity="{_n(color[3])}"' if color[3] < 1.0 else ""
     return f' {what}="#{r:02X}{g:02X}{b:02X}"{opacity}'
 

@@ -3,11 +3,9 @@
 Alone the class `standalone` is loaded; where a document class is loaded already, only the picture is read.
 """
 
-from itertools import groupby
-
 from viewer.figures.arrows import heads
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
-from viewer.theme import Color
+from viewer.theme import Color, in_bytes
 
 # TeX's own signs, and letters that its usual fonts lack.
 SIGNS = {
@@ -25,9 +23,7 @@ def write_tikz(figure: Figure) -> bytes:
     w, h = _n(figure.width), _n(figure.height)
     ground = f"\\fill[{_ink('fill', figure.paper)}] " if figure.ground else "\\path[use as bounding box] "
     body.append(f"{ground}(0,0) rectangle ({w},{h});")
-    for name, marks in groupby(figure.marks, key=lambda mark: mark.name):
-        group = list(marks)
-        title = next((mark.title for mark in group if mark.title), "")
+    for name, title, group in figure.groups():
         body.append(f"% {name}{': ' if title else ''}{title}")
         for mark in group:
             body += _draw(mark)
@@ -104,7 +100,7 @@ def _options(fill: Color | None, stroke: Stroke | None) -> str:
 
 
 def _ink(what: str, color: Color) -> str:
-    r, g, b = (round(255 * x) for x in color[:3])
+    r, g, b = in_bytes(color)
     opacity = f",{what} opacity={_n(color[3])}" if color[3] < 1.0 else ""
     return f"{what}={{rgb,255:red,{r};green,{g};blue,{b}}}{opacity}"
 

@@ -16,10 +16,8 @@ from viewer.figures.legend import Entry, legend
 from viewer.figures.marks import Box, Disc, Line, Mark, Point, Stroke, Text
 from viewer.figures.stage import Stage
 from viewer.figures.treeplan import NO_RAY, NOTE, PADDING, SIGN, SWATCH, TreePlan, edge_label, name_in_box
-from viewer.picture import srgb
+from viewer.picture import LUMINANCE, as_shown
 from viewer.theme import BLOCKED_DASH, STYLES, Color, Theme
-
-LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear sRGB (Rec. 709)
 
 
 def tree_marks(plan: TreePlan, stage: Stage, theme: Theme) -> list[Mark]:
@@ -208,5 +206,4 @@ def swatch(tree: RayTree, i: int, theme: Theme) -> Color:
     light = tree.nodes["radiance"][i]
     if theme.mono:
         light = np.full(3, light @ LUMINANCE)
-    r, g, b = (srgb(light) / 255.0).tolist()
-    return (r, g, b, 1.0)
+    return as_shown(light)

@@ -111,12 +111,14 @@ def plan_tree(
     rays = [i for i in rays if tree.nodes["depth"][i] < fitting + (not followed(i)) or i == 0]
     heaviest = sorted(rays, key=lambda i: (-weights[i], i))
     low, high = 0, len(heaviest)
-    best = None
-    while low < high:  # the most rays that fit, all of them at first
-        middle = high if best is None and low == 0 and high == len(heaviest) else (low + high + 1) // 2
+    best = _try(trees, set(heaviest), size, swatches, where)
+    if best is not None:
+        low = high
+    while low + 1 < high:  # the most rays that fit: `low` do, `high` do not
+        middle = (low + high) // 2
         found = _try(trees, set(heaviest[:middle]), size, swatches, where)
         if found is None:
-            high = middle - 1
+            high = middle
         else:
             low, best = middle, found
     if best is None:  # even the first hit alone is too large: it is drawn all the same

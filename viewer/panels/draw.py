@@ -2,10 +2,8 @@
 
 import math
 
-import numpy as np
 from imgui_bundle import imgui
 
-from viewer.picture import srgb
 from viewer.theme import FONT_SIZE, Arrow, Color, RayStyle, faded
 
 Point = tuple[float, float]
@@ -121,9 +119,3 @@ def sample(draw: imgui.ImDrawList, at: Point, width: float, style: RayStyle, col
 
 def _between(a: Point, b: Point, share: float) -> Point:
     return (a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]))
-
-
-def swatch(rgb: object) -> Color:
-    """Linear RGB as the colour a picture shows."""
-    r, g, b = srgb(np.asarray(rgb, float)) / 255.0
-    return (float(r), float(g), float(b), 1.0)

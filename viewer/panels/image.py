@@ -4,6 +4,7 @@ from imgui_bundle import imgui
 
 from viewer.canvas import Canvas, texture_ref
 from viewer.panels import draw as d
+from viewer.picture import as_shown
 from viewer.session import Session
 from viewer.theme import SMALL
 
@@ -104,7 +105,7 @@ def _head(session: Session) -> None:
         imgui.same_line()
         imgui.color_button(
             "##color",
-            d.swatch(rgb),
+            as_shown(rgb),
             imgui.ColorEditFlags_.no_tooltip,
             (imgui.get_frame_height(), imgui.get_frame_height()),
         )

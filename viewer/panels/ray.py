@@ -3,8 +3,9 @@
 from imgui_bundle import imgui
 
 from viewer.canvas import Canvas
-from viewer.explain import Section, explain, headline
+from viewer.explain import explain, headline
 from viewer.panels import draw as d
+from viewer.sections import Section
 from viewer.session import Session
 from viewer.theme import STYLES
 

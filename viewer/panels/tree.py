@@ -12,6 +12,7 @@ from viewer.canvas import Canvas
 from viewer.explain import headline
 from viewer.figures.layout import Place, layout, with_parents_only
 from viewer.panels import draw as d
+from viewer.picture import as_shown
 from viewer.raylines import family
 from viewer.session import Session
 from viewer.theme import BLOCKED_DASH, DIMMED, SMALL, STYLES, faded
@@ -175,7 +176,7 @@ class _Diagram:
         x, y = self.at[i]
         opacity = self.opacity(i)
         r = self.radius
-        fill = faded(d.swatch(self.tree.nodes["radiance"][i]), opacity)
+        fill = faded(as_shown(self.tree.nodes["radiance"][i]), opacity)
         self.pad.add_circle_filled((x, y), r + 2.0 * d.unit(), d.u32(self.theme.panel))
         self.pad.add_circle_filled((x, y), r, d.u32(fill))
         ring = self.theme.accent if i == self.session.selected else faded(self.theme.text, 0.8 * opacity)
