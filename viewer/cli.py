@@ -146,6 +146,7 @@ def make_parser() -> Parser:
     export.add_argument(
         "--text-size", type=text_size, default=18.0, metavar="PT", help="points on a slide; 18 by default"
     )
+    export.add_argument("--eye", choices=("top", "left"), default="top", help="of the tree; top by default")
     export.add_argument("--ground", action="store_true", help="on the theme's ground; transparent by default")
     export.add_argument("--width", type=pixels, default=1920, metavar="PX", help="PNG: pixels across; 1920 by default")
     export.add_argument(

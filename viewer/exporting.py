@@ -71,7 +71,7 @@ def make(
     subject = Subject(stages, world, view_of(options.view, world, lesson))
     theme = THEMES[options.theme]
     swatches = options.swatches or options.step == "colour"  # else nothing would flow
-    wishes = Wishes(theme, options.text_size, swatches, options.fold, options.ground, options.node)
+    wishes = Wishes(theme, options.text_size, swatches, options.fold, options.ground, options.node, options.eye)
     stem = stem_of(options, lesson)
     files: list[tuple[Path, bytes]] = []
     for name in formats:
@@ -195,6 +195,8 @@ def command(options: Namespace, format_name: str) -> str:
     words += ["--theme", options.theme]
     if options.swatches:
         words.append("--swatches")
+    if options.eye != "top":
+        words += ["--eye", options.eye]
     if options.ground:
         words.append("--ground")
     if options.fold:

@@ -17,7 +17,7 @@ def heads(line: Line) -> list[tuple[tuple[Point, Point, Point], bool]]:
     length = math.hypot(x1 - x0, y1 - y0)
     if length == 0.0:
         return []
-    size = HEAD * max(1.0, line.stroke.width / 2.4)
+    size = HEAD * line.stroke.width / 2.4
     dx, dy = (x1 - x0) / length, (y1 - y0) / length
     tip = line.at(min(1.0, line.arrow_at + 0.5 * size / length))
 

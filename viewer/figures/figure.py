@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 from tracer.outline import triple
 from tracer.tree import RayTree
 from tracer.world import World
+from viewer.figures import treefigure
 from viewer.figures.hitfigure import check_node, hit_marks
-from viewer.figures.marks import HEIGHT, WIDTH, Figure, Mark, Rectangle
+from viewer.figures.marks import HEIGHT, WIDTH, Figure, Mark, Rectangle, inked
 from viewer.figures.stage import Stage
-from viewer.figures.treefigure import tree_marks
-from viewer.figures.treeplan import plan_tree
+from viewer.figures.treeplan import Wanted, plan_tree
 from viewer.orbit import Orbit
 from viewer.theme import LIGHT, Theme
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 DIVIDE = 0.46 * WIDTH  # where the scene ends and the tree begins
 TEXT_SIZE = 18.0  # points: what the last row reads where the figure fills a slide
+THINNEST, THICKEST = 0.45, 1.6  # of how thick lines are at that size of the text: they go with it
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,7 @@ class Wishes:
     fold: float = 0.0  # branches that weigh less are folded
     ground: bool = False  # on the theme's paper, not on transparent ground
     node: int = 0  # which hit, where the figure shows one
+    eye: str = "top"  # of the tree, or left
 
 
 @dataclass(frozen=True)
@@ -61,8 +63,8 @@ Pages = list[list[Mark]]
 
 def tree_pages(subject: Subject, wishes: Wishes, where: tuple[float, float] = (0.0, WIDTH)) -> Pages:
     trees = [stage.tree for stage in subject.stages]
-    plan = plan_tree(trees, wishes.text_size, wishes.swatches, wishes.fold, where)
-    return [tree_marks(plan, stage, wishes.theme) for stage in subject.stages]
+    plan = plan_tree(trees, Wanted(wishes.text_size, wishes.swatches, wishes.fold, where, wishes.eye))
+    return treefigure.tree_pages(plan, subject.stages, wishes.theme)
 
 
 def scene_pages(subject: Subject, wishes: Wishes, where: Rectangle = (0.0, 0.0, WIDTH, HEIGHT)) -> Pages:
@@ -97,9 +99,11 @@ FIGURES: dict[str, Callable[[Subject, Wishes], Pages]] = {
 
 def pages(name: str, subject: Subject, wishes: Wishes, command: str = "") -> list[Figure]:
     """The figure of that name, a page a stage."""
+    thick = min(THICKEST, max(THINNEST, wishes.text_size / TEXT_SIZE))
+    made = [[inked(mark, thick) for mark in marks] for marks in FIGURES[name](subject, wishes)]
     return [
         Figure(title(stage.tree), description(stage.tree), command, tuple(marks), wishes.theme.ground, wishes.ground)
-        for stage, marks in zip(subject.stages, FIGURES[name](subject, wishes), strict=True)
+        for stage, marks in zip(subject.stages, made, strict=True)
     ]
 
 

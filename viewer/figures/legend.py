@@ -1,15 +1,20 @@
-"""What lines and signs mean, in the corners that a figure leaves free."""
+"""What lines and signs mean, where a figure leaves room: rays together, lights together, near a corner."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from viewer.figures import signs
 from viewer.figures.font import text_width
-from viewer.figures.marks import Line, Mark, Rectangle, Stroke, Text
+from viewer.figures.marks import Line, Mark, Point, Rectangle, Stroke, Text
+from viewer.figures.vacant import Vacant
 from viewer.theme import STYLES, Theme
 
 LINE = 1.3  # from line to line, in sizes of the text
 SAMPLE = 2.4  # the width of what is explained, with the gap to its words
+CLEAR = 0.5  # about a block, in sizes of the text
+
+RAYS = ("top left", "bottom left", "top right", "bottom right")
+LIGHTS = ("top right", "bottom right", "top left", "bottom left")
 
 
 @dataclass(frozen=True)
@@ -21,29 +26,46 @@ class Entry:
         return SAMPLE * size + text_width(self.words, size)
 
 
-def legend(entries: Sequence[Entry], corners: Sequence[Rectangle], size: float, theme: Theme) -> list[Mark]:
-    """Rays first in the first corner, lights in the second; what has no room there goes where there is some.
+def legend(entries: Sequence[Entry], marks: Sequence[Mark], where: Rectangle, size: float, theme: Theme) -> list[Mark]:
+    """Block by block or, where a block has no room as a whole, line by line; where nothing stands of these marks.
 
-    What has room in no corner is left out.
+    What has no room at all is left out.
     """
-    placed: dict[int, list[Entry]] = {k: [] for k in range(len(corners))}
-    for entry in entries:
-        first = 0 if entry.what in STYLES else 1
-        for k in (first, 1 - first, *range(2, len(corners))):
-            left, top, right, bottom = corners[k]
-            if entry.width(size) <= right - left and top + (len(placed[k]) + 1) * LINE * size <= bottom:
-                placed[k].append(entry)
-                break
-    marks: list[Mark] = []
-    for k, block in placed.items():
-        left, top, right, _ = corners[k]
-        begin = right - max((entry.width(size) for entry in block), default=0.0) if k == 1 else left
-        for row, entry in enumerate(block):
-            marks += _entry(entry, (begin, top + (row + 0.5) * LINE * size), size, theme)
-    return marks
+    vacant = Vacant(where, marks)
+    found: list[Mark] = []
+    rays = [entry for entry in entries if entry.what in STYLES]
+    lights = [entry for entry in entries if entry.what not in STYLES]
+    for block, corners in ((rays, RAYS), (lights, LIGHTS)):
+        at = _take(vacant, block, corners, size)
+        if at is not None:
+            found += _block(block, at, size, theme)
+            continue
+        for entry in block:
+            at = _take(vacant, [entry], corners, size)
+            if at is not None:
+                found += _block([entry], at, size, theme)
+    return found
 
 
-def _entry(entry: Entry, at: tuple[float, float], size: float, theme: Theme) -> list[Mark]:
+def _take(vacant: Vacant, block: Sequence[Entry], corners: Sequence[str], size: float) -> Point | None:
+    """The place of a block's first line."""
+    wide = max((entry.width(size) for entry in block), default=0.0)
+    high = LINE * size * len(block)
+    clear = CLEAR * size
+    at = vacant.place((wide + 2.0 * clear, high + 2.0 * clear), corners) if block else None
+    if at is None:
+        return None
+    left, top = at[0] + clear, at[1] + clear
+    vacant.take((left, top, left + wide, top + high))
+    return (left, top + 0.5 * LINE * size)
+
+
+def _block(block: Sequence[Entry], at: Point, size: float, theme: Theme) -> list[Mark]:
+    x, y = at
+    return [mark for k, entry in enumerate(block) for mark in _entry(entry, (x, y + LINE * size * k), size, theme)]
+
+
+def _entry(entry: Entry, at: Point, size: float, theme: Theme) -> list[Mark]:
     name = f"legend-{entry.what}"
     x, y = at
     words = Text(name, (x + SAMPLE * size, y), entry.words, size, theme.text, "start")

@@ -5,7 +5,7 @@ points is 18 points where the figure fills the slide.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import groupby
 
 from viewer.figures.font import text_box
@@ -44,6 +44,11 @@ class Stroke:
     color: Color
     width: float
     dash: tuple[float, float] = (0.0, 0.0)  # on and off; (0, 0): solid
+
+    def times(self, share: float) -> "Stroke":
+        """So many times as thick."""
+        on, off = self.dash
+        return Stroke(self.color, share * self.width, (share * on, share * off))
 
 
 @dataclass(frozen=True)
@@ -128,6 +133,12 @@ class Text(Mark):
 
     def box(self) -> Rectangle:
         return text_box(self.at, self.content, self.size, self.anchor)
+
+
+def inked(mark: Mark, share: float) -> Mark:
+    """The mark with its lines so many times as thick."""
+    stroke = getattr(mark, "stroke", None)
+    return replace(mark, stroke=stroke.times(share)) if stroke else mark  # type: ignore[call-arg]
 
 
 @dataclass(frozen=True)

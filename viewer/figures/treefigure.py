@@ -1,8 +1,10 @@
 """The ray tree as a figure: Whitted's own (CACM 23(6), 1980).
 
 The eye on top, reflected rays left, refracted ones right, dashed stubs to the lights; on each edge what the parent
-multiplies by, in each box what was met.
+multiplies by, in each box what was met. With the eye at the left reflected rays go up, refracted ones down.
 """
+
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -13,16 +15,29 @@ from viewer.figures.folds import Fold
 from viewer.figures.font import text_width
 from viewer.figures.labels import end_label, hit_label, ray_label, ray_title
 from viewer.figures.legend import Entry, legend
-from viewer.figures.marks import Box, Disc, Line, Mark, Point, Stroke, Text
+from viewer.figures.marks import HEIGHT, Box, Disc, Line, Mark, Point, Rectangle, Stroke, Text
 from viewer.figures.stage import Stage
-from viewer.figures.treeplan import NO_RAY, NOTE, PADDING, SIGN, SWATCH, TreePlan, edge_label, name_in_box
+from viewer.figures.treeplan import TreePlan
+from viewer.figures.treesizes import BARE_NOTE, MARGIN, NO_RAY, NOTE, PADDING, SIGN, SWATCH, edge_label
 from viewer.picture import LUMINANCE, as_shown
 from viewer.theme import BLOCKED_DASH, STYLES, Color, Theme
 
+LIGHT_ENDS = {
+    "lit": "to a light",
+    "filtered": "through glass",
+    "blocked": "blocked",
+    "away": "faces away",
+}
 
-def tree_marks(plan: TreePlan, stage: Stage, theme: Theme) -> list[Mark]:
-    """The plan's rows that are there at this stage."""
-    return _Drawing(plan, stage, theme).marks
+
+def tree_pages(plan: TreePlan, stages: Sequence[Stage], theme: Theme) -> list[list[Mark]]:
+    """A page a stage: of the plan's rows those that are there. What signs mean stands where no page has anything."""
+    drawn = [_Drawing(plan, stage, theme).marks for stage in stages]
+    left, right = plan.wanted.where
+    margin = MARGIN * plan.size
+    where: Rectangle = (left + margin, margin, right - margin, HEIGHT - margin)
+    signs_meant = legend(_entries(plan), [mark for marks in drawn for mark in marks], where, plan.size, theme)
+    return [[*signs_meant, *marks] for marks in drawn]
 
 
 class _Drawing:
@@ -30,12 +45,12 @@ class _Drawing:
         self.plan, self.stage, self.theme = plan, stage, theme
         self.tree: RayTree = stage.tree
         self.size = plan.size
+        self.sideways = plan.wanted.eye == "left"
         self.marks: list[Mark] = []
         rows = sorted(plan.rows & stage.rows)
         hits = [i for i in rows if self.tree.nodes["kind"][i] != SHADOW]
         folds = [fold for row, fold in sorted(plan.folds.items()) if row in stage.rows]
-        self.marks += legend(self._entries(), plan.corners, self.size, theme)
-        self.marks += signs.eye(plan.eye, self.size, theme)
+        self.marks += signs.eye(plan.places.eye, self.size, theme)
         for i in rows:
             self._stub(i) if self.tree.nodes["kind"][i] == SHADOW else self._edge(i)
         for fold in folds:
@@ -52,37 +67,50 @@ class _Drawing:
         """Where the edge to hit i begins, and the mark it leaves."""
         parent = int(self.tree.nodes["parent"][i])
         if parent < 0:
-            return (self.plan.eye[0], self.plan.eye[1] + 0.55 * self.size), "eye"
+            x, y = self.plan.places.eye
+            return ((x + self.size, y) if self.sideways else (x, y + 0.55 * self.size)), "eye"
         x, y = self.plan.at[parent]
         side = 0.5 * self.plan.box[0]
-        return (x - side if self.plan.at[i][0] < x else x + side, y), f"hit-{parent}"
+        to_left = self.plan.at[i][0] < x
+        return (x - side if to_left else x + side, y), f"hit-{parent}"
 
-    def _reach(self, i: int) -> Point:
+    def _reach(self, i: int, height: float) -> Point:
+        """Where the edge to the box at i, so high, ends."""
         x, y = self.plan.at[i]
-        return (x, y - 0.5 * self.plan.box[1])
+        return (x - 0.5 * self.plan.box[0], y) if self.sideways else (x, y - 0.5 * height)
 
     def _edge(self, i: int) -> None:
         kind = self.tree.kind(i)
         style, color = STYLES[kind], self.theme.ray(kind)
         start, leaves = self._leave(i)
-        x, y = self.plan.at[i]
+        end = self._reach(i, self.plan.box[1])
         strong = 1.8 if i == self.stage.current else 1.0
-        label = Text(f"ray-{i}", (x, y - self.plan.top), edge_label(self.tree, i), self.size, color, on_line=True)
-        if i == 0:  # beside the edge: it comes straight from above
-            label = Text("ray-0", (x + 0.5 * self.size, y - self.plan.top), label.content, self.size, color, "start")
+        label = self._edge_label(i, start, end, color)
         line = Line(
             f"ray-{i}",
             start,
-            self._reach(i),
+            end,
             Stroke(color, strong * style.width, style.dash),
             style.arrow,
             0.5,
             leaves,
             f"hit-{i}",
-            label.box() if i else None,
+            label.box() if label.on_line else None,
             title=ray_title(self.tree, i),
         )
         self.marks += [line, label]
+
+    def _edge_label(self, i: int, start: Point, end: Point, color: Color) -> Text:
+        """Above its box: there an edge from above is broken. The first ray is straight, and has its label beside it."""
+        name, content = f"ray-{i}", edge_label(self.tree, i)
+        x, y = self.plan.at[i]
+        if i and self.sideways:
+            return Text(name, (x, y - self.plan.top), content, self.size, color)
+        if i:
+            return Text(name, (x, y - self.plan.top), content, self.size, color, on_line=True)
+        if self.sideways:
+            return Text(name, (0.5 * (start[0] + end[0]), y - self.size), content, self.size, color)
+        return Text(name, (x + 0.5 * self.size, y - self.plan.top), content, self.size, color, "start")
 
     def _stub(self, i: int) -> None:
         """To a light: what becomes of the ray stands at its end."""
@@ -119,7 +147,7 @@ class _Drawing:
 
     def _bar(self, i: int) -> None:
         """The refracted ray that total internal reflection does not let out."""
-        at = self.plan.bars.get(i)
+        at = self.plan.places.bars.get(i)
         if at is None or not any(c in self.stage.rows for c in self.tree.children[i] if self.tree.kind(c) == "tir"):
             return
         x, y = self.plan.at[i]
@@ -146,14 +174,14 @@ class _Drawing:
             Box(name, at, self.plan.box, 0.28 * self.size, self.theme.panel, stroke, title=f"{words}, met by ray {i}")
         )
         middle = at
-        if self.plan.swatches:
+        if self.plan.wanted.swatches:
             left = at[0] - 0.5 * self.plan.box[0] + (PADDING + 0.5 * SWATCH) * self.size
             if i in self.stage.summed:
                 fill = swatch(self.tree, i, self.theme)
                 radius = 0.5 * self.size
                 self.marks.append(Disc(name, (left, at[1]), radius, fill, Stroke(self.theme.text, 1.0)))
             middle = (at[0] + 0.5 * SWATCH * self.size, at[1])
-        self.marks.append(Text(name, middle, name_in_box(self.tree, i), self.size, color, inside=name))
+        self.marks.append(Text(name, middle, self.plan.name(i), self.size, color, inside=name))
         self._note(i)
 
     def _note(self, i: int) -> None:
@@ -162,15 +190,18 @@ class _Drawing:
         if not words or any(self.tree.nodes["kind"][c] != SHADOW for c in self.tree.children[i]):
             return
         x, y = self.plan.at[i]
-        below = self.plan.hang + NOTE * self.size if self.tree.children[i] else 0.5 * self.plan.box[1] + 0.8 * self.size
+        below = (
+            self.plan.hang + NOTE * self.size
+            if self.tree.children[i]
+            else 0.5 * self.plan.box[1] + BARE_NOTE * self.size
+        )
         self.marks.append(Text(f"hit-{i}", (x, y + below), words, self.size, self.theme.muted))
 
     # --- folded branches ----------------------------------------------------------------------------------------------
 
     def _fold_edge(self, row: int) -> None:
         start, leaves = self._leave(row)
-        x, y = self.plan.at[row]
-        reach = (x, y - 0.5 * self.plan.fold_height)
+        reach = self._reach(row, self.plan.fold_height)
         stroke = Stroke(self.theme.muted, 1.6, (2.0, 4.0))
         self.marks.append(Line(f"fold-{row}", start, reach, stroke, leaves=leaves, reaches=f"fold-{row}"))
 
@@ -185,20 +216,15 @@ class _Drawing:
         for words, dy in ((many, -0.6), (share, 0.6)):
             self.marks.append(Text(name, (x, y + dy * self.size), words, self.size, self.theme.muted, inside=name))
 
-    def _entries(self) -> list[Entry]:
-        """What of the signs the figure needs words for: those that its deepest step has."""
-        tree = self.plan.tree
-        kinds = {tree.kind(i) for i in self.plan.rows}
-        entries = [Entry(kind, STYLES[kind].label) for kind in ("reflection", "refraction", "tir") if kind in kinds]
-        shadows = [i for i in self.plan.rows if tree.nodes["kind"][i] == SHADOW]
-        ends = {"away" if tree.faces_away(i) else tree.end(i) or "" for i in shadows}
-        words = {
-            "lit": "to a light",
-            "filtered": "light through glass",
-            "blocked": "light blocked",
-            "away": "faces away from light",
-        }
-        return entries + [Entry(end, words[end]) for end in words if end in ends]
+
+def _entries(plan: TreePlan) -> list[Entry]:
+    """What of the signs the figure needs words for: those that its deepest step has."""
+    tree = plan.tree
+    kinds = {tree.kind(i) for i in plan.rows}
+    entries = [Entry(kind, STYLES[kind].label) for kind in ("reflection", "refraction", "tir") if kind in kinds]
+    shadows = [i for i in plan.rows if tree.nodes["kind"][i] == SHADOW]
+    ends = {"away" if tree.faces_away(i) else tree.end(i) or "" for i in shadows}
+    return entries + [Entry(end, words) for end, words in LIGHT_ENDS.items() if end in ends]
 
 
 def swatch(tree: RayTree, i: int, theme: Theme) -> Color:

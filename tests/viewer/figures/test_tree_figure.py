@@ -1,6 +1,8 @@
 """The tree as a figure: nothing overlaps, nothing moves from step to step, every ray is there or counted."""
 
+import itertools
 import re
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
@@ -18,8 +20,9 @@ from viewer.figures.figure import Subject, Wishes, pages
 from viewer.figures.folds import percent
 from viewer.figures.labels import ray_label
 from viewer.figures.marks import Box, Disc, Figure, Line, Text
+from viewer.figures.placing import EYES
 from viewer.figures.stage import by_colour, by_depth, by_ray
-from viewer.figures.treeplan import plan_tree
+from viewer.figures.treeplan import Wanted, plan_tree
 from viewer.orbit import Frame, home
 from viewer.theme import DARK, LIGHT, MONO, Theme
 
@@ -49,12 +52,12 @@ def check_whole(figure: Figure, tree: RayTree, size: float = 18.0) -> None:
 @settings(max_examples=150, deadline=None)
 @given(
     st.integers(0, 2**32), st.integers(1, 300), st.integers(0, 4), st.integers(0, 7), st.booleans(),
-    st.sampled_from((6.0, 9.0, 18.0, 24.0)),
+    st.sampled_from((6.0, 9.0, 18.0, 24.0)), st.sampled_from(EYES),
 )  # fmt: skip
-def test_random_trees(seed: int, most: int, lights: int, depth: int, swatches: bool, size: float) -> None:
+def test_random_trees(seed: int, most: int, lights: int, depth: int, swatches: bool, size: float, eye: str) -> None:
     """From one ray to five hundred, lopsided ones too; small text shows many rays, large text folds."""
     tree = random_tree(seed, most, lights, depth)
-    (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(swatches=swatches, text_size=size))
+    (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(swatches=swatches, text_size=size, eye=eye))
     check_whole(figure, tree, size)
 
 
@@ -63,24 +66,25 @@ def test_trees_as_deep_as_a_slide_allows(depth: int) -> None:
     """Where levels stand as close as can be, and leaves beside what goes on."""
     for seed in range(150):
         tree = random_tree(seed, 14, seed % 3, depth)
-        (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(swatches=seed % 2 == 0))
-        check_whole(figure, tree)
+        for eye in EYES:
+            (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(swatches=seed % 2 == 0, eye=eye))
+            check_whole(figure, tree)
 
 
 @pytest.mark.parametrize("lights", (0, 2))
 def test_a_tree_of_five_hundred_rays(lights: int) -> None:
     tree = max((random_tree(seed, 500, lights, 9) for seed in range(40)), key=len)
     assert len(tree) >= 500
-    for size in (4.0, 18.0):
-        (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(text_size=size))
+    for size, eye in itertools.product((4.0, 18.0), EYES):
+        (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(text_size=size, eye=eye))
         check_whole(figure, tree, size)
 
 
-@pytest.mark.parametrize("theme", (LIGHT, DARK, MONO))
-def test_trees_of_the_lessons_grow_and_nothing_moves(worlds: dict[str, tracer.World], theme: Theme) -> None:
+@pytest.mark.parametrize(("theme", "eye"), ((LIGHT, "top"), (DARK, "left"), (MONO, "top")))
+def test_trees_of_the_lessons_grow_and_nothing_moves(worlds: dict[str, tracer.World], theme: Theme, eye: str) -> None:
     for name in LESSONS:
         trees = [tracer.trace(worlds[name], lesson.read(name).pixel, depth=d) for d in range(5)]
-        figures = pages("tree", Subject(by_depth(trees)), Wishes(theme, swatches=True))
+        figures = pages("tree", Subject(by_depth(trees)), Wishes(theme, swatches=True, eye=eye))
         last = places(figures[-1])
         for figure, tree in zip(figures, trees, strict=True):
             check_whole(figure, tree)
@@ -130,10 +134,11 @@ def test_colour_flows_back_from_the_leaves(worlds: dict[str, tracer.World]) -> N
     assert known == {i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW}
 
 
-def test_same_subtree_looks_the_same() -> None:
+@pytest.mark.parametrize("eye", EYES)
+def test_same_subtree_looks_the_same(eye: str) -> None:
     """In a pile of plates subtrees repeat: boxes and edges of equal ones differ by a shift only."""
     tree = plates(1, 3, 0)
-    plan = plan_tree([tree], 18.0)
+    plan = plan_tree([tree], Wanted(18.0, eye=eye))
     kinds = tree.nodes["kind"]
 
     def form(i: int) -> tuple:
@@ -161,9 +166,47 @@ def test_light_branches_are_folded_on_wish() -> None:
     check_whole(figure, tree)
     weights = tree.nodes["weight"].max(axis=1)
     assert all(weights[i] >= 0.1 for i in hits(figure))
-    plan = plan_tree([tree], 18.0, fold=0.1)
+    plan = plan_tree([tree], Wanted(18.0, fold=0.1))
     for fold in plan.folds.values():
         assert fold.weight == pytest.approx(sum(weights[i] for i in fold.roots), rel=1e-12)
+
+
+def test_where_rays_go() -> None:
+    """Down or to the right by the same step a level; R on one side, T on the other."""
+    tree = random_tree(5, 12, 1, 3)
+    nodes = tree.nodes
+    for eye, along, across in (("top", 1, 0), ("left", 0, 1)):
+        plan = plan_tree([tree], Wanted(9.0, eye=eye))
+        steps = set()
+        for i in plan.rows - {0}:
+            if nodes["kind"][i] != SHADOW:
+                here, parent = plan.at[i], plan.at[int(nodes["parent"][i])]
+                steps.add(round(here[along] - parent[along], 6))
+                assert (here[across] > parent[across]) == (tree.kind(i) == "refraction")
+        assert len(steps) == 1
+        assert min(steps) > 0.0
+        assert plan.places.eye[across] == plan.at[0][across]
+
+
+def test_names_are_whole_where_there_is_room() -> None:
+    """A long one is cut only where its box would keep rays out of the figure."""
+    long = "a name of twenty letter"
+    few = renamed(random_tree(1, 1, 1, 0), long)
+    many = renamed(max((random_tree(seed, 60, 2, 4) for seed in range(20)), key=len), long)
+    assert words_in_boxes(few) == {long}
+    (cut,) = {word for word in words_in_boxes(many) if word.startswith("a name")}
+    assert cut.endswith("…")
+    assert len(cut) <= 14
+
+
+def renamed(tree: RayTree, name: str) -> RayTree:
+    scene = replace(tree.scene, objects=tuple(replace(item, name=name) for item in tree.scene.objects))
+    return replace(tree, scene=scene)
+
+
+def words_in_boxes(tree: RayTree) -> set[str]:
+    (figure,) = pages("tree", Subject(by_depth([tree])), Wishes())
+    return {m.content for m in figure.marks if isinstance(m, Text) and m.inside.startswith("hit-")}
 
 
 def test_total_internal_reflection_has_a_stub_with_a_bar(worlds: dict[str, tracer.World]) -> None:
@@ -198,7 +241,7 @@ def test_the_legend_explains_every_sign_and_hides_nothing(worlds: dict[str, trac
     for name in ("tree", "both"):
         (figure,) = pages(name, Subject(by_depth([tree]), world, orbit), Wishes())
         words = {mark.content: mark for mark in figure.marks if isinstance(mark, Text)}
-        assert {"total internal reflection", "to a light", "faces away from light"} <= set(words)
+        assert {"total internal reflection", "to a light", "faces away"} <= set(words)
         eye = [m for m in figure.marks if m.name == "eye" and isinstance(m, Disc)][-1]
         for mark in figure.marks:
             if mark.name.startswith("legend-") and isinstance(mark, Line):

@@ -1,0 +1,66 @@
+"""Where on a canvas nothing stands yet: a grid of cells that are taken, and sums over it that tell any rectangle."""
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from viewer.figures.marks import Box, Disc, Line, Mark, Point, Rectangle, Shape, Text
+
+CELL = 4.0  # points
+RANK = 90.0  # points nearer a corner must be to be preferred to the corner before it
+
+
+class Vacant:
+    """A cell that anything touches is taken as a whole."""
+
+    def __init__(self, where: Rectangle, marks: Iterable[Mark] = ()) -> None:
+        self.where = where
+        left, top, right, bottom = where
+        self.taken = np.zeros((int((bottom - top) / CELL), int((right - left) / CELL)), bool)
+        for mark in marks:
+            self._take_mark(mark)
+
+    def _take_mark(self, mark: Mark) -> None:
+        match mark:
+            case Text():
+                self.take(mark.box())
+            case Box(center=(x, y), size=(w, h)):
+                self.take((x - 0.5 * w, y - 0.5 * h, x + 0.5 * w, y + 0.5 * h))
+            case Disc(center=(x, y), radius=r):
+                self.take((x - r, y - r, x + r, y + r))
+            case Shape(corners=corners):
+                across, down = zip(*corners, strict=True)
+                self.take((min(across), min(down), max(across), max(down)))
+            case Line():
+                steps = max(1, math.ceil(math.dist(mark.start, mark.end) / CELL))
+                for k in range(steps):  # short stretches: what they span is hardly more than themselves
+                    (x0, y0), (x1, y1) = mark.at(k / steps), mark.at((k + 1) / steps)
+                    self.take((min(x0, x1) - 2.0, min(y0, y1) - 2.0, max(x0, x1) + 2.0, max(y0, y1) + 2.0))
+
+    def take(self, box: Rectangle) -> None:
+        left, top, _, _ = self.where
+        first_column, last_column = math.floor((box[0] - left) / CELL), math.floor((box[2] - left) / CELL)
+        first_row, last_row = math.floor((box[1] - top) / CELL), math.floor((box[3] - top) / CELL)
+        if last_column >= 0 and last_row >= 0:
+            self.taken[max(0, first_row) : last_row + 1, max(0, first_column) : last_column + 1] = True
+
+    def place(self, size: tuple[float, float], corners: Iterable[str]) -> Point | None:
+        """The left top of a free rectangle of that size, as near as can be to one of these corners, like "top left"."""
+        wide, high = (math.ceil(length / CELL) for length in size)
+        rows, columns = self.taken.shape
+        if wide > columns or high > rows:
+            return None
+        sums = np.pad(self.taken.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
+        inside = sums[high:, wide:] - sums[:-high, wide:] - sums[high:, :-wide] + sums[:-high, :-wide]
+        y, x = np.nonzero(inside == 0)
+        if not len(x):
+            return None
+        costs = []
+        for rank, corner in enumerate(corners):
+            far_x = columns - wide - x if "right" in corner else x
+            far_y = rows - high - y if "bottom" in corner else y
+            costs.append(CELL * np.hypot(far_x, far_y) + RANK * rank)
+        best = int(np.argmin(np.min(costs, axis=0)))
+        left, top, _, _ = self.where
+        return (left + CELL * float(x[best]), top + CELL * float(y[best]))
