@@ -32,6 +32,13 @@ def six(text: str) -> tuple[float, ...]:
     return numbers
 
 
+def ray_name(text: str) -> str:
+    """4 or T4, as figures name rays."""
+    if not re.fullmatch(r"(?:R|T|TIR)?\d+|E", text, re.IGNORECASE):
+        raise argparse.ArgumentTypeError(f'a ray as in the tree like 4, T4 or E, got "{text}"')
+    return text
+
+
 def at_least(least: int):
     def read(text: str) -> int:
         if not re.fullmatch(r"-?\d+", text) or int(text) < least:

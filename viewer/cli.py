@@ -11,7 +11,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import NoReturn
 
-from viewer.arguments import at_least, depths, listed, pair, pixels, six, text_size, view_from, weight
+from viewer.arguments import at_least, depths, listed, pair, pixels, ray_name, six, text_size, view_from, weight
 from viewer.interrupt import Interrupted, interruptible
 
 COMMANDS = ("view", "trace", "render", "export", "plan", "check", "lessons")
@@ -126,9 +126,9 @@ def make_parser() -> Parser:
         "--view",
         type=view_from,
         metavar="A,E,D[,X,Y,Z]",
-        help="scene: degrees about and above, distance in its radii",
+        help="scene: degrees from its camera's side and above, distance in its radii, what is looked at",
     )
-    export.add_argument("--node", type=at_least(0), default=0, metavar="N", help="hit: of this ray; the first")
+    export.add_argument("--node", type=ray_name, metavar="T4", help="hit: of this ray; the first by default")
     export.add_argument("--depth", type=depths, metavar="D|A..B", help="recursion depth, or a page a depth: 0..3")
     export.add_argument(
         "--step", choices=("depth", "rays", "colour"), default="depth",
@@ -146,9 +146,9 @@ def make_parser() -> Parser:
     export.add_argument(
         "--text-size", type=text_size, default=18.0, metavar="PT", help="points on a slide; 18 by default"
     )
-    export.add_argument("--eye", choices=("top", "left"), default="top", help="of the tree; top by default")
+    export.add_argument("--eye", choices=("top", "left"), help="tree: where it begins; on top by default")
     export.add_argument("--ground", action="store_true", help="on the theme's ground; transparent by default")
-    export.add_argument("--width", type=pixels, default=1920, metavar="PX", help="PNG: pixels across; 1920 by default")
+    export.add_argument("--width", type=pixels, metavar="PX", help="PNG: pixels across; 1920 by default")
     export.add_argument(
         "-o", "--output", required=True, metavar="FILE|FOLDER/", help="names in a folder: SCENE_X_Y_FIGURE_dD.EXT"
     )

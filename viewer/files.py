@@ -3,7 +3,9 @@
 import contextlib
 import os
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 
 class Unusable(Exception):
@@ -12,6 +14,19 @@ class Unusable(Exception):
     def __init__(self, *faults: str) -> None:
         super().__init__("\n".join(faults))
         self.faults = faults
+
+
+def every(*checks: Callable[[], Any]) -> list[Any]:
+    """What each gives; Unusable with all their faults where any has one."""
+    given, faults = [], []
+    for check in checks:
+        try:
+            given.append(check())
+        except Unusable as unusable:
+            faults += unusable.faults
+    if faults:
+        raise Unusable(*faults)
+    return given
 
 
 def write_atomically(path: Path, content: bytes) -> None:

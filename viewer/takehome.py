@@ -69,7 +69,7 @@ class TakeHome:
             return
         if self.making:
             return
-        from viewer import cli, exporting
+        from viewer import cli, exporting, targets
         from viewer.figures.formats import FORMATS as KINDS
 
         words = self.words(session)
@@ -77,9 +77,9 @@ class TakeHome:
         self.command = shlex.join(["raytree", *words])
         self._keep()
         world, lesson = session.world, session.lesson
-        stem = f"{exporting.stem_of(options, lesson)}_{self.figure}_d{session.depth}"
+        stem = f"{targets.stem_of(options, lesson)}_{self.figure}_d{session.depth}"
         path = free(Path(stem + KINDS[self.format].suffix))
-        target = exporting.Target(path, folder=False)
+        target = targets.Target(path, folder=False)
         worker = ThreadPoolExecutor(1)
         session.notice.say(f"exporting {path.name} ...")
         self.making = worker.submit(exporting.make, options, world, lesson, target, [self.format])
@@ -92,8 +92,9 @@ class TakeHome:
             return False
         making, self.making = self.making, None
         try:
-            (path,) = making.result()
-            session.notice.say(f"wrote {path.resolve()}  (Ctrl+C copies its command line)")
+            made = making.result()
+            said = [f"wrote {made.files[0].resolve()}  (Ctrl+C copies its command line)", *made.notes]
+            session.notice.say("; ".join(said))
         except Unusable as unusable:
             session.faults = list(unusable.faults)
         except ValueError as error:

@@ -1,5 +1,6 @@
 """`raytree export`: names of files, faults in one line, nothing half-written."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -57,8 +58,26 @@ def test_a_ray_by_hand(tmp_path: Path) -> None:
         (["-o", "{}/b", "--format", "svg"], 'raytree export: a folder\'s name ends with "/": -o {}/b/'),
         (
             ["-o", "{}/a.svg", "--figure", "hit", "--node", "1"],
-            "raytree: --node 1 must be a ray that meets a surface: 0, 4, 7, 8, 13, 14",
+            "raytree: --node 1 must be a ray that meets a surface: E, T4, R7, T8, R13, T14",
         ),
+        (
+            ["-o", "{}/a.svg", "--figure", "hit", "--node", "R4"],
+            "raytree: --node R4 must be a ray that meets a surface: E, T4, R7, T8, R13, T14",
+        ),
+        (
+            ["-o", "{}/a.svg", "--figure", "hit", "--pixel", "0,0"],
+            "raytree: --figure hit: the ray meets no surface",
+        ),
+        (["-o", "{}/a.svg", "--node", "T4"], "raytree export: --node is for --figure hit, got tree"),
+        (
+            ["-o", "{}/a.svg", "--view", "1,2,3"],
+            "raytree export: --view is for --figure scene and both, got tree",
+        ),
+        (
+            ["-o", "{}/a.svg", "--figure", "scene", "--eye", "left"],
+            "raytree export: --eye is for --figure tree and both, got scene",
+        ),
+        (["-o", "{}/a.svg", "--width", "640"], "raytree export: --width is for png, got svg"),
         (
             ["-o", "{}/a.pdf", "--step", "rays", "--depth", "0..3"],
             "raytree export: --step rays goes through one tree: give one depth",
@@ -91,6 +110,39 @@ def test_a_scene_needs_a_pixel(tmp_path: Path, capsys: pytest.CaptureFixture[str
     scene = scene_file('format = 1\n[[object]]\nshape = "sphere"\ncenter = [0, 0, 0]\nradius = 1\n')
     assert cli.main(["export", str(scene), "-o", str(tmp_path / "a.svg")]) == 2
     assert "which pixel?" in capsys.readouterr().err
+
+
+def test_all_that_is_wrong_is_said_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["no-such-scene", "--node", "T4", "-o", f"{tmp_path}/none/a.svg"]
+    assert cli.main(["export", *arguments]) == 2
+    scene, target, node = capsys.readouterr().err.strip().splitlines()
+    assert scene.startswith('no lesson "no-such-scene" (known: ')
+    assert target == f"{tmp_path}/none/a.svg: folder not found: {tmp_path}/none"
+    assert node == "raytree export: --node is for --figure hit, got tree"
+
+
+def test_a_ray_is_asked_for_as_figures_name_it(tmp_path: Path) -> None:
+    written = []
+    for node in ("4", "T4", "t4"):
+        out = tmp_path / f"{node}.svg"
+        assert cli.main(["export", "glass-ball", "--figure", "hit", "--node", node, "-o", str(out)]) == 0
+        written.append(out.read_bytes().split(b"</metadata>")[1])
+    assert written[0] == written[1] == written[2]
+
+
+def test_what_has_no_room_or_no_letter_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str], scene_file) -> None:
+    assert cli.main(["export", "panes", "--figure", "both", "-o", str(tmp_path / "a.svg")]) == 0
+    (note,) = capsys.readouterr().err.splitlines()
+    size = re.fullmatch(r"note: some branches are folded, .*; with --text-size (\d+) all have it", note)
+    assert size
+    arguments = ["panes", "--figure", "both", "--text-size", size[1], "-o", str(tmp_path / "b.svg")]
+    assert cli.main(["export", *arguments]) == 0
+    assert capsys.readouterr().err == ""
+    scene = scene_file('format = 1\n[[object]]\nname = "球"\nshape = "sphere"\ncenter = [0, 0, 0]\nradius = 1\n')
+    for suffix, said in (("pdf", True), ("tex", True), ("svg", False), ("pptx", False)):
+        out = tmp_path / f"c.{suffix}"
+        assert cli.main(["export", str(scene), "--ray", "0,0,5,0,0,-1", "-o", str(out)]) == 0
+        assert ('has no letter for "球"' in capsys.readouterr().err) == said
 
 
 @pytest.mark.parametrize("depth", ("3..1", "a", "0..", "-1"))

@@ -107,7 +107,7 @@ def test_a_hit_that_is_none_is_said(room: Driver, tmp_path: Path) -> None:
     room.session.select(next(i for i in range(len(tree)) if tree.end(i) == "background"))
     room.session.takehome.figure = "hit"
     press_save(room)
-    assert room.session.faults == ["--node 3 must be a ray that meets a surface: 0, 4, 7, 8, 13, 14"]
+    assert room.session.faults == ["--node 3 must be a ray that meets a surface: E, T4, R7, T8, R13, T14"]
     assert list(tmp_path.iterdir()) == []
 
 

@@ -12,7 +12,7 @@ from tracer.outline import triple
 from tracer.tree import RayTree
 from tracer.world import World
 from viewer.figures import treefigure
-from viewer.figures.hitfigure import check_node, hit_marks
+from viewer.figures.hitfigure import hit_marks
 from viewer.figures.marks import HEIGHT, WIDTH, Figure, Mark, Rectangle, inked
 from viewer.figures.stage import Stage
 from viewer.figures.treeplan import Wanted, plan_tree
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from viewer.figures.sceneview import SceneView
 
 DIVIDE = 0.46 * WIDTH  # where the scene ends and the tree begins
+TREES = {"tree": (0.0, WIDTH), "both": (DIVIDE + 4.0, WIDTH)}  # between which left and right a figure has its tree
 TEXT_SIZE = 18.0  # points: what the last row reads where the figure fills a slide
 THINNEST, THICKEST = 0.45, 1.6  # of how thick lines are at that size of the text: they go with it
 
@@ -61,10 +62,14 @@ class Subject:
 Pages = list[list[Mark]]
 
 
-def tree_pages(subject: Subject, wishes: Wishes, where: tuple[float, float] = (0.0, WIDTH)) -> Pages:
+def tree_pages(subject: Subject, wishes: Wishes, where: tuple[float, float] = TREES["tree"]) -> Pages:
     trees = [stage.tree for stage in subject.stages]
-    plan = plan_tree(trees, Wanted(wishes.text_size, wishes.swatches, wishes.fold, where, wishes.eye))
+    plan = plan_tree(trees, wanted(wishes, where))
     return treefigure.tree_pages(plan, subject.stages, wishes.theme)
+
+
+def wanted(wishes: Wishes, where: tuple[float, float]) -> Wanted:
+    return Wanted(wishes.text_size, wishes.swatches, wishes.fold, where, wishes.eye)
 
 
 def scene_pages(subject: Subject, wishes: Wishes, where: Rectangle = (0.0, 0.0, WIDTH, HEIGHT)) -> Pages:
@@ -76,16 +81,15 @@ def scene_pages(subject: Subject, wishes: Wishes, where: Rectangle = (0.0, 0.0, 
 def both_pages(subject: Subject, wishes: Wishes) -> Pages:
     """Whitted's two panels: the scene, and beside it the tree with the same labels."""
     scenes = scene_pages(subject, wishes, (0.0, 0.0, DIVIDE - 4.0, HEIGHT))
-    trees = tree_pages(subject, wishes, (DIVIDE + 4.0, WIDTH))
+    trees = tree_pages(subject, wishes, TREES["both"])
     return [[*scene, *tree] for scene, tree in zip(scenes, trees, strict=True)]
 
 
 def hit_pages(subject: Subject, wishes: Wishes) -> Pages:
     """Empty before the hit is there."""
-    check_node(subject.stages[-1].tree, wishes.node)
+    node, size, theme = wishes.node, wishes.text_size, wishes.theme
     return [
-        hit_marks(stage, wishes.node, wishes.text_size, wishes.theme) if wishes.node in stage.rows else []
-        for stage in subject.stages
+        hit_marks(stage, node, size, theme, subject.world) if node in stage.rows else [] for stage in subject.stages
     ]
 
 

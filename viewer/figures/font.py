@@ -1,6 +1,11 @@
 """How wide text is. Figures are laid out for DejaVu Sans, which they carry; where a program puts another font in its
-place, that is narrower in all but a few cases, so nothing comes to overlap."""
+place, that is narrower in all but a few cases, so nothing comes to overlap.
 
+The file holds of DejaVu Sans 2.37 the letters of Latin, Greek, Cyrillic, Armenian and Georgian, and the signs of
+formulas; other letters are for the program that shows a figure to find.
+"""
+
+import unicodedata
 from functools import cache
 from pathlib import Path
 
@@ -24,9 +29,31 @@ def _font():
 
 
 @cache
+def letters() -> frozenset[int]:
+    """What the font has, as code points."""
+    from fontTools.ttLib import TTFont
+
+    with TTFont(FONT, lazy=True) as font:
+        return frozenset(font.getBestCmap() or ())
+
+
+def without(content: str) -> str:
+    """The letters of a text that the font lacks, each once."""
+    return "".join(dict.fromkeys(letter for letter in content if ord(letter) not in letters()))
+
+
+def boxed(content: str) -> str:
+    """The text with a box for each letter that the font lacks."""
+    return "".join(letter if ord(letter) in letters() else "□" for letter in content)
+
+
+@cache
 def text_width(content: str, size: float) -> float:
-    """In points."""
-    return _font().getlength(content) * size / _UNITS
+    """In points. Letters of East Asia, which the font lacks, are as wide as they are high."""
+    wide = sum(unicodedata.east_asian_width(letter) in "WF" for letter in content)
+    if wide:
+        content = "".join(letter for letter in content if unicodedata.east_asian_width(letter) not in "WF")
+    return wide * size + _font().getlength(content) * size / _UNITS
 
 
 def text_box(at: tuple[float, float], content: str, size: float, anchor: str) -> tuple[float, float, float, float]:

@@ -1,25 +1,34 @@
 """One hit in its plane of incidence: the normal, the ray that comes, those that go on, all angles true, and the
 lecture's formulas with this hit's numbers beside them.
 
-The normal stands upright, on the side that the ray comes from, and the ray comes from the left: as on the slide.
+The normal stands upright, on the side that the ray comes from, and the ray comes from the left: as on the slide. Lights
+seldom lie in that plane: each is drawn at its true angle from the normal, turned into the plane about it.
 """
 
 import math
 
+import numpy as np
+
 from tracer.nodes import SHADOW
 from tracer.tree import RayTree
+from tracer.world import World
 from viewer.directions import directions, turned
 from viewer.figures import signs
 from viewer.figures.font import text_width
-from viewer.figures.labels import factor_label, hit_label, ray_label, ray_title
+from viewer.figures.labels import end_label, factor_label, hit_label, ray_label, ray_title
 from viewer.figures.marks import HEIGHT, WIDTH, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.names import Names
 from viewer.figures.stage import Stage
+from viewer.figures.treesizes import LONG, name_in_box
+from viewer.lighting import local_light
 from viewer.sections import Section
-from viewer.theme import STYLES, Color, Theme, faded
+from viewer.theme import BLOCKED_DASH, STYLES, Color, Theme, faded
 from viewer.wording import angle, shown
 
 CENTER = (262.0, 292.0)  # the hit
 REACH = 195.0  # how far rays are drawn
+LIGHT_REACH = 118.0  # how far rays to lights are
+IN_PLANE = math.radians(1.0)  # a light that leaves the plane by less lies in it
 LEFT, RIGHT = 12.0, 512.0  # of the media
 TOP, BOTTOM = 12.0, HEIGHT - 12.0
 WORDS = 536.0  # where the formulas begin
@@ -27,38 +36,48 @@ ARC = 62.0  # the radius of an angle's arc
 LINE = 1.28  # from line to line of the formulas, in sizes of the text
 LARGEST = 20.0  # points
 BETWEEN = 0.5  # between two sections of them, in lines, where there is room
+LOCAL = "local = A ka C + Σ S L (kd C N·L + ks R·Vᵖ)"  # the shorter: here it has half a slide
 VECTORS = ("v", "n", "r", "t")
 TINTS = (0.06, 0.16)  # of the medium of lower and of higher index
 
 FormulaLine = tuple[str, str, Color]  # name, value, the name's colour
 
 
-def hit_marks(stage: Stage, node: int, size: float, theme: Theme) -> list[Mark]:
-    """`node` is the row of a ray that meets a surface; ValueError for another."""
-    return _Drawing(stage, node, size, theme).marks
+def hit_marks(stage: Stage, node: int, size: float, theme: Theme, world: World | None = None) -> list[Mark]:
+    """`node` is the row of a ray that meets a surface; ValueError for another. `world` tells its light's numbers."""
+    return _Drawing(stage, node, size, theme, world).marks
 
 
-def check_node(tree: RayTree, node: int) -> None:
-    """Whether there is such a hit: ValueError in words for people."""
+def node_of(tree: RayTree, asked: str | None) -> int:
+    """The row of a hit asked for as 4 or T4, the first if none is; ValueError in words for people."""
     hits = [i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW and tree.object_name(i)]
-    if node not in hits:
-        known = ", ".join(map(str, hits[:12])) + (" ..." if len(hits) > 12 else "")
-        raise ValueError(f"--node {node} must be a ray that meets a surface: {known or 'there is none'}")
+    if not hits:
+        raise ValueError("--figure hit: the ray meets no surface")
+    if asked is None:
+        return 0
+    for i in hits:
+        if asked.upper() in (str(i), ray_label(tree, i)):
+            return i
+    known = ", ".join(ray_label(tree, i) for i in hits[:12]) + (" ..." if len(hits) > 12 else "")
+    raise ValueError(f"--node {asked} must be a ray that meets a surface: {known}")
 
 
 class _Drawing:
-    def __init__(self, stage: Stage, node: int, size: float, theme: Theme) -> None:
+    def __init__(self, stage: Stage, node: int, size: float, theme: Theme, world: World | None) -> None:
         if size > LARGEST:
             raise ValueError(f"a hit has room for text of {LARGEST:g} points at most, got {size:g}")
         self.tree: RayTree = stage.tree
-        check_node(self.tree, node)
-        self.stage, self.node, self.size, self.theme = stage, node, size, theme
+        self.stage, self.node, self.size, self.theme, self.world = stage, node, size, theme, world
         self.row = self.tree.nodes[node]
+        below = [child for child in self.tree.children[node] if child in stage.rows]
+        self.lights = [child for child in below if self.tree.nodes["kind"][child] == SHADOW]
+        self.going_on = [child for child in below if child not in self.lights]
         self.theta1, self.theta2 = float(self.row["theta1"]), float(self.row["theta2"])
         self.marks: list[Mark] = []
         self._media()
         self._normal()
         self._rays()
+        self._lights()
         self._formulas()
 
     def _at(self, turn: float, length: float = REACH) -> Point:
@@ -80,16 +99,17 @@ class _Drawing:
             self.marks.append(Shape(name, corners, faded(self.theme.text, tint), None, title=title))
         self.marks.append(Line("surface", (x0, y), (x1, y), Stroke(self.theme.text, 2.4)))
         text, size = self.theme.text, self.size
-        name = hit_label(self.tree, self.node)
+        name = name_in_box(self.tree, self.node, LONG)
         under = f"n₂ = {shown(n2)}" if clear else "opaque"
         left, third = x0 + 0.5 * size, TOP + (0.9 + 2 * LINE) * size
         self.marks.append(Text("medium-1", (left, third), f"n₁ = {shown(n1)}", size, text, "start"))
-        self.marks.append(Text("surface", (left, y + 0.8 * size), f"surface of {name}", size, text, "start"))
-        self.marks.append(Text("medium-2", (left, y1 - 0.9 * size), under, size, text, "start"))
+        low = y1 - 0.9 * size
+        self.marks.append(Text("surface", (left, low - LINE * size), f"surface of {name}", size, text, "start"))
+        self.marks.append(Text("medium-2", (left, low), under, size, text, "start"))
 
     def _normal(self) -> None:
         color = self.theme.normal
-        top, bottom = self._at(0.0, REACH + 22.0), self._at(math.pi, REACH)
+        top, bottom = self._at(0.0, REACH + 22.0), self._at(math.pi, REACH - 25.0)
         self.marks.append(Line("normal", CENTER, top, Stroke(color, 2.0), STYLES["refraction"].arrow, 0.97))
         self.marks.append(Line("normal", CENTER, bottom, Stroke(color, 1.4, (5.0, 5.0))))
         self.marks.append(Text("normal", (top[0], top[1] - 0.7 * self.size), "n", self.size, color))
@@ -105,10 +125,11 @@ class _Drawing:
         left, right = LEFT + 0.5 * size, RIGHT - 0.5 * size
         self._words(f"ray-{node}", (left, first), f"v: {ray_label(tree, node)}", kind, "start")
         self._words(f"ray-{node}", (left, second), f"θ₁ = {theta1}", kind, "start")
-        for child in tree.children[node]:
+        end = end_label(tree, node)
+        if end and not self.going_on:
+            self.marks.append(Text(f"ray-{node}", (right, first), end, size, self.theme.muted, "end"))
+        for child in self.going_on:
             below = tree.kind(child)
-            if below == "shadow" or child not in self.stage.rows:
-                continue
             name = f"ray-{child}"
             label = f"{ray_label(tree, child)} {factor_label(tree, child)}"
             if below == "refraction":
@@ -122,7 +143,7 @@ class _Drawing:
                 self._arc(name, 0.0, self.theta1, below)
                 self._words(name, (right, first), f"r: {label}", below, "end")
                 self._words(name, (right, second), f"θ₁ = {theta1}", below, "end")
-        if self.row["radicand"] <= 0.0:
+        if self.row["radicand"] <= 0.0 and self.going_on:
             self._no_ray()
 
     def _ray(self, i: int, kind: str, start: Point, end: Point) -> None:
@@ -139,6 +160,44 @@ class _Drawing:
         self.marks += signs.cross("bar", end, self.size, color)
         self.marks.append(Text("bar", (end[0] + 0.7 * self.size, end[1]), "no T", self.size, color, "start"))
 
+    def _lights(self) -> None:
+        """Dashed, at their true angles from the normal, on the side of the normal on which they are."""
+        names = Names((LEFT, TOP, RIGHT, BOTTOM), self.size, self.theme)
+        names.taken += [mark.box() for mark in self.marks if isinstance(mark, Text)]
+        names.ways += [piece for mark in self.marks if isinstance(mark, Line) for piece in mark.pieces()]
+        turns = {child: self._turn_to_light(child) for child in self.lights}
+        ends = {child: self._at(turn, LIGHT_REACH) for child, (turn, _) in turns.items()}
+        names.ways += [(CENTER, end) for end in ends.values()]
+        for end in ends.values():
+            names.take(end, 0.9 * self.size)
+        style, color = STYLES["shadow"], self.theme.ray("shadow")
+        for child, end in ends.items():
+            name, fate = f"ray-{child}", self.tree.end(child) or ""
+            title = ray_title(self.tree, child)
+            out = turns[child][1]
+            title += f"; it leaves this plane by {angle(out)} and is turned into it" if out > IN_PLANE else ""
+            stroke = Stroke(color, style.width, BLOCKED_DASH if fate == "blocked" else style.dash)
+            short = 1.0 - 0.5 * self.size / LIGHT_REACH  # up to the sign
+            x, y = CENTER
+            stop = (x + short * (end[0] - x), y + short * (end[1] - y))
+            self.marks.append(Line(name, CENTER, stop, stroke, title=title))
+            away = self.tree.faces_away(child)
+            self.marks += signs.light_end("away" if away else fate, name, end, self.size, self.theme)
+            words = f"{ray_label(self.tree, child)} {self.tree.light_name(child)}"
+            self.marks += names.label(name, words, [end], color, most=0)
+
+    def _turn_to_light(self, child: int) -> tuple[float, float]:
+        """(angle from the normal, towards where the ray goes on positive; by how much it leaves the plane)."""
+        v, n = np.array(self.row["direction"]), np.array(self.row["normal"])
+        to_light = np.array(self.tree.nodes["direction"][child])
+        along = v - float(v @ n) * n  # to the right in the figure
+        up = float(to_light @ n)
+        beside = float(np.linalg.norm(to_light - up * n))
+        length = float(np.linalg.norm(along))
+        right = float(to_light @ along) / length if length > 1e-9 else beside
+        out = math.asin(min(1.0, math.sqrt(max(0.0, beside**2 - right**2))))
+        return math.copysign(math.atan2(beside, up), right), out
+
     def _arc(self, name: str, begin: float, end: float, kind: str) -> None:
         """From one direction to another, in steps of at most two degrees."""
         steps = max(1, math.ceil(abs(end - begin) / math.radians(2.0)))
@@ -152,7 +211,9 @@ class _Drawing:
 
     def _formulas(self) -> None:
         """As many sections as there is room for, each whole: first without the vectors, then without the last ones."""
-        sections = directions(self.tree, self.node)
+        sections = directions(self.tree, self.node) if self.going_on else []
+        if self.world:
+            sections.append(self._local(self.world))
         size = self.size
         room = (BOTTOM - TOP) / (LINE * size)
         blocks = [self._lines(section, True) for section in sections]
@@ -170,6 +231,13 @@ class _Drawing:
                     self.marks.append(Text("formulas", (WIDTH - 12.0, y), value, size, self.theme.text, "end"))
                 y += LINE * size
             y += gap * LINE * size
+
+    def _local(self, world: World) -> Section:
+        section = local_light(self.tree, world, self.node)
+        section.formula = LOCAL
+        if any(self._turn_to_light(child)[1] > IN_PLANE for child in self.lights):
+            section.add("each L turned into this plane about n")
+        return section
 
     def _lines(self, section: Section, vectors: bool) -> list[FormulaLine]:
         """What of a section has room on the right: name and value in a line, or in two."""

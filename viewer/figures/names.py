@@ -1,6 +1,7 @@
 """Where names go in a figure of the scene: beside what they name, not over one another, over as few rays as can be."""
 
 import math
+import sys
 from collections.abc import Sequence
 
 from viewer.figures.font import text_box
@@ -24,8 +25,16 @@ class Names:
         x, y = at
         self.taken.append((x - 0.5 * wide, y - 0.5 * wide, x + 0.5 * wide, y + 0.5 * wide))
 
-    def label(self, name: str, content: str, spots: Sequence[Point], color: Color, upon: bool = False) -> list[Mark]:
-        """Beside one of these spots, or upon it; nothing where there is no room at any."""
+    def label(
+        self,
+        name: str,
+        content: str,
+        spots: Sequence[Point],
+        color: Color,
+        upon: bool = False,
+        most: int = sys.maxsize,
+    ) -> list[Mark]:
+        """Beside one of these spots, or upon it; nothing where there is no room at any but over `most` rays."""
         best = None
         for order, spot in enumerate(spots):
             for cost, at, anchor in self._around(spot, upon):
@@ -35,7 +44,7 @@ class Names:
                 crossed = sum(shares_within(way, box) is not None for way in self.ways)
                 if best is None or (crossed, *cost, order) < best[0]:
                     best = ((crossed, *cost, order), at, anchor, box)
-        if best is None:
+        if best is None or best[0][0] > most:
             return []
         _, at, anchor, box = best
         self.taken.append(box)

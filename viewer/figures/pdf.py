@@ -5,7 +5,7 @@ import math
 from collections.abc import Sequence
 
 from viewer.figures.arrows import heads
-from viewer.figures.font import BASELINE, FAMILY, FONT
+from viewer.figures.font import BASELINE, FAMILY, FONT, boxed
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
 from viewer.theme import Color, in_bytes
 
@@ -110,7 +110,7 @@ class _Page:
         with self.pdf.local_context(fill_opacity=text.color[3]):
             self.pdf.set_font(FAMILY, size=text.size)
             self.pdf.set_text_color(*in_bytes(text.color))
-            self.pdf.text(text.box()[0], text.at[1] + BASELINE * text.size, text.content)
+            self.pdf.text(text.box()[0], text.at[1] + BASELINE * text.size, boxed(text.content))
 
     def _point(self, p: Point) -> str:
         return f"{_n(p[0])} {_n(self.height - p[1])}"

@@ -16,6 +16,8 @@ SIGNS = {
     "ₛ": r"\textsubscript{s}", "ₚ": r"\textsubscript{p}", "²": r"\textsuperscript{2}", "ᵖ": r"\textsuperscript{p}",
     "°": r"\textdegree{}", "…": r"\ldots{}", "–": "--",
 }  # fmt: skip
+LATIN = 0x180  # below this its usual fonts have the letters
+BOX = r"\fbox{\phantom{x}}"  # in the place of others
 
 
 def write_tikz(figure: Figure) -> bytes:
@@ -24,14 +26,12 @@ def write_tikz(figure: Figure) -> bytes:
     ground = f"\\fill[{_ink('fill', figure.paper)}] " if figure.ground else "\\path[use as bounding box] "
     body.append(f"{ground}(0,0) rectangle ({w},{h});")
     for name, title, group in figure.groups():
-        body.append(f"% {name}{': ' if title else ''}{title}")
+        body.append(f"% {name}{': ' if title else ''}{' '.join(title.split())}")
         for mark in group:
             body += _draw(mark)
     body.append("\\end{tikzpicture}")
     lines = [
-        f"% {figure.title}",
-        f"% {figure.description}",
-        f"% {figure.command}",
+        *(f"% {' '.join(said.split())}" for said in (figure.title, figure.description, figure.command)),
         "% Alone: pdflatex of this file. In a Beamer slide: \\usepackage{tikz,standalone}, then",
         "% \\resizebox{\\textwidth}{!}{\\input{this file}}",
         "\\documentclass[tikz]{standalone}",
@@ -85,7 +85,12 @@ def _draw(mark: Mark) -> list[str]:
 
 
 def escaped(text: str) -> str:
-    return "".join(SIGNS.get(letter, letter) for letter in text)
+    return "".join(SIGNS.get(letter, letter if ord(letter) < LATIN else BOX) for letter in text)
+
+
+def without(text: str) -> str:
+    """The letters of a text for which there is a box, each once."""
+    return "".join(dict.fromkeys(letter for letter in text if letter not in SIGNS and ord(letter) >= LATIN))
 
 
 def _options(fill: Color | None, stroke: Stroke | None) -> str:

@@ -7,7 +7,7 @@ whole tree, the lightest branches are folded into one box that says what is in i
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tracer.nodes import SHADOW
 from tracer.tree import RayTree
@@ -16,6 +16,7 @@ from viewer.figures.marks import WIDTH, Point
 from viewer.figures.placing import Places, Task, downwards, levels_down, levels_right, rightwards
 from viewer.figures.treesizes import EDGE_LABEL, FOLD, LONG, SHORT, STUB, Sizes, Style, name_in_box
 
+SMALLEST = 8.0  # points: of the text that may be asked for
 MORE = 40  # rays, heaviest first, for each of which room is looked for when the tree as a whole has none
 
 
@@ -77,6 +78,15 @@ def plan_tree(trees: Sequence[RayTree], wanted: Wanted) -> TreePlan:
         return long
     short = _plan(trees, wanted, Style(wanted.size, wanted.swatches, SHORT))
     return short if len(short.rows) > len(long.rows) else long
+
+
+def fitting_size(trees: Sequence[RayTree], wanted: Wanted) -> float | None:
+    """The largest text, in whole points, with which all rays have room; None if not even the smallest does that."""
+    rays = {i for i in range(len(trees[-1])) if trees[-1].nodes["kind"][i] != SHADOW}
+    for size in range(int(wanted.size), int(SMALLEST) - 1, -1):
+        if _try(trees, rays, replace(wanted, size=float(size)), Style(float(size), wanted.swatches, SHORT)):
+            return float(size)
+    return None
 
 
 def _plan(trees: Sequence[RayTree], wanted: Wanted, style: Style) -> TreePlan:

@@ -73,3 +73,35 @@ def test_formulas_carry_the_trees_own_numbers(worlds: dict[str, tracer.World]) -
     assert f"{1.0 - tree.nodes['radicand'][0]:.5g} ≥ 1: total internal reflection" in words
     assert "48.75°" in words  # the critical angle of water to air
     assert "no T" in words
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(0.0, 89.0), st.floats(0.0, 180.0), st.floats(-180.0, 180.0))
+def test_lights_stand_at_their_true_angle(degrees: float, from_normal: float, about: float) -> None:
+    """Whether in the plane or not; on the right where they are on the side to which the ray goes on."""
+    a, b, c = (math.radians(x) for x in (degrees, from_normal, about))
+    towards = (math.sin(b) * math.cos(c), math.sin(b) * math.sin(c), math.cos(b))
+    floor = box((-99, -99, -2), (99, 99, 0), Material("floor", diffuse=1.0))
+    world = world_of(floor, lights=[Light("lamp", position=tuple(50.0 * x for x in towards))])  # type: ignore[arg-type]
+    ray = ((-math.sin(a), 0.0, math.cos(a)), (math.sin(a), 0.0, -math.cos(a)))
+    tree = tracer.trace(world, ray=ray, depth=1)
+    (figure,) = pages("hit", Subject(by_depth([tree]), world), Wishes())
+    check(figure)
+    (light,) = (i for i in range(len(tree)) if tree.nodes["kind"][i] == SHADOW)
+    stub = next(m for m in figure.marks if isinstance(m, Line) and m.name == f"ray-{light}")
+    turn = math.atan2(stub.end[0] - stub.start[0], stub.start[1] - stub.end[1])
+    assert abs(turn) == pytest.approx(b, abs=1e-9)
+    if degrees > 1.0 and abs(towards[0]) > 1e-6 and abs(math.degrees(turn)) < 179.9:
+        assert (turn > 0.0) == (towards[0] > 0.0)
+
+
+def test_a_hit_without_rays_to_go_on_has_no_formulas_of_them(worlds: dict[str, tracer.World]) -> None:
+    """At depth 0 there are the light that falls there and why nothing follows; at depth 1 the rays."""
+    world, pixel = worlds["glass-ball"], lesson.read("glass-ball").pixel
+    trees = [tracer.trace(world, pixel, depth=d) for d in (0, 1)]
+    first, second = pages("hit", Subject(by_depth(trees), world), Wishes())
+    words = [{m.content for m in page.marks if isinstance(m, Text)} for page in (first, second)]
+    assert "cut: depth" in words[0]
+    assert any(line.startswith("local = ") for line in words[0])
+    assert "r = v − 2 (n·v) n" not in words[0]
+    assert {"r = v − 2 (n·v) n", "n₁ sin θ₁ = n₂ sin θ₂"} <= words[1]
