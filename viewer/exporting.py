@@ -146,14 +146,15 @@ def notes_on(figures: Sequence[Figure], name: str, format_name: str, subject: Su
 def view_of(numbers: tuple[float, ...] | None, world: World, lesson: Lesson | None) -> Orbit:
     """From where the scene is seen: azimuth, elevation, distance and target as asked.
 
-    Else as the viewer begins, and as much farther away as it takes to see the eye that the rays come from.
+    Else as the viewer begins, and as much farther away as it takes to see the eye that the rays come from, if not much.
     """
     frame = Frame.of(world)
     if numbers is None:
         orbit = home(world, frame, lesson.view if lesson else None)
         nearest = orbit.distance
         orbit.take_in(frame.inside(world.view().eye)[None])
-        orbit.distance = min(orbit.distance, FARTHER * nearest)
+        if orbit.distance > FARTHER * nearest:  # too far off: what the figure is about would be small
+            orbit.distance = nearest
         return orbit
     azimuth, elevation, distance, *target = numbers
     steep = math.degrees(STEEPEST)

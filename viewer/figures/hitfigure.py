@@ -17,7 +17,7 @@ from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.labels import end_label, factor_label, hit_label, ray_label, ray_title
 from viewer.figures.marks import HEIGHT, WIDTH, Line, Mark, Point, Shape, Stroke, Text
-from viewer.figures.names import Names
+from viewer.figures.names import Names, Spot
 from viewer.figures.stage import Stage
 from viewer.figures.treesizes import LONG, name_in_box
 from viewer.lighting import local_light
@@ -164,10 +164,10 @@ class _Drawing:
         """Dashed, at their true angles from the normal, on the side of the normal on which they are."""
         names = Names((LEFT, TOP, RIGHT, BOTTOM), self.size, self.theme)
         names.taken += [mark.box() for mark in self.marks if isinstance(mark, Text)]
-        names.ways += [piece for mark in self.marks if isinstance(mark, Line) for piece in mark.pieces()]
+        names.ways += [(mark.name, piece) for mark in self.marks if isinstance(mark, Line) for piece in mark.pieces()]
         turns = {child: self._turn_to_light(child) for child in self.lights}
         ends = {child: self._at(turn, LIGHT_REACH) for child, (turn, _) in turns.items()}
-        names.ways += [(CENTER, end) for end in ends.values()]
+        names.ways += [(f"ray-{child}", (CENTER, end)) for child, end in ends.items()]
         for end in ends.values():
             names.take(end, 0.9 * self.size)
         style, color = STYLES["shadow"], self.theme.ray("shadow")
@@ -184,7 +184,7 @@ class _Drawing:
             away = self.tree.faces_away(child)
             self.marks += signs.light_end("away" if away else fate, name, end, self.size, self.theme)
             words = f"{ray_label(self.tree, child)} {self.tree.light_name(child)}"
-            self.marks += names.label(name, words, [end], color, most=0)
+            self.marks += names.label(name, words, [Spot(end)], color, most=0)
 
     def _turn_to_light(self, child: int) -> tuple[float, float]:
         """(angle from the normal, towards where the ray goes on positive; by how much it leaves the plane)."""

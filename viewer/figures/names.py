@@ -3,14 +3,24 @@
 import math
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from viewer.figures.font import text_box
-from viewer.figures.marks import Mark, Piece, Point, Rectangle, Shape, Text, shares_within
+from viewer.figures.marks import Disc, Line, Mark, Piece, Point, Rectangle, Shape, Stroke, Text, shares_within
 from viewer.theme import Color, Theme, faded
 
-BACKING = 0.7  # opacity of the paper behind a label
+BACKING, SOLID = 0.7, 0.9  # opacity of the paper behind a label, and where a line runs behind it
 RINGS = (0.75, 1.3, 2.0)  # how far from its spot a name may stand, in sizes of the text
 TURNS = 12  # directions in which
+
+
+@dataclass(frozen=True)
+class Spot:
+    """Where a name may stand: beside a point, `upon` it, its middle there; `spare` is a line that it may cover."""
+
+    at: Point
+    upon: bool = False
+    spare: str = ""
 
 
 class Names:
@@ -19,51 +29,66 @@ class Names:
     def __init__(self, where: Rectangle, size: float, theme: Theme) -> None:
         self.where, self.size, self.theme = where, size, theme
         self.taken: list[Rectangle] = []  # by names and signs
-        self.ways: list[Piece] = []  # of rays
+        self.ways: list[tuple[str, Piece]] = []  # of rays, by the names of their marks
 
     def take(self, at: Point, wide: float) -> None:
         x, y = at
         self.taken.append((x - 0.5 * wide, y - 0.5 * wide, x + 0.5 * wide, y + 0.5 * wide))
 
     def label(
-        self,
-        name: str,
-        content: str,
-        spots: Sequence[Point],
-        color: Color,
-        upon: bool = False,
-        most: int = sys.maxsize,
+        self, name: str, content: str, spots: Sequence[Spot], color: Color, most: int = sys.maxsize, lead: bool = False
     ) -> list[Mark]:
-        """Beside one of these spots, or upon it; nothing where there is no room at any but over `most` rays."""
+        """At one of these spots, the earlier the better; nothing where there is no room at any but over `most` rays.
+
+        `lead`: a thin line from a name that stands beside its spot to it.
+        """
         best = None
         for order, spot in enumerate(spots):
-            for cost, at, anchor in self._around(spot, upon):
+            for cost, at, anchor in self._around(spot):
                 box = text_box(at, content, self.size, anchor)
-                if not _within(box, self.where) or any(_overlap(box, other) for other in self.taken):
+                if not self._free(box):
                     continue
-                crossed = sum(shares_within(way, box) is not None for way in self.ways)
+                crossed = sum(way != spot.spare and shares_within(p, box) is not None for way, p in self.ways)
                 if best is None or (crossed, *cost, order) < best[0]:
-                    best = ((crossed, *cost, order), at, anchor, box)
+                    best = ((crossed, *cost, order), at, anchor, box, spot)
         if best is None or best[0][0] > most:
             return []
-        _, at, anchor, box = best
+        _, at, anchor, box, spot = best
         self.taken.append(box)
         left, top, right, bottom = box
         corners = ((left - 2.0, top), (right + 2.0, top), (right + 2.0, bottom), (left - 2.0, bottom))
-        paper = Shape(f"{name}-label", corners, faded(self.theme.ground, BACKING), None)
-        return [paper, Text(f"{name}-label", at, content, self.size, color, anchor)]
+        backing = SOLID if spot.spare else BACKING
+        paper = Shape(f"{name}-label", corners, faded(self.theme.ground, backing), None)
+        text = Text(f"{name}-label", at, content, self.size, color, anchor)
+        return [*(self._leader(name, box, spot.at) if lead and not spot.upon else []), paper, text]
 
-    def _around(self, spot: Point, upon: bool) -> list[tuple[tuple[float, int], Point, str]]:
+    def fits(self, content: str, spots: Sequence[Spot]) -> bool:
+        """Whether there is room at any of these spots."""
+        boxes = (text_box(at, content, self.size, anchor) for spot in spots for _, at, anchor in self._around(spot))
+        return any(self._free(box) for box in boxes)
+
+    def _free(self, box: Rectangle) -> bool:
+        return _within(box, self.where) and not any(_overlap(box, other) for other in self.taken)
+
+    def _leader(self, name: str, box: Rectangle, to: Point) -> list[Mark]:
+        """From the nearest point of a name's box."""
+        left, top, right, bottom = box
+        start = (min(max(to[0], left), right), min(max(to[1], top), bottom))
+        ink = self.theme.text
+        line = Line(f"{name}-label", start, to, Stroke(ink, 1.0))
+        return [line, Disc(f"{name}-label", to, 0.11 * self.size, ink, None)]
+
+    def _around(self, spot: Spot) -> list[tuple[tuple[float, int], Point, str]]:
         """(how good, where, which end of the text stands there), the nearest first."""
-        if upon:
-            return [((0.0, 0), spot, "middle")]
+        if spot.upon:
+            return [((0.0, 0), spot.at, "middle")]
         found = []
         for ring in RINGS:
             for turn in range(TURNS):
                 angle = 2.0 * math.pi * turn / TURNS
                 right, down = math.cos(angle), math.sin(angle)
                 anchor = "middle" if abs(right) < 0.3 else "start" if right > 0.0 else "end"
-                at = (spot[0] + ring * self.size * right, spot[1] + ring * self.size * down)
+                at = (spot.at[0] + ring * self.size * right, spot.at[1] + ring * self.size * down)
                 found.append(((ring, turn), at, anchor))
         return found
 

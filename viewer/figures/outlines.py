@@ -15,6 +15,7 @@ from viewer.figures.marks import Point, Rectangle
 FINE = 2  # rays a point across and down: an outline is sure to a quarter of a point
 STRAIGHT = 0.2  # points: how far a simpler outline may be off
 SMALL = 6.0  # square points: smaller spots are noise
+SQUARE, NEARBY = 3.0, 8  # points: what is finer is no square to be drawn; how far about it is looked for others
 COARSE, RING, MOST_SPOTS = 4, 12, 80  # points between places that may be named; places in a ring of them, in all
 
 
@@ -24,6 +25,15 @@ class Area:
 
     outline: tuple[Point, ...]
     holes: tuple[tuple[Point, ...], ...]
+
+    def covers(self, point: Point) -> bool:
+        """Whether a ray from there to the right meets its rings an odd number of times."""
+        x, y = point
+        crossings = 0
+        for ring in (self.outline, *self.holes):
+            for (x0, y0), (x1, y1) in zip(ring, (*ring[1:], ring[0]), strict=True):
+                crossings += (y0 > y) != (y1 > y) and x < x0 + (y - y0) / (y1 - y0) * (x1 - x0)
+        return crossings % 2 == 1
 
 
 def areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
@@ -47,6 +57,28 @@ def areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
             outline, *holes = (tuple(map(tuple, ring.tolist())) for ring in rings)
             found.append(Area(outline, tuple(holes)))
     return tuple(found)
+
+
+def too_fine(squares: np.ndarray, within: np.ndarray) -> np.ndarray:
+    """Where the squares of checkers are lower or narrower than SQUARE: by how often they begin and end nearby."""
+    dense = np.zeros(squares.shape, bool)
+    for axis in (0, 1):
+        turns = np.zeros(squares.shape, np.float32)
+        here, there = ((slice(None), slice(1, None)), (slice(None), slice(None, -1)))
+        if axis == 0:
+            here, there = here[::-1], there[::-1]
+        turns[here] = (squares[here] != squares[there]) & within[here] & within[there]
+        dense |= _about(turns, NEARBY * FINE) > _about(within, NEARBY * FINE) / (SQUARE * FINE)
+    return dense
+
+
+def _about(values: np.ndarray, half: int) -> np.ndarray:
+    """The sums over windows so far to either side and up and down, cut off at the rim."""
+    sums = np.pad(values.cumsum(axis=0, dtype=float).cumsum(axis=1), ((1, 0), (1, 0)))
+    rows, columns = (np.arange(n) for n in values.shape)
+    top, bottom = np.maximum(rows - half, 0), np.minimum(rows + half + 1, values.shape[0])
+    left, right = np.maximum(columns - half, 0), np.minimum(columns + half + 1, values.shape[1])
+    return sums[np.ix_(bottom, right)] - sums[np.ix_(top, right)] - sums[np.ix_(bottom, left)] + sums[np.ix_(top, left)]
 
 
 def spots_of(mask: np.ndarray, where: Rectangle) -> tuple[Point, ...]:

@@ -5,6 +5,7 @@ their labels are those of the tree figure.
 """
 
 import math
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -17,7 +18,7 @@ from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.labels import ray_label, ray_title
 from viewer.figures.marks import Line, Mark, Piece, Point, Shape, Stroke, along, shares_within
-from viewer.figures.names import Names
+from viewer.figures.names import Names, Spot
 from viewer.figures.outlines import Area
 from viewer.figures.scenery import Part
 from viewer.figures.sceneview import SceneView
@@ -32,8 +33,10 @@ GLASS = 0.13  # opacity of glass
 OUTLINE, CREASE = 1.3, 0.8  # widths
 FAINT = 0.3  # opacity of what is hidden of a ray
 SLIM = 0.7  # of a shadow ray's width: there are many, and they are not what the figure is about
-SPOTS = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)  # of a ray's length, beside which it may be named
-LABELS = 14  # rays that are named, the heaviest
+SPOTS = (0.4, 0.5, 0.3, 0.6, 0.7, 0.2, 0.8, 0.1, 0.9)  # of what is seen of a ray, where it may be named
+ROOMY = 2.2  # times its name's size, at least, a ray that has its name upon it; shorter ones have it beside
+LABELS = 24  # rays that are named, the heaviest
+FIRST = 12  # of them, that are named even where names must cross other rays; rays to lights never do
 
 
 Named = tuple[frozenset[int], list[Mark]]  # the rays with which a name comes (none: it is always there), and its marks
@@ -81,8 +84,11 @@ class _Drawing:
                 self._area(name, area, fill, Stroke(theme.muted, width), title if k == 0 else "")
         checker = item.material.checker
         if opacity == 1.0 and checker:
-            for area in part.checks:
-                self._area(name, area, look(replace(item.material, color=checker.color), theme), None)
+            other = look(replace(item.material, color=checker.color), theme)
+            between = _between(fill, other)
+            for colored, areas in ((between, part.mingled), (other, part.checks)):
+                for area in areas:
+                    self._area(name, area, colored, None)
         if opacity == 1.0:
             for shade in part.shades:
                 for area in shade:
@@ -106,7 +112,7 @@ class _Drawing:
             if piece is None:
                 continue
             a, b = piece
-            self.names.ways.append(piece)
+            self.names.ways.append((name, piece))
             if not stretch.seen:
                 self.marks.append(Line(name, a, b, faint, title=title))
                 continue
@@ -116,6 +122,7 @@ class _Drawing:
             head = self._on_canvas(line, stretch.begin, arrow) if stretch.begin < arrow < stretch.end else None
             if head and style.arrow is not Arrow.NONE and math.dist(*head) > 1.0:
                 self.marks.append(Line(name, *_last(head, 2.0), Stroke(color, stroke.width), style.arrow, 1.0))
+                self.names.take(head[1], 0.9 * self.size)
         if line.blocked:
             at = self._on_canvas(line, 0.999, 1.0)
             if at:
@@ -179,27 +186,60 @@ class _Drawing:
         """Names of lights, of rays, the heaviest first, then of what these meet."""
         found: list[Named] = []
         for j, at in self.lights.items():
-            name = self.scene.lights[j].name or f"light {j}"
-            found.append((frozenset(), self.names.label(f"light-{j}", name, [at], self.theme.text)))
+            name = self._light_name(j)
+            found.append((frozenset(), self.names.label(f"light-{j}", name, [Spot(at)], self.theme.text)))
         nodes = self.tree.nodes
         rays = [line for line in self.lines if nodes["kind"][line.row] != SHADOW]
         shadows = [line for line in self.lines if nodes["kind"][line.row] == SHADOW]
         rays.sort(key=lambda line: (-nodes["weight"][line.row].max(), line.row))
-        for line in [*rays, *shadows][:LABELS]:
+        for k, line in enumerate([*rays, *shadows][:LABELS]):
             piece = self._on_canvas(line, 0.0, 1.0)
             if piece:
-                spots = [along(piece, share) for share in SPOTS]
                 label, color = ray_label(self.tree, line.row), self.theme.ray(line.kind)
-                found.append((frozenset((line.row,)), self.names.label(f"ray-{line.row}", label, spots, color)))
+                spots = self._along(f"ray-{line.row}", label, piece)
+                most = sys.maxsize if k < FIRST and line.kind != "shadow" else 0
+                words = self.names.label(f"ray-{line.row}", label, spots, color, most)
+                found.append((frozenset((line.row,)), words))
+        found += self._ways_out(shadows)
         for part in (*self.view.seen.opaque, *self.view.seen.glass):
             rows = frozenset(line.row for line in rays if nodes["object"][line.row] == part.number)
             if rows:
                 name = name_of(self.scene, part.number)
                 upon = _wide(part) > 1.1 * text_width(name, self.size)  # else the name would hide the thing
-                spots = part.spots if upon else part.spots[:1]
-                label = self.names.label(f"object-{part.number}", name, spots, self.theme.text, upon)
+                spots = [Spot(at, upon=True) for at in part.spots if upon]
+                if not upon or not self.names.fits(name, spots):
+                    spots = [Spot(at) for at in part.spots[:3]]
+                label = self.names.label(f"object-{part.number}", name, spots, self.theme.text, lead=True)
                 found.append((rows, label))
         return found
+
+    def _along(self, name: str, label: str, piece: Piece) -> list[Spot]:
+        """Upon a ray where it is long enough, else beside it."""
+        upon = math.dist(*piece) > ROOMY * max(self.size, text_width(label, self.size))
+        return [Spot(along(piece, share), upon, name if upon else "") for share in SPOTS]
+
+    def _ways_out(self, shadows: Sequence[RayLine]) -> list[Named]:
+        """Where rays to a light leave the picture: which light they go to."""
+        found: list[Named] = []
+        left, top, right, bottom = self.view.where
+        for j in range(len(self.scene.lights)):
+            ends: list[Spot] = []
+            rows: set[int] = set()
+            for line in shadows:
+                piece = self._on_canvas(line, 0.0, 1.0)
+                if j in self.lights or self.tree.nodes["light"][line.row] != j or piece is None:
+                    continue
+                x, y = piece[1]
+                if min(x - left, right - x, y - top, bottom - y) < 0.5:
+                    inner = max(0.0, 1.0 - 1.2 * self.size / max(1.0, math.dist(*piece)))
+                    ends.append(Spot(along(piece, inner)))
+                    rows.add(line.row)
+            words = f"to {self._light_name(j)}"
+            found.append((frozenset(rows), self.names.label(f"light-{j}", words, ends, self.theme.text)))
+        return [(rows, marks) for rows, marks in found if marks]
+
+    def _light_name(self, j: int) -> str:
+        return self.scene.lights[j].name or f"light {j}"
 
 
 def _wide(part: Part) -> float:
@@ -216,6 +256,11 @@ def look(material: Material, theme: Theme) -> Color:
         encoded = np.full(3, 0.55 + 0.45 * float(encoded @ LUMINANCE))
     r, g, b = ((1.0 - PALE) * encoded + PALE * np.array(theme.ground[:3])).tolist()
     return (r, g, b, 1.0)
+
+
+def _between(a: Color, b: Color) -> Color:
+    red, green, blue, opacity = (0.5 * (x + y) for x, y in zip(a, b, strict=True))
+    return (red, green, blue, opacity)
 
 
 def _last(piece: Piece, length: float) -> Piece:

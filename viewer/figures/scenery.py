@@ -24,7 +24,7 @@ from tracer.shapes.triangle import Triangle
 from tracer.vector import tame, unit
 from tracer.world import World
 from viewer.figures.marks import Point, Rectangle
-from viewer.figures.outlines import FINE, Area, areas, spots_of
+from viewer.figures.outlines import FINE, Area, areas, spots_of, too_fine
 from viewer.orbit import FOV, Frame, Orbit
 
 DARKER = (0.75, 0.45)  # cosines below which a surface is a shade darker
@@ -39,6 +39,7 @@ class Part:
     number: int  # of the object
     faces: tuple[tuple[Area, ...], ...]
     checks: tuple[Area, ...]  # squares of the checkers' other colour
+    mingled: tuple[Area, ...]  # where squares are too fine to be drawn
     shades: tuple[tuple[Area, ...], ...]
     spots: tuple[Point, ...]  # well within it, those farthest from its rim first
 
@@ -96,11 +97,17 @@ def scenery(world: World, camera: Camera, where: Rectangle) -> Scenery:
     opaque = _parts(objects, solid, camera, where, solid)
     if not clear:
         return Scenery(opaque, ())
-    # What is opaque is to be named where no glass is before it.
+    # What is opaque is to be named where no glass is before it, glass where nothing opaque is seen through it.
     together = _parts(objects, [*solid, *clear], camera, where, [*solid, *clear])
     free = {part.number: part.spots for part in together}
     opaque = tuple(replace(part, spots=free.get(part.number, part.spots)) for part in opaque)
-    return Scenery(opaque, tuple(part for part in together if part.number in clear))
+    behind = [area for part in opaque for face in part.faces for area in face]
+    glass = [
+        replace(part, spots=tuple(sorted(part.spots, key=lambda spot: any(area.covers(spot) for area in behind))))
+        for part in together
+        if part.number in clear
+    ]
+    return Scenery(opaque, tuple(glass))
 
 
 def _parts(
@@ -140,8 +147,10 @@ def _parts(
         shades = tuple(areas(mine & (cosine < below), where) for below in DARKER)
         if any(spots):
             seen_faces = tuple(spot for spot in spots if spot)
-            checks = areas(mine & (pixels[..., 2] < 0.5), where)
-            found.append(Part(k, seen_faces, checks, shades, spots_of(mine, where)))
+            other = mine & (pixels[..., 2] < 0.5)
+            fine = mine & too_fine(other, mine) if other.any() else other
+            checks, mingled = areas(other & ~fine, where), areas(fine, where)
+            found.append(Part(k, seen_faces, checks, mingled, shades, spots_of(mine, where)))
     return tuple(found)
 
 

@@ -19,8 +19,8 @@ from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from viewer import lesson
 from viewer.figures.figure import Subject, Wishes, pages
-from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text
-from viewer.figures.outlines import simpler, spots_of
+from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text, shares_within
+from viewer.figures.outlines import FINE, simpler, spots_of, too_fine
 from viewer.figures.scenery import camera_of, scenery
 from viewer.figures.stage import by_depth
 from viewer.orbit import Frame, Orbit, home
@@ -208,3 +208,52 @@ def test_checkers_are_where_the_floor_has_them(worlds: dict[str, tracer.World]) 
         d += (HEIGHT - 2 * y) / HEIGHT * np.array(view.up)
         point = np.array(view.eye) - view.eye[1] / d[1] * d
         assert surface_color(material, this, tuple(point.tolist())) == (0.2, 0.2, 0.2)
+
+
+@pytest.mark.parametrize(("points", "fine"), ((1, True), (2, True), (5, False), (12, False)))
+def test_squares_too_fine_to_be_drawn_are_told(points: int, fine: bool) -> None:
+    rows, columns = np.indices((240, 240)) // (FINE * points)
+    everywhere = np.ones((240, 240), bool)
+    for squares in ((rows + columns) % 2 == 0, rows % 2 == 0, columns % 2 == 0):
+        assert (too_fine(squares, everywhere) == fine).all()
+
+
+def test_a_ray_has_its_name_upon_it_or_beside_it(grown: tuple[Subject, list[Figure]]) -> None:
+    """No other ray is nearer to where a name stands than its own, where the name stands upon a line."""
+    for figure in grown[1]:
+        lines = [m for m in figure.marks if isinstance(m, Line) and m.name.startswith("ray-")]
+        for text in (m for m in figure.marks if isinstance(m, Text) and m.name.startswith("ray-")):
+            own = [line for line in lines if f"{line.name}-label" == text.name]
+            left, top, right, bottom = text.box()
+            reach = 2.4 * text.size
+            wide = (left - reach, top - reach, right + reach, bottom + reach)
+            assert any(shares_within((line.start, line.end), wide) for line in own), text
+
+
+def test_rays_that_leave_the_picture_say_to_which_light(grown: tuple[Subject, list[Figure]]) -> None:
+    what, (*_, figure) = grown
+    tree = what.stages[-1].tree
+    words = {m.content for m in figure.marks if isinstance(m, Text)}
+    for i in np.flatnonzero(tree.nodes["kind"] == SHADOW):
+        name = tree.light_name(int(i))
+        lines = [m for m in figure.marks if isinstance(m, Line) and m.name == f"ray-{i}" and not m.arrow.value]
+        ends = [line.end for line in lines if line.stroke.dash != (0.0, 0.0)]
+        if any(min(x, WIDTH - x, y, HEIGHT - y) < 0.4 for x, y in ends):
+            assert {f"to {name}", name} & words
+
+
+def test_glass_is_named_where_nothing_opaque_is_behind_it() -> None:
+    """Half of a pane stands before a wall: its name stands on the other half."""
+    pane = box((-2.0, -1.0, 0.0), (2.0, 1.0, 0.1), Material("glass", transmit=1.0, ior=1.5), name="pane")
+    wall = box((-2.0, -1.0, -1.0), (0.0, 1.0, -0.9), name="wall")
+    world = world_of(pane, wall)
+    orbit = Orbit(0.0, 0.0, 2.6)
+    orbit.north, orbit.up = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
+    seen = scenery(world, camera_of(orbit, Frame.of(world)), CANVAS)
+    (glass,) = seen.glass
+    assert glass.spots[0][0] > 0.5 * WIDTH
+    (wall_seen,) = seen.opaque
+    ((area,), *_) = wall_seen.faces
+    x, y = np.mean(area.outline, axis=0).tolist()
+    assert area.covers((x, y))
+    assert not area.covers((x + WIDTH, y))
