@@ -39,10 +39,15 @@ APPLIES = {
 
 @dataclass(frozen=True)
 class Made:
-    """The files that were written, and what is to be said of them."""
+    """Files with what goes into them, and what is to be said of them."""
 
-    files: list[Path]
+    files: list[tuple[Path, bytes]]
     notes: list[str]
+
+    def write(self) -> None:
+        for file, content in self.files:
+            file.parent.mkdir(exist_ok=True)
+            write_atomically(file, content)
 
 
 def export(options: Namespace) -> int:
@@ -57,9 +62,10 @@ def export(options: Namespace) -> int:
         world = prepared(path)
         with Progress("export") as progress:
             made = make(options, world, lesson, target, formats, progress)
+            made.write()
             for note in made.notes:
                 progress.put(f"note: {note}")
-    for file in made.files:
+    for file, _ in made.files:
         print(file)
     return 0
 
@@ -110,11 +116,7 @@ def make(
                 assert kind.data
                 tree = group[-1].tree
                 files.append((target.file(f"{stem}_d{tree.depth}", kind.suffix), kind.data(tree).encode("utf-8")))
-    if target.folder:
-        target.path.mkdir(exist_ok=True)
-    for file, content in files:
-        write_atomically(file, content)
-    return Made([file for file, _ in files], list(dict.fromkeys(notes)))
+    return Made(files, list(dict.fromkeys(notes)))
 
 
 def wishes_of(options: Namespace, stages: Sequence[Stage]) -> Wishes:

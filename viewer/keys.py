@@ -24,7 +24,7 @@ HELP = (
     ("Esc", "select nothing, pick nothing"),
     ("F5", "read the scene's file again (it is, when it is saved)"),
     ("Ctrl+S", "export what is on show as a figure (menu Figure: which, and how)"),
-    ("Ctrl+C", "copy the command line that makes it again"),
+    ("Ctrl+C", "copy that figure: a picture to paste onto a slide; with Shift its command line"),
     ("Ctrl+O, Ctrl+Q", "open a scene; quit"),
     ("H or ?", "this help"),
 )
@@ -47,9 +47,11 @@ def handle(session: Session) -> None:
             session.wants_open = True
         if imgui.is_key_pressed(key.s, False):
             session.takehome.make(session)
-        if imgui.is_key_pressed(key.c, False) and session.takehome.command:
-            imgui.set_clipboard_text(session.takehome.command)
-            session.notice.say("the figure's command line is copied")
+        if imgui.is_key_pressed(key.c, False):
+            if io.key_shift or _just_let_go(key.left_shift, key.right_shift):
+                session.takehome.copy_command(session)
+            else:
+                session.takehome.make(session, copied=True)
         return
     _typed(session)
     step = 10 if io.key_shift else 1

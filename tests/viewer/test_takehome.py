@@ -62,13 +62,20 @@ def test_an_earlier_figure_is_never_lost(room: Driver) -> None:
     assert free(first).name == f"{first.stem}-3.svg"
 
 
-def test_copying_the_command_line(room: Driver) -> None:
+def test_without_a_clipboard_that_is_said(room: Driver, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A picture that is drawn without a screen has none. With one: tests/viewer/test_window.py."""
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     room.open("mirror-balls")
     room.session.takehome.figure = "tree"
-    save(room)
     room.press(imgui.Key.mod_ctrl, imgui.Key.c)
-    assert imgui.get_clipboard_text() == room.session.takehome.command
+    assert room.session.takehome.making
+    room.session.takehome.making.exception()
+    room.frames()
     assert "--figure=tree" in room.session.takehome.command
+    (fault,) = room.session.faults
+    assert fault.startswith("nothing can be copied here: ")
+    assert fault.endswith("; Ctrl+S writes the figure into a file")
 
 
 def test_the_choice_is_kept(room: Driver, tmp_path: Path) -> None:

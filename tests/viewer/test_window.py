@@ -1,5 +1,6 @@
 """A real window on a real X server: the mouse moves, keys are pressed, the window is resized and minimised."""
 
+import shlex
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -7,11 +8,12 @@ from pathlib import Path
 
 import glfw
 import numpy as np
+import PIL.Image
 import pytest
 
 import tracer
 from tests.viewer.screen import hand, missing, screen
-from viewer import lesson
+from viewer import cli, lesson
 from viewer.app import App
 from viewer.session import Session
 from viewer.window import Window
@@ -159,3 +161,51 @@ def test_program_runs_by_itself_and_ends_on_its_key(tmp_path: Path) -> None:
     assert process.returncode == 0
     assert (said, complained) == ("", "")
     assert list(tmp_path.iterdir()) == []
+
+
+PASTE = """
+import sys
+import copykitten
+if sys.argv[1] == "text":
+    sys.stdout.buffer.write(copykitten.paste().encode("utf-8"))
+else:
+    pixels, width, height = copykitten.paste_image()
+    sys.stdout.buffer.write(f"{width} {height} ".encode() + pixels)
+"""
+
+
+def pasted(what: str) -> bytes:
+    """What another program finds in the clipboard."""
+    return subprocess.run([sys.executable, "-c", PASTE, what], capture_output=True, check=True).stdout
+
+
+def test_a_copied_figure_is_pasted_elsewhere(desk: Desk, tmp_path: Path) -> None:
+    """As the very picture that the copied command line writes; TikZ as its text."""
+    home = desk.session.takehome
+    home.figure, home.theme = "tree", "light"
+    hand("windowactivate", "--sync", desk.id)
+    hand("key", "ctrl+c")
+    desk.until(lambda: "copied as a picture" in desk.session.notice.text, "the copy")
+    hand("key", "ctrl+shift+c")
+    desk.until(lambda: "command line is copied" in desk.session.notice.text, "the command line")
+    command = shlex.split(pasted("text").decode("utf-8"))
+    assert command == shlex.split(home.command)
+    hand("key", "ctrl+c")
+    desk.until(lambda: "copied as a picture" in desk.session.notice.text, "the copy")
+    out = tmp_path / "a.png"
+    assert cli.main([*command[1:], "-o", str(out)]) == 0
+    with PIL.Image.open(out) as picture:
+        width, height, pixels = pasted("picture").split(b" ", 2)
+        assert (int(width), int(height)) == picture.size == (1920, 1080)
+        copied = np.frombuffer(pixels, np.uint8).reshape(1080, 1920, 4)
+        written = np.asarray(picture.convert("RGBA"))
+    seen = written[..., 3] > 0
+    assert seen.any()
+    assert (copied[seen] == written[seen]).all()
+    assert (copied[..., 3] == written[..., 3]).all()
+    home.format = "tikz"
+    hand("key", "ctrl+c")
+    desk.until(lambda: "copied as TikZ" in desk.session.notice.text, "the copy as TikZ")
+    out = tmp_path / "a.tex"
+    assert cli.main([*shlex.split(home.command)[1:], "-o", str(out)]) == 0
+    assert pasted("text") == out.read_bytes()

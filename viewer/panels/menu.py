@@ -92,8 +92,10 @@ def _figure_menu(session: Session) -> None:
     home = session.takehome
     if imgui.menu_item_simple("Export", "Ctrl+S", False, session.tree is not None):
         home.make(session)
-    if imgui.menu_item_simple("Copy its command line", "Ctrl+C", False, bool(home.command)):
-        imgui.set_clipboard_text(home.command)
+    if imgui.menu_item_simple("Copy", "Ctrl+C", False, session.tree is not None):
+        home.make(session, copied=True)
+    if imgui.menu_item_simple("Copy its command line", "Ctrl+Shift+C", False, bool(home.command)):
+        home.copy_command(session)
     imgui.separator()
     for name, label in FIGURES.items():
         if imgui.menu_item_simple(label, "", home.figure == name):
