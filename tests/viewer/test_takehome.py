@@ -1,6 +1,9 @@
 """Ctrl+S in the window: the figure of what is on show, and the command line that makes the same bytes again."""
 
+import os
 import shlex
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -62,20 +65,14 @@ def test_an_earlier_figure_is_never_lost(room: Driver) -> None:
     assert free(first).name == f"{first.stem}-3.svg"
 
 
-def test_without_a_clipboard_that_is_said(room: Driver, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A picture that is drawn without a screen has none. With one: tests/viewer/test_window.py."""
-    monkeypatch.delenv("DISPLAY", raising=False)
-    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    room.open("mirror-balls")
-    room.session.takehome.figure = "tree"
-    room.press(imgui.Key.mod_ctrl, imgui.Key.c)
-    assert room.session.takehome.making
-    room.session.takehome.making.exception()
-    room.frames()
-    assert "--figure=tree" in room.session.takehome.command
-    (fault,) = room.session.faults
-    assert fault.startswith("nothing can be copied here: ")
-    assert fault.endswith("; Ctrl+S writes the figure into a file")
+def test_without_a_clipboard_that_is_said() -> None:
+    """In a process of its own: the library asks for a screen once. With one: tests/viewer/test_window.py."""
+    code = "from viewer.takehome import put_into_clipboard; put_into_clipboard('words')"
+    bare = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    run = subprocess.run([sys.executable, "-c", code], env=bare, capture_output=True, text=True)
+    said = run.stderr.strip().splitlines()[-1]
+    assert said.startswith("viewer.files.Unusable: nothing can be copied here: ")
+    assert said.endswith("; Ctrl+S writes the figure into a file")
 
 
 def test_the_choice_is_kept(room: Driver, tmp_path: Path) -> None:
