@@ -14,6 +14,9 @@ LIBRARIES := libEGL.so.1:libegl1 libGL.so.1:libgl1 swrast_dri.so:libgl1-mesa-dri
 # What only `make test-all` uses: an office program and TeX, which read what is exported.
 OFFICE := soffice:libreoffice-impress pdflatex:texlive-latex-extra kpsewhich:texlive-pictures
 
+# Two processes, each with whole files; what is compiled is compiled before, not by both.
+SIDE_BY_SIDE := -n 2 --dist loadfile
+
 .PHONY: run test test-all check bench bench-quick bench-stable picture gallery clean
 
 run: .venv/installed
@@ -21,12 +24,13 @@ run: .venv/installed
 
 test: .venv/installed-dev
 	@sh .ci/system-packages '$(PROGRAMS)' '$(LIBRARIES)'
-	$(BIN)/python -m pytest -q
+	$(BIN)/python -c 'from tracer.render import fill_cache; fill_cache()'
+	$(BIN)/python -m pytest -q $(SIDE_BY_SIDE)
 
 # With the tests that need an office program and TeX, which take hundreds of megabytes.
 test-all: .venv/installed-dev
 	@sh .ci/system-packages '$(PROGRAMS) $(OFFICE)' '$(LIBRARIES)'
-	$(BIN)/python -m pytest -q -m ''
+	$(BIN)/python -m pytest -q $(SIDE_BY_SIDE) -m ''
 
 check: .venv/installed-dev
 	$(BIN)/ruff format --check .
