@@ -106,7 +106,7 @@ def _fresnel(tree: RayTree, i: int, material: Material) -> Section:
     section.add("rₛ = (n₁c₁ − n₂c₂) / (n₁c₁ + n₂c₂)", shown(_share(n1 * c1, n2 * c2)))
     section.add("rₚ = (n₂c₁ − n₁c₂) / (n₂c₁ + n₁c₂)", shown(_share(n2 * c1, n1 * c2)))
     section.add("R = (rₛ² + rₚ²) / 2", shown(r))
-    section.add("T, computed for itself", shown(t))
+    section.add("T", shown(t))
     section.add("kr + kt R", shown(material.reflect + material.transmit * r))
     section.add("kt T", shown(material.transmit * t))
     return section

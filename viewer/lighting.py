@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tracer.scene import Material
 from tracer.shading import surface_color
 from tracer.tree import RayTree
 from tracer.vector import vector
@@ -18,10 +19,13 @@ def local_light(tree: RayTree, world: World, i: int) -> Section:
     color = _color(world, tree, i)
     ambient = np.array(world.scene.tracing.ambient) * material.ambient * color
     section.add("colour C", triple(color, 3))
+    section.add("ka  kd  ks  p", "  ".join(shown(x, 3) for x in _numbers(material)))
     section.add(f"ambient: A · {shown(material.ambient)} · C", triple(ambient, 4))
     rows = {int(tree.nodes["light"][child]): child for child in tree.children[i]}
     for j, light in enumerate(world.scene.lights):
         name = light.name or f"light {j}"
+        if light.color != (1.0, 1.0, 1.0):
+            name += f" (L {triple(light.color, 2)})"
         child = rows[j]
         n_l, r_v = _cosines(tree, i, child)
         if n_l <= 0.0:
@@ -58,6 +62,10 @@ def one_light(tree: RayTree, world: World, i: int, j: int) -> Section:
     section.add("S: gets through", same(tree.nodes["factor"][child]))
     section.add("share", triple(tree.nodes["radiance"][child], 4))
     return section
+
+
+def _numbers(material: Material) -> tuple[float, float, float, float]:
+    return (material.ambient, material.diffuse, material.specular, material.shininess)
 
 
 def _cosines(tree: RayTree, i: int, child: int) -> tuple[float, float]:

@@ -39,6 +39,7 @@ class Wishes:
     ground: bool = False  # on the theme's paper, not on transparent ground
     node: int = 0  # which hit, where the figure shows one
     eye: str = "top"  # of the tree, or left
+    lights: bool = True  # with the rays to the lights
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,7 @@ def tree_pages(subject: Subject, wishes: Wishes, where: tuple[float, float] = TR
 
 
 def wanted(wishes: Wishes, where: tuple[float, float]) -> Wanted:
-    return Wanted(wishes.text_size, wishes.swatches, wishes.fold, where, wishes.eye)
+    return Wanted(wishes.text_size, wishes.swatches, wishes.fold, where, wishes.eye, wishes.lights)
 
 
 def scene_pages(subject: Subject, wishes: Wishes, where: Rectangle = (0.0, 0.0, WIDTH, HEIGHT)) -> Pages:

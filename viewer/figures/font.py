@@ -56,6 +56,15 @@ def text_width(content: str, size: float) -> float:
     return wide * size + _font().getlength(content) * size / _UNITS
 
 
+def fitted(content: str, wide: float, size: float) -> str:
+    """The text, cut so that it is no wider than that."""
+    if text_width(content, size) <= wide:
+        return content
+    while content and text_width(f"{content}…", size) > wide:
+        content = content[:-1].rstrip()
+    return f"{content}…"
+
+
 def text_box(at: tuple[float, float], content: str, size: float, anchor: str) -> tuple[float, float, float, float]:
     """(left, top, right, bottom) of a line of text whose middle, left or right end stands at `at`."""
     width = text_width(content, size)

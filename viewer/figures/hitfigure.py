@@ -14,12 +14,12 @@ from tracer.tree import RayTree
 from tracer.world import World
 from viewer.directions import directions, turned
 from viewer.figures import signs
-from viewer.figures.font import text_width
+from viewer.figures.font import fitted, text_width
 from viewer.figures.labels import end_label, factor_label, hit_label, ray_label, ray_title
-from viewer.figures.marks import HEIGHT, WIDTH, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.marks import HEIGHT, WIDTH, Line, Mark, Point, Shape, Stroke, Text, along, shares_within
 from viewer.figures.names import Names, Spot
 from viewer.figures.stage import Stage
-from viewer.figures.treesizes import LONG, name_in_box
+from viewer.figures.treesizes import NO_RAY
 from viewer.lighting import local_light
 from viewer.sections import Section
 from viewer.theme import BLOCKED_DASH, STYLES, Color, Theme, faded
@@ -27,7 +27,7 @@ from viewer.wording import angle, shown
 
 CENTER = (262.0, 292.0)  # the hit
 REACH = 195.0  # how far rays are drawn
-LIGHT_REACH = 118.0  # how far rays to lights are
+LIGHT_REACHES = (118.0, 150.0, 90.0, REACH + 28.0, 60.0)  # how far rays to lights are, the first that is free
 IN_PLANE = math.radians(1.0)  # a light that leaves the plane by less lies in it
 LEFT, RIGHT = 12.0, 512.0  # of the media
 TOP, BOTTOM = 12.0, HEIGHT - 12.0
@@ -36,7 +36,7 @@ ARC = 62.0  # the radius of an angle's arc
 LINE = 1.28  # from line to line of the formulas, in sizes of the text
 LARGEST = 20.0  # points
 BETWEEN = 0.5  # between two sections of them, in lines, where there is room
-LOCAL = "local = A ka C + Σ S L (kd C N·L + ks R·Vᵖ)"  # the shorter: here it has half a slide
+LOCAL = "A ka C + Σ S L (kd C N·L + ks (R·V)ᵖ)"  # the shorter: here it has half a slide
 VECTORS = ("v", "n", "r", "t")
 TINTS = (0.06, 0.16)  # of the medium of lower and of higher index
 
@@ -73,6 +73,8 @@ class _Drawing:
         self.lights = [child for child in below if self.tree.nodes["kind"][child] == SHADOW]
         self.going_on = [child for child in below if child not in self.lights]
         self.theta1, self.theta2 = float(self.row["theta1"]), float(self.row["theta2"])
+        # Whether a light leaves the plane, and is turned into it.
+        self.turned = any(self._turn_to_light(child)[1] > IN_PLANE for child in self.lights)
         self.marks: list[Mark] = []
         self._media()
         self._normal()
@@ -99,12 +101,12 @@ class _Drawing:
             self.marks.append(Shape(name, corners, faded(self.theme.text, tint), None, title=title))
         self.marks.append(Line("surface", (x0, y), (x1, y), Stroke(self.theme.text, 2.4)))
         text, size = self.theme.text, self.size
-        name = name_in_box(self.tree, self.node, LONG)
-        under = f"n₂ = {shown(n2)}" if clear else "opaque"
         left, third = x0 + 0.5 * size, TOP + (0.9 + 2 * LINE) * size
+        name = fitted(hit_label(self.tree, self.node), CENTER[0] - left - 2.0 * size, size)
+        under = f"n₂ = {shown(n2)}" if clear else "opaque"
         self.marks.append(Text("medium-1", (left, third), f"n₁ = {shown(n1)}", size, text, "start"))
         low = y1 - 0.9 * size
-        self.marks.append(Text("surface", (left, low - LINE * size), f"surface of {name}", size, text, "start"))
+        self.marks.append(Text("surface", (left, y + 0.8 * size), name, size, text, "start"))
         self.marks.append(Text("medium-2", (left, low), under, size, text, "start"))
 
     def _normal(self) -> None:
@@ -152,13 +154,13 @@ class _Drawing:
         self.marks.append(Line(f"ray-{i}", start, end, stroke, style.arrow, 0.6, title=ray_title(self.tree, i)))
 
     def _no_ray(self) -> None:
-        """Nothing is refracted: a short broken stub below the surface with a bar across it, no ray."""
+        """Nothing is refracted, in no direction: a cross below the surface."""
         color = self.theme.ray("refraction")
-        end = (CENTER[0] + 0.25 * REACH, CENTER[1] + 1.4 * self.size)
+        at = (CENTER[0] + 1.2 * self.size, CENTER[1] + 1.1 * self.size)
+        self.marks += signs.cross("bar", at, self.size, color)
+        beside = (at[0] + 0.7 * self.size, at[1])
         title = "total internal reflection: no ray is refracted"
-        self.marks.append(Line("bar", CENTER, end, Stroke(color, 2.0, (4.0, 4.0)), title=title))
-        self.marks += signs.cross("bar", end, self.size, color)
-        self.marks.append(Text("bar", (end[0] + 0.7 * self.size, end[1]), "no T", self.size, color, "start"))
+        self.marks.append(Text("bar", beside, NO_RAY, self.size, color, "start", title=title))
 
     def _lights(self) -> None:
         """Dashed, at their true angles from the normal, on the side of the normal on which they are."""
@@ -166,10 +168,11 @@ class _Drawing:
         names.taken += [mark.box() for mark in self.marks if isinstance(mark, Text)]
         names.ways += [(mark.name, piece) for mark in self.marks if isinstance(mark, Line) for piece in mark.pieces()]
         turns = {child: self._turn_to_light(child) for child in self.lights}
-        ends = {child: self._at(turn, LIGHT_REACH) for child, (turn, _) in turns.items()}
+        ends: dict[int, Point] = {}
+        for child, (turn, _) in turns.items():
+            ends[child] = self._light_end(turn, names)
+            names.take(ends[child], 0.9 * self.size)
         names.ways += [(f"ray-{child}", (CENTER, end)) for child, end in ends.items()]
-        for end in ends.values():
-            names.take(end, 0.9 * self.size)
         style, color = STYLES["shadow"], self.theme.ray("shadow")
         for child, end in ends.items():
             name, fate = f"ray-{child}", self.tree.end(child) or ""
@@ -177,14 +180,23 @@ class _Drawing:
             out = turns[child][1]
             title += f"; it leaves this plane by {angle(out)} and is turned into it" if out > IN_PLANE else ""
             stroke = Stroke(color, style.width, BLOCKED_DASH if fate == "blocked" else style.dash)
-            short = 1.0 - 0.5 * self.size / LIGHT_REACH  # up to the sign
-            x, y = CENTER
-            stop = (x + short * (end[0] - x), y + short * (end[1] - y))
+            stop = along((CENTER, end), 1.0 - 0.5 * self.size / math.dist(CENTER, end))  # up to the sign
             self.marks.append(Line(name, CENTER, stop, stroke, title=title))
             away = self.tree.faces_away(child)
             self.marks += signs.light_end("away" if away else fate, name, end, self.size, self.theme)
             words = f"{ray_label(self.tree, child)} {self.tree.light_name(child)}"
             self.marks += names.label(name, words, [Spot(end)], color, most=0)
+
+    def _light_end(self, turn: float, names: Names) -> Point:
+        """As far out as suits best: not where something stands, and not upon a ray: then beyond it."""
+        rays = [mark for mark in self.marks if isinstance(mark, Line)]
+        ends = [self._at(turn, reach) for reach in LIGHT_REACHES]
+        half = 0.6 * self.size
+        for end in ends:
+            box = (end[0] - half, end[1] - half, end[0] + half, end[1] + half)
+            if names.free(box) and not any(shares_within((ray.start, ray.end), box) for ray in rays):
+                return end
+        return ends[0]
 
     def _turn_to_light(self, child: int) -> tuple[float, float]:
         """(angle from the normal, towards where the ray goes on positive; by how much it leaves the plane)."""
@@ -210,7 +222,7 @@ class _Drawing:
     # --- formulas -----------------------------------------------------------------------------------------------------
 
     def _formulas(self) -> None:
-        """As many sections as there is room for, each whole: first without the vectors, then without the last ones."""
+        """As many sections as there is room for: first without the vectors, then of the local light the sum alone."""
         sections = directions(self.tree, self.node) if self.going_on else []
         if self.world:
             sections.append(self._local(self.world))
@@ -219,6 +231,8 @@ class _Drawing:
         blocks = [self._lines(section, True) for section in sections]
         if _height(blocks) > room:
             blocks = [self._lines(section, False) for section in sections]
+        if _height(blocks) > room and self.world:
+            blocks[-1] = [blocks[-1][0], *blocks[-1][-1 - self.turned :]]
         while _height(blocks) > room:
             blocks.pop()
         gap = min(BETWEEN, (room - sum(map(len, blocks))) / max(1, len(blocks) - 1))
@@ -235,7 +249,7 @@ class _Drawing:
     def _local(self, world: World) -> Section:
         section = local_light(self.tree, world, self.node)
         section.formula = LOCAL
-        if any(self._turn_to_light(child)[1] > IN_PLANE for child in self.lights):
+        if self.turned:
             section.add("each L turned into this plane about n")
         return section
 

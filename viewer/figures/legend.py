@@ -19,11 +19,15 @@ LIGHTS = ("top right", "bottom right", "top left", "bottom left")
 
 @dataclass(frozen=True)
 class Entry:
-    what: str  # a kind of ray, or what becomes of a ray to a light
+    what: str  # a kind of ray, what becomes of a ray to a light, or "lights": words alone
     words: str
 
     def width(self, size: float) -> float:
-        return SAMPLE * size + text_width(self.words, size)
+        return SAMPLE * size * self.has_sample + text_width(self.words, size)
+
+    @property
+    def has_sample(self) -> bool:
+        return self.what != "lights"
 
 
 def legend(entries: Sequence[Entry], marks: Sequence[Mark], where: Rectangle, size: float, theme: Theme) -> list[Mark]:
@@ -68,7 +72,9 @@ def _block(block: Sequence[Entry], at: Point, size: float, theme: Theme) -> list
 def _entry(entry: Entry, at: Point, size: float, theme: Theme) -> list[Mark]:
     name = f"legend-{entry.what}"
     x, y = at
-    words = Text(name, (x + SAMPLE * size, y), entry.words, size, theme.text, "start")
+    words = Text(name, (x + SAMPLE * size * entry.has_sample, y), entry.words, size, theme.text, "start")
+    if not entry.has_sample:
+        return [words]
     if entry.what in STYLES:
         style = STYLES[entry.what]
         stroke = Stroke(theme.ray(entry.what), style.width, style.dash)

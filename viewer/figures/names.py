@@ -46,7 +46,7 @@ class Names:
         for order, spot in enumerate(spots):
             for cost, at, anchor in self._around(spot):
                 box = text_box(at, content, self.size, anchor)
-                if not self._free(box):
+                if not self.free(box):
                     continue
                 crossed = sum(way != spot.spare and shares_within(p, box) is not None for way, p in self.ways)
                 if best is None or (crossed, *cost, order) < best[0]:
@@ -65,9 +65,9 @@ class Names:
     def fits(self, content: str, spots: Sequence[Spot]) -> bool:
         """Whether there is room at any of these spots."""
         boxes = (text_box(at, content, self.size, anchor) for spot in spots for _, at, anchor in self._around(spot))
-        return any(self._free(box) for box in boxes)
+        return any(self.free(box) for box in boxes)
 
-    def _free(self, box: Rectangle) -> bool:
+    def free(self, box: Rectangle) -> bool:
         return _within(box, self.where) and not any(_overlap(box, other) for other in self.taken)
 
     def _leader(self, name: str, box: Rectangle, to: Point) -> list[Mark]:

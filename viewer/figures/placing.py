@@ -11,7 +11,7 @@ from tracer.nodes import SHADOW
 from tracer.tree import RayTree
 from viewer.figures.layout import Layout, Room, layout
 from viewer.figures.marks import HEIGHT, Point
-from viewer.figures.treesizes import BOX, MARGIN, NOTE, STUB, Sizes
+from viewer.figures.treesizes import BOX, LINE, MARGIN, NOTE, STUB, Sizes
 
 # In sizes of the text.
 GAP = 0.7  # between two boxes side by side, at least
@@ -39,7 +39,7 @@ class Places:
 
 @dataclass(frozen=True)
 class Task:
-    """What is to be placed: these rows and the folds at these, with text of that size between that left and right."""
+    """What is to be placed: these rows and boxes of folds, with text of that size between that left and right."""
 
     tree: RayTree
     rows: Collection[int]
@@ -47,6 +47,7 @@ class Task:
     sizes: Sizes
     size: float
     where: tuple[float, float]
+    hung: bool  # whether folds hang under the last level
 
     @property
     def levels(self) -> int:
@@ -54,9 +55,9 @@ class Task:
         return max(int(self.tree.nodes["depth"][i]) for i in (*self.rows, *self.folds))
 
 
-def levels_down(size: float) -> int:
-    """How many levels there may be below the first, at most."""
-    return int(_room_below(size) / (PITCH * size))
+def levels_down(size: float, hung: bool) -> int:
+    """How many levels there may be below the first, at most; `hung`: with folds under the last."""
+    return int(_room_below(size, hung) / (PITCH * size))
 
 
 def levels_right(sizes: Sizes, size: float, where: tuple[float, float]) -> int:
@@ -68,9 +69,9 @@ def _first(size: float) -> float:
     return (MARGIN + EYE + FIRST) * size
 
 
-def _room_below(size: float) -> float:
+def _room_below(size: float, hung: bool) -> float:
     """From the first hit to the last level's."""
-    return HEIGHT - _first(size) - (0.5 * BOX + STUB + NOTE + 0.5 + MARGIN) * size
+    return HEIGHT - _first(size) - (0.5 * BOX + STUB + NOTE + LINE * hung + 0.5 + MARGIN) * size
 
 
 def downwards(task: Task, anyhow: bool) -> Places | None:
@@ -79,7 +80,7 @@ def downwards(task: Task, anyhow: bool) -> Places | None:
     margin, gap = MARGIN * size, GAP * size
     unit = sizes.column + gap
     stub = sizes.slot / unit
-    first, free, levels = _first(size), _room_below(size), task.levels
+    first, free, levels = _first(size), _room_below(size, task.hung), task.levels
     crowded = CLEAR * size * levels > free
     room = Room(0.5, 0.5, stub, 0.5 * stub, sides=True, passes=0.9, crowded=crowded, bars=True)
     laid = layout(tree, {*task.rows, *task.folds}, room)

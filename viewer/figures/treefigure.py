@@ -18,10 +18,11 @@ from viewer.figures.legend import Entry, legend
 from viewer.figures.marks import HEIGHT, Box, Disc, Line, Mark, Point, Rectangle, Stroke, Text
 from viewer.figures.stage import Stage
 from viewer.figures.treeplan import TreePlan
-from viewer.figures.treesizes import BARE_NOTE, MARGIN, NO_RAY, NOTE, PADDING, SIGN, SWATCH, edge_label
+from viewer.figures.treesizes import BARE_NOTE, LINE, MARGIN, NO_RAY, NOTE, PADDING, SIGN, SWATCH, edge_label
 from viewer.picture import LUMINANCE, as_shown
 from viewer.theme import BLOCKED_DASH, STYLES, Color, Theme
 
+MOST_LIGHTS = 4  # whose names the legend has room for
 LIGHT_ENDS = {
     "lit": "to a light",
     "filtered": "through glass",
@@ -54,7 +55,8 @@ class _Drawing:
         for i in rows:
             self._stub(i) if self.tree.nodes["kind"][i] == SHADOW else self._edge(i)
         for fold in folds:
-            self._fold_edge(fold.row)
+            if fold.under is None:
+                self._fold_edge(fold.row)
         for i in hits:
             self._bar(i)
             self._box(i)
@@ -187,15 +189,18 @@ class _Drawing:
     def _note(self, i: int) -> None:
         """Under a leaf: why nothing follows. Where something does follow, the end is that branch's own."""
         words = end_label(self.tree, i)
-        if not words or any(self.tree.nodes["kind"][c] != SHADOW for c in self.tree.children[i]):
-            return
+        if words and all(self.tree.nodes["kind"][c] == SHADOW for c in self.tree.children[i]):
+            self.marks.append(Text(f"hit-{i}", self._under(i), words, self.size, self.theme.muted))
+
+    def _under(self, i: int) -> Point:
+        """The middle of the first line under a box and the stubs that hang there."""
         x, y = self.plan.at[i]
-        below = (
-            self.plan.hang + NOTE * self.size
-            if self.tree.children[i]
-            else 0.5 * self.plan.box[1] + BARE_NOTE * self.size
-        )
-        self.marks.append(Text(f"hit-{i}", (x, y + below), words, self.size, self.theme.muted))
+        stubs = i in self.plan.places.bars or any(c in self.plan.rows for c in self._shadows(i))
+        bare = 0.5 * self.plan.box[1] + BARE_NOTE * self.size
+        return (x, y + (self.plan.hang + NOTE * self.size if stubs else bare))
+
+    def _shadows(self, i: int) -> list[int]:
+        return [c for c in self.tree.children[i] if self.tree.nodes["kind"][c] == SHADOW]
 
     # --- folded branches ----------------------------------------------------------------------------------------------
 
@@ -206,9 +211,15 @@ class _Drawing:
         self.marks.append(Line(f"fold-{row}", start, reach, stroke, leaves=leaves, reaches=f"fold-{row}"))
 
     def _fold(self, fold: Fold) -> None:
-        """Two lines: how many rays, how much of the weight."""
-        name, (x, y) = f"fold-{fold.row}", self.plan.at[fold.row]
+        """Two lines: how many rays, how much of the weight; in a box of their own, or under the hit."""
+        name = f"fold-{fold.row}"
         many, share = fold.words(self.stage.rows, self.plan.inside)
+        if fold.under is not None:
+            x, y = self._under(fold.under)
+            for k, words in enumerate((many, share)):
+                self.marks.append(Text(name, (x, y + k * LINE * self.size), words, self.size, self.theme.muted))
+            return
+        x, y = self.plan.at[fold.row]
         size = (self.plan.box[0], self.plan.fold_height)
         stroke = Stroke(self.theme.muted, 1.4, (3.0, 3.0))
         title = f"{many} not drawn, {share} of the weight"
@@ -224,7 +235,11 @@ def _entries(plan: TreePlan) -> list[Entry]:
     entries = [Entry(kind, STYLES[kind].label) for kind in ("reflection", "refraction", "tir") if kind in kinds]
     shadows = [i for i in plan.rows if tree.nodes["kind"][i] == SHADOW]
     ends = {"away" if tree.faces_away(i) else tree.end(i) or "" for i in shadows}
-    return entries + [Entry(end, words) for end, words in LIGHT_ENDS.items() if end in ends]
+    entries += [Entry(end, words) for end, words in LIGHT_ENDS.items() if end in ends]
+    lights = [light.name or f"light {j}" for j, light in enumerate(tree.scene.lights)]
+    if ends and len(lights) <= MOST_LIGHTS:  # each hit has a stub for each, in this order
+        entries.append(Entry("lights", f"L: {', '.join(lights)}"))
+    return entries
 
 
 def swatch(tree: RayTree, i: int, theme: Theme) -> Color:

@@ -29,6 +29,7 @@ class Wanted:
     fold: float = 0.0
     where: tuple[float, float] = (0.0, WIDTH)  # left and right of its part of the canvas
     eye: str = "top"  # or left
+    lights: bool = True  # whether rays to lights are drawn
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class TreePlan:
     wanted: Wanted
     style: Style
     rows: frozenset[int]
-    folds: dict[int, Fold]  # by the row where they stand
+    folds: dict[int, Fold]  # by the row where they stand, or would
     inside: dict[int, int]  # a folded row -> the row of its fold
     places: Places
     box: tuple[float, float]
@@ -83,59 +84,73 @@ def plan_tree(trees: Sequence[RayTree], wanted: Wanted) -> TreePlan:
 def fitting_size(trees: Sequence[RayTree], wanted: Wanted) -> float | None:
     """The largest text, in whole points, with which all rays have room; None if not even the smallest does that."""
     rays = {i for i in range(len(trees[-1])) if trees[-1].nodes["kind"][i] != SHADOW}
+    deepest = int(trees[-1].nodes["depth"].max())
     for size in range(int(wanted.size), int(SMALLEST) - 1, -1):
-        if _try(trees, rays, replace(wanted, size=float(size)), Style(float(size), wanted.swatches, SHORT)):
+        style = Style(float(size), wanted.swatches, SHORT)
+        asked = replace(wanted, size=float(size))
+        if deepest <= _last_level(trees, asked, style) and _try(trees, rays, asked, style, deepest):
             return float(size)
     return None
 
 
 def _plan(trees: Sequence[RayTree], wanted: Wanted, style: Style) -> TreePlan:
+    """With as many levels as there may be, or with one less where that shows more of the weight."""
+    last = _last_level(trees, wanted, style)
+    weights = trees[-1].nodes["weight"].max(axis=1)
+    hits = trees[-1].nodes["kind"] != SHADOW
+    plans = [_plan_of(trees, wanted, style, levels) for levels in range(last, max(last - 2, -1), -1)]
+    return max(plans, key=lambda plan: float(sum(weights[i] for i in sorted(plan.rows) if hits[i])))
+
+
+def _plan_of(trees: Sequence[RayTree], wanted: Wanted, style: Style, last: int) -> TreePlan:
     tree = trees[-1]
     weights, kinds = tree.nodes["weight"].max(axis=1), tree.nodes["kind"]
-    if wanted.eye == "left":
-        fitting = levels_right(Sizes.of(trees, range(len(tree)), {}, {}, style), style.size, wanted.where)
-    else:
-        fitting = levels_down(style.size)
-
-    def followed(i: int) -> bool:
-        return any(kinds[c] != SHADOW for c in tree.children[i])
-
     rays = [i for i in range(len(tree)) if kinds[i] != SHADOW and (weights[i] >= wanted.fold or i == 0)]
-    rays = {i for i in rays if tree.nodes["depth"][i] < fitting + (not followed(i)) or i == 0}
+    rays = {i for i in rays if tree.nodes["depth"][i] <= last}
     heaviest = sorted(rays, key=lambda i: (-weights[i], i))
     low, high = 0, len(heaviest)
-    best = _try(trees, set(heaviest), wanted, style)
+    best = _try(trees, set(heaviest), wanted, style, last)
     if best is not None:
         low = high
     while low + 1 < high:  # the most rays that fit: `low` do, `high` do not
         middle = (low + high) // 2
-        found = _try(trees, set(heaviest[:middle]), wanted, style)
+        found = _try(trees, set(heaviest[:middle]), wanted, style, last)
         if found is None:
             high = middle
         else:
             low, best = middle, found
     if best is None:  # even the first hit alone is too large: it is drawn all the same
-        return _try(trees, {0}, wanted, style, anyhow=True)  # type: ignore[return-value]
+        return _try(trees, {0}, wanted, style, 0, anyhow=True)  # type: ignore[return-value]
     kept = set(heaviest[:low])
     # A branch of one ray takes no more room as itself than as a fold; and where one has no room, a lighter one may.
     single = sorted(r for fold in best.folds.values() for r in fold.roots if not tree.children[r] and r in rays)
     parents = tree.nodes["parent"]
     for i in (*single, *heaviest[low : low + MORE]):
         if i not in kept and int(parents[i]) in kept:
-            found = _try(trees, kept | {i}, wanted, style)
+            found = _try(trees, kept | {i}, wanted, style, last)
             if found is not None:
                 best = found
                 kept.add(i)
     return best
 
 
+def _last_level(trees: Sequence[RayTree], wanted: Wanted, style: Style) -> int:
+    """Below which there are no boxes."""
+    deepest = int(trees[-1].nodes["depth"].max())
+    if wanted.eye == "left":
+        return levels_right(Sizes.of(trees, range(len(trees[-1])), {}, {}, style), style.size, wanted.where)
+    whole = levels_down(style.size, hung=False)
+    return whole if deepest <= whole else max(0, levels_down(style.size, hung=True))
+
+
 def _try(
-    trees: Sequence[RayTree], kept: set[int], wanted: Wanted, style: Style, anyhow: bool = False
+    trees: Sequence[RayTree], kept: set[int], wanted: Wanted, style: Style, last: int, anyhow: bool = False
 ) -> TreePlan | None:
     """The plan with these rays and all others folded; None where it does not fit onto the canvas."""
-    rows, folds, inside = folded(trees[-1], kept)
+    rows, folds, inside = folded(trees[-1], kept, last, wanted.lights)
     sizes = Sizes.of(trees, rows, folds, inside, style)
-    task = Task(trees[-1], rows, folds.keys(), sizes, style.size, wanted.where)
+    boxes = {row for row, fold in folds.items() if fold.under is None}
+    task = Task(trees[-1], rows, boxes, sizes, style.size, wanted.where, hung=len(boxes) < len(folds))
     places = (rightwards if wanted.eye == "left" else downwards)(task, anyhow)
     if places is None:
         return None

@@ -20,6 +20,7 @@ SLOT = 0.4  # between two stubs' labels
 STUB = 1.1  # from a box to the sign at a stub's end
 NOTE = 1.2  # from there to the middle of a leaf's note
 BARE_NOTE = 0.8  # from a box without stubs to the middle of its note
+LINE = 1.3  # from line to line
 EDGE_LABEL = 1.1  # from a box up to the middle of its ray's label
 ABOVE, BELOW = 0.42, 0.61  # from the middle of a line of text to its ascenders and descenders
 
@@ -58,7 +59,8 @@ class Sizes:
         tree, size = trees[-1], style.size
         kinds = tree.nodes["kind"]
         names, loose, stubs, shares = [""], [""], [""], [""]
-        most, down = 0, 0.5 * (FOLD if folds else BOX)
+        hung = {fold.under for fold in folds.values()}
+        most, down = 0, 0.5 * (FOLD if len(hung - {None}) < len(folds) else BOX)
         for i in rows:
             if kinds[i] == SHADOW:
                 stubs.append(ray_label(tree, i))
@@ -68,10 +70,11 @@ class Sizes:
             notes = [end_label(step, i) for step in trees if i < len(step)]
             loose += notes
             thrown_back = any(tree.kind(c) == "tir" for c in tree.children[i])
-            hanging = sum(kinds[c] == SHADOW for c in tree.children[i]) + thrown_back
+            hanging = sum(kinds[c] == SHADOW and c in rows for c in tree.children[i]) + thrown_back
             most = max(most, hanging)
             stubs += [NO_RAY] * thrown_back
-            reach = (STUB if hanging else 0.0) + (NOTE if hanging else BARE_NOTE) * any(notes)
+            lines = 2 if i in hung else 1 if any(notes) else 0
+            reach = (STUB if hanging else 0.0) + ((NOTE if hanging else BARE_NOTE) + LINE * (lines - 1)) * (lines > 0)
             down = max(down, 0.5 * BOX + reach + (BELOW if reach else 0.0))
         for fold in folds.values():
             shares += fold.words(range(len(tree)), inside)
