@@ -24,8 +24,6 @@ def local_light(tree: RayTree, world: World, i: int) -> Section:
     rows = {int(tree.nodes["light"][child]): child for child in tree.children[i]}
     for j, light in enumerate(world.scene.lights):
         name = light.name or f"light {j}"
-        if light.color != (1.0, 1.0, 1.0):
-            name += f" (L {triple(light.color, 2)})"
         child = rows[j]
         n_l, r_v = _cosines(tree, i, child)
         if n_l <= 0.0:
@@ -33,6 +31,7 @@ def local_light(tree: RayTree, world: World, i: int) -> Section:
         elif tree.end(child) == "blocked":
             detail = f"blocked by {tree.object_name(child)}"
         else:
+            section.add(f"{name}: L", triple(light.color, 3))
             detail = f"N·L {shown(n_l, 3)}, R·V {shown(max(r_v, 0.0), 3)}"
             if tree.end(child) == "filtered":
                 detail += f", × {shown(tree.nodes['factor'][child][0], 3)} through glass (S)"

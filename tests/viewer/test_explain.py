@@ -79,7 +79,12 @@ def test_local_light_stands_light_by_light(water: tuple) -> None:
     assert any(name.startswith("lamp: N·L") for name in names)
     assert any(re.fullmatch("low: N·L −[0-9.]+: faces away from it", name) for name in names)
     assert "hidden: blocked by ball" in names
-    lit = next(name for name in names if name.startswith("lamp"))
+    lit = next(name for name in names if name.startswith("lamp: N·L"))
+    # What is said is enough to work the share out by hand.
+    _, kd, ks, p = values(local["ka  kd  ks  p"])
+    n_l, r_v = (float(x) for x in re.findall(r"[0-9.]+", lit))
+    color, light = np.array(values(local["colour C"])), np.array(values(local["lamp: L"]))
+    assert values(local[lit]) == pytest.approx(light * (kd * color * n_l + ks * r_v**p), abs=2e-3)
     assert values(local[lit]) == pytest.approx(values(local["local"]), abs=1e-4)
     assert values(local["local"]) == pytest.approx(tree.nodes["local"][0], abs=6e-5)
 

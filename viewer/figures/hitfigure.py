@@ -263,7 +263,7 @@ class _Drawing:
             if text_width(line.name, self.size) + text_width(line.value, self.size) + self.size <= wide:
                 found.append((line.name, line.value, theme.muted))
             elif text_width(line.value, self.size) <= wide:
-                found += [(line.name, "", theme.muted), ("", line.value, theme.muted)]
+                found += [(fitted(line.name, wide, self.size), "", theme.muted), ("", line.value, theme.muted)]
         return found
 
 

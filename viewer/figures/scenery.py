@@ -24,7 +24,7 @@ from tracer.shapes.triangle import Triangle
 from tracer.vector import tame, unit
 from tracer.world import World
 from viewer.figures.marks import Point, Rectangle
-from viewer.figures.outlines import FINE, Area, areas, spots_of, too_fine
+from viewer.figures.outlines import FINE, SMALL, Area, areas, places_of, spots_of, too_fine, window_of
 from viewer.orbit import FOV, Frame, Orbit
 
 DARKER = (0.75, 0.45)  # cosines below which a surface is a shade darker
@@ -133,24 +133,32 @@ def _parts(
         Tracing(depth=0, ambient=(1.0, 0.0, 1.0)),
     )
     pixels = tracer.render(tracer.prepare(scene)).pixels
-    numbers = np.rint(pixels[..., 0] * len(faces)).astype(int) - 1
+    numbers = np.rint(pixels[..., 0] * len(faces)).astype(np.int32) - 1
+    places = places_of(numbers, len(faces))
     cosine = pixels[..., 1].copy()
     for number, (_, face) in enumerate(faces):  # a flat face is of one shade
-        here = numbers == number
-        if face.flat and here.any():
-            cosine[here] = cosine[here].mean()
+        here = places[number]
+        if face.flat and len(here):
+            cosine.flat[here] = cosine.flat[here].mean()
+    own: dict[int, list[int]] = {}
+    for number, (k, _) in enumerate(faces):
+        own.setdefault(k, []).append(number)
     found = []
     for k in wanted:
-        own = [number for number, (owner, _) in enumerate(faces) if owner == k]
-        spots = [areas(numbers == number, where) for number in own]
-        mine = np.isin(numbers, own)
-        shades = tuple(areas(mine & (cosine < below), where) for below in DARKER)
+        here = np.concatenate([places[number] for number in own[k]])
+        if len(here) < SMALL * FINE**2:
+            continue
+        window, there = window_of(here, numbers.shape, where)
+        ours = numbers[window]
+        spots = [areas(ours == number, there) for number in own[k]]
         if any(spots):
-            seen_faces = tuple(spot for spot in spots if spot)
-            other = mine & (pixels[..., 2] < 0.5)
+            mine = np.isin(ours, own[k])
+            shades = tuple(areas(mine & (cosine[window] < below), there) for below in DARKER)
+            other = mine & (pixels[(*window, 2)] < 0.5)
             fine = mine & too_fine(other, mine) if other.any() else other
-            checks, mingled = areas(other & ~fine, where), areas(fine, where)
-            found.append(Part(k, seen_faces, checks, mingled, shades, spots_of(mine, where)))
+            checks, mingled = areas(other & ~fine, there), areas(fine, there)
+            seen_faces = tuple(spot for spot in spots if spot)
+            found.append(Part(k, seen_faces, checks, mingled, shades, spots_of(mine, there)))
     return tuple(found)
 
 

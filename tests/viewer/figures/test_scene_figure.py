@@ -20,7 +20,7 @@ from tracer.shapes.sphere import Sphere
 from viewer import lesson
 from viewer.figures.figure import Subject, Wishes, pages
 from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text, shares_within
-from viewer.figures.outlines import FINE, simpler, spots_of, too_fine
+from viewer.figures.outlines import FINE, LEVEL, sharper, simpler, spots_of, straighter, too_fine
 from viewer.figures.scenery import camera_of, scenery
 from viewer.figures.stage import by_depth
 from viewer.orbit import Frame, Orbit, home
@@ -257,3 +257,29 @@ def test_glass_is_named_where_nothing_opaque_is_behind_it() -> None:
     x, y = np.mean(area.outline, axis=0).tolist()
     assert area.covers((x, y))
     assert not area.covers((x + WIDTH, y))
+
+
+def test_edges_are_straight_and_corners_sharp() -> None:
+    """Of a box seen by an eye that looks along no axis, all corners are where the camera projects them."""
+    world = world_of(box((-1.0, -0.5, -0.7), (1.0, 0.5, 0.7)))
+    camera = camera_of(Orbit(0.6, 0.45, 3.2), Frame.of(world))
+    view = seen_by(camera)
+    (part,) = scenery(world, camera, CANVAS).opaque
+    assert len(part.faces) == 3
+    corners = itertools.product((-1.0, 1.0), (-0.5, 0.5), (-0.7, 0.7))
+    landings = [landing(view, np.array(corner)) for corner in corners]
+    for ((area,),) in zip(part.faces, strict=True):
+        assert len(area.outline) == 4
+        for x, y in area.outline:
+            # Two edges, each off by LEVEL at most, meet at no less than 60 degrees.
+            assert min(math.dist((x, y), place) for place in landings) < 2.0 * LEVEL
+
+
+def test_round_outlines_stay_round() -> None:
+    turn = np.linspace(0.0, 2.0 * math.pi, 400)[:-1]
+    for radius in (3.0, 20.0, 200.0):
+        ring = np.stack([radius * np.cos(turn), radius * np.sin(turn)], axis=1)
+        done = sharper(straighter(simpler(ring)))
+        assert set(map(tuple, done)) == set(map(tuple, simpler(ring)))
+        across = np.hypot(*done.T)
+        assert np.abs(across - radius).max() < 1e-9
