@@ -34,6 +34,8 @@ def six(text: str) -> tuple[float, ...]:
 
 def ray_name(text: str) -> str:
     """4 or T4, as figures name rays."""
+    if re.fullmatch(r"L\d+", text, re.IGNORECASE):
+        raise argparse.ArgumentTypeError(f"a ray that meets a surface; {text} goes to a light: name the one before it")
     if not re.fullmatch(r"(?:R|T|TIR)?\d+|E", text, re.IGNORECASE):
         raise argparse.ArgumentTypeError(f'a ray as in the tree like 4, T4 or E, got "{text}"')
     return text
@@ -96,6 +98,13 @@ def text_size(text: str) -> float:
     if not 8.0 <= size <= 48.0:
         raise argparse.ArgumentTypeError(f'points from 8 to 48, got "{text}"')
     return size
+
+
+def share(text: str) -> float:
+    number = weight(text)
+    if number > 1.0:
+        raise argparse.ArgumentTypeError(f'a number from 0 to 1, got "{text}"')
+    return number
 
 
 def weight(text: str) -> float:

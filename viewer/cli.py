@@ -9,9 +9,9 @@ import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
-from viewer.arguments import at_least, depths, listed, pair, pixels, ray_name, six, text_size, view_from, weight
+from viewer.arguments import at_least, depths, listed, pair, pixels, ray_name, share, six, text_size, view_from, weight
 from viewer.interrupt import Interrupted, interruptible
 
 COMMANDS = ("view", "trace", "render", "export", "plan", "check", "lessons")
@@ -24,7 +24,10 @@ NUMERIC = ("--ray", "--pixel", "--size", "--view")
 
 
 class Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line and leaves with 2."""
+    """Says what is wrong in one line and leaves with 2. Options are not guessed from their first letters."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, allow_abbrev=False, **options)
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
@@ -141,12 +144,13 @@ def make_parser() -> Parser:
     export.add_argument("--theme", choices=("light", "dark", "mono"), default="light", help="light by default")
     export.add_argument("--swatches", action="store_true", help="the colour that each ray sends up, in its box")
     export.add_argument(
-        "--fold", type=weight, default=0.0, metavar="W", help="fold branches that weigh less into one box"
+        "--fold", type=share, default=0.0, metavar="W", help="fold branches that weigh less into one box"
     )
     export.add_argument(
         "--text-size", type=text_size, default=18.0, metavar="PT", help="points on a slide; 18 by default"
     )
     export.add_argument("--eye", choices=("top", "left"), help="tree: where it begins; on top by default")
+    export.add_argument("--no-lights", action="store_true", help="leave out the rays to the lights")
     export.add_argument("--ground", action="store_true", help="on the theme's ground; transparent by default")
     export.add_argument("--width", type=pixels, metavar="PX", help="PNG: pixels across; 1920 by default")
     export.add_argument(

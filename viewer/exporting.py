@@ -13,9 +13,9 @@ from viewer.commands import compile_once, faults, find, prepared
 from viewer.figures.figure import TEXT_SIZE, TREES, Subject, Wishes, pages, wanted
 from viewer.figures.formats import FORMATS
 from viewer.figures.hitfigure import node_of
-from viewer.figures.marks import Box, Figure, Text
+from viewer.figures.marks import Figure, Text
 from viewer.figures.png import PIXELS
-from viewer.figures.stage import Stage, by_colour, by_depth, by_ray
+from viewer.figures.stage import Stage, by_colour, by_depth, by_ray, without_lights
 from viewer.figures.treeplan import fitting_size
 from viewer.files import Unusable, every, write_atomically
 from viewer.lesson import Lesson, LessonView
@@ -128,20 +128,21 @@ def wishes_of(options: Namespace, stages: Sequence[Stage]) -> Wishes:
         ground=options.ground,
         node=node_of(stages[-1].tree, options.node) if options.figure == "hit" else 0,
         eye=options.eye or "top",
+        lights=not options.no_lights,
     )
 
 
-def notes_on(figures: Sequence[Figure], name: str, format_name: str, subject: Subject, wishes: Wishes) -> list[str]:
+def notes_on(figures: Sequence[Figure], figure: str, format_name: str, subject: Subject, wishes: Wishes) -> list[str]:
     """Letters that a format has not, and branches for which there was no room."""
     notes = []
     lacks = FORMATS[format_name].lacks
-    words = "".join(mark.content for figure in figures for mark in figure.marks if isinstance(mark, Text))
+    words = "".join(mark.content for page in figures for mark in page.marks if isinstance(mark, Text))
     if lacks and lacks(words):
         notes.append(f'{format_name} has no letter for "{lacks(words)}": svg and pptx leave it to the reader')
-    if not wishes.fold and any(isinstance(m, Box) and m.name.startswith("fold-") for f in figures for m in f.marks):
-        size = fitting_size([stage.tree for stage in subject.stages], wanted(wishes, TREES[name]))
-        helps = f"with --text-size {size:g} all have it" if size else "not even with the smallest text have all"
-        notes.append(f"some branches are folded, for which there is no room; {helps}")
+    if not wishes.fold and any(mark.name.startswith("fold-") for page in figures for mark in page.marks):
+        size = fitting_size([stage.tree for stage in subject.stages], wanted(wishes, TREES[figure]))
+        helps = f", --text-size {size:g} all of them" if size else ""
+        notes.append(f"{figure}: branches are folded for want of room; a smaller --depth leaves some out{helps}")
     return notes
 
 
@@ -169,10 +170,12 @@ def steps(world: World, options: Namespace, depths: range) -> list[Stage]:
     how = {"size": options.size, "min_weight": options.min_weight, "model": options.model}
     trees = [tracer.trace(world, options.pixel, ray, depth=depth, **how) for depth in depths]
     if options.step == "rays":
-        return by_ray(trees[-1])
-    if options.step == "colour":
-        return by_colour(trees[-1])
-    return by_depth(trees)
+        stages = by_ray(trees[-1])
+    elif options.step == "colour":
+        stages = by_colour(trees[-1])
+    else:
+        stages = by_depth(trees)
+    return without_lights(stages) if options.no_lights else stages
 
 
 def command(options: Namespace, format_name: str) -> str:
@@ -203,6 +206,8 @@ def command(options: Namespace, format_name: str) -> str:
         words.append("--swatches")
     if options.eye:
         words += ["--eye", options.eye]
+    if options.no_lights:
+        words.append("--no-lights")
     if options.ground:
         words.append("--ground")
     if options.fold:

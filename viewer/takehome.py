@@ -66,6 +66,8 @@ class TakeHome:
             words.append(f"--view={','.join(map(repr, view))}")
         if self.figure == "hit":
             words.append(f"--node={session.selected or 0}")
+        if "shadow" not in session.shown.kinds:
+            words.append("--no-lights")
         return [*words, f"--theme={self.theme or session.theme.name}"]
 
     def make(self, session: "Session", copied: bool = False) -> None:

@@ -133,7 +133,7 @@ def test_a_ray_is_asked_for_as_figures_name_it(tmp_path: Path) -> None:
 def test_what_has_no_room_or_no_letter_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str], scene_file) -> None:
     assert cli.main(["export", "panes", "--figure", "both", "-o", str(tmp_path / "a.svg")]) == 0
     (note,) = capsys.readouterr().err.splitlines()
-    size = re.fullmatch(r"note: some branches are folded, .*; with --text-size (\d+) all have it", note)
+    size = re.fullmatch(r"note: both: branches are folded .*, --text-size (\d+) all of them", note)
     assert size
     arguments = ["panes", "--figure", "both", "--text-size", size[1], "-o", str(tmp_path / "b.svg")]
     assert cli.main(["export", *arguments]) == 0
@@ -143,6 +143,36 @@ def test_what_has_no_room_or_no_letter_is_said(tmp_path: Path, capsys: pytest.Ca
         out = tmp_path / f"c.{suffix}"
         assert cli.main(["export", str(scene), "--ray", "0,0,5,0,0,-1", "-o", str(out)]) == 0
         assert ('has no letter for "球"' in capsys.readouterr().err) == said
+
+
+def test_rays_to_lights_are_left_out_on_wish(tmp_path: Path) -> None:
+    """In every figure, and with them the pages about them."""
+    for figure in FIGURES:
+        out = tmp_path / f"{figure}.svg"
+        assert cli.main(["export", "glass-ball", "--figure", figure, "--no-lights", "-o", str(out)]) == 0
+        text = out.read_text("utf-8")
+        assert "--no-lights" in text
+        assert ">L1" not in text
+        assert 'id="ray-4"' in text
+        assert 'id="ray-1"' not in text
+    folder = tmp_path / "steps"
+    assert cli.main(["export", "glass-ball", "--step", "rays", "--no-lights", "-o", f"{folder}/"]) == 0
+    assert {name[-7:-4] for name in names(folder)} == {"r00", "r03", "r04", "r07", "r08", "r13", "r14"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    (
+        (["--node", "L1"], "a ray that meets a surface; L1 goes to a light: name the one before it"),
+        (["--fold", "2"], 'a number from 0 to 1, got "2"'),
+        (["--figur", "hit"], "unrecognized arguments: --figur"),
+    ),
+)
+def test_bad_options(arguments: list[str], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as leaving:
+        cli.main(["export", "glass-ball", "--figure", "hit", *arguments, "-o", str(tmp_path / "a.svg")])
+    assert leaving.value.code == 2
+    assert said in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("depth", ("3..1", "a", "0..", "-1"))

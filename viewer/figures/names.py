@@ -10,7 +10,9 @@ from viewer.figures.marks import Disc, Line, Mark, Piece, Point, Rectangle, Shap
 from viewer.theme import Color, Theme, faded
 
 BACKING, SOLID = 0.7, 0.9  # opacity of the paper behind a label, and where a line runs behind it
-RINGS = (0.75, 1.3, 2.0)  # how far from its spot a name may stand, in sizes of the text
+RINGS = (0.75, 1.3, 2.0, 2.9, 3.8)  # how far from its spot a name may stand, in sizes of the text
+LED = 2.0  # from there on a thin line leads to it
+APART = 0.2  # between two names side by side
 TURNS = 12  # directions in which
 
 
@@ -40,9 +42,9 @@ class Names:
     ) -> list[Mark]:
         """At one of these spots, the earlier the better; nothing where there is no room at any but over `most` rays.
 
-        `lead`: a thin line from a name that stands beside its spot to it.
+        Where it stands so far off that it could be another's, a thin line leads to its spot; with `lead` in any case.
         """
-        best = None
+        best, ring = None, 0.0
         for order, spot in enumerate(spots):
             for cost, at, anchor in self._around(spot):
                 box = text_box(at, content, self.size, anchor)
@@ -50,17 +52,17 @@ class Names:
                     continue
                 crossed = sum(way != spot.spare and shares_within(p, box) is not None for way, p in self.ways)
                 if best is None or (crossed, *cost, order) < best[0]:
-                    best = ((crossed, *cost, order), at, anchor, box, spot)
+                    best, ring = ((crossed, *cost, order), at, anchor, box, spot), cost[0]
         if best is None or best[0][0] > most:
             return []
         _, at, anchor, box, spot = best
-        self.taken.append(box)
         left, top, right, bottom = box
+        self.taken.append((left - APART * self.size, top, right + APART * self.size, bottom))
         corners = ((left - 2.0, top), (right + 2.0, top), (right + 2.0, bottom), (left - 2.0, bottom))
         backing = SOLID if spot.spare else BACKING
         paper = Shape(f"{name}-label", corners, faded(self.theme.ground, backing), None)
         text = Text(f"{name}-label", at, content, self.size, color, anchor)
-        return [*(self._leader(name, box, spot.at) if lead and not spot.upon else []), paper, text]
+        return [*(self._leader(name, box, spot.at) if (lead or ring >= LED) and not spot.upon else []), paper, text]
 
     def fits(self, content: str, spots: Sequence[Spot]) -> bool:
         """Whether there is room at any of these spots."""

@@ -123,6 +123,9 @@ class _Drawing:
             if head and style.arrow is not Arrow.NONE and math.dist(*head) > 1.0:
                 self.marks.append(Line(name, *_last(head, 2.0), Stroke(color, stroke.width), style.arrow, 1.0))
                 self.names.take(head[1], 0.9 * self.size)
+        met = self._on_canvas(line, 0.999, 1.0)
+        if met and line.kind != "shadow":  # what it meets there is to be seen
+            self.names.take(met[1], 0.5 * self.size)
         if line.blocked:
             at = self._on_canvas(line, 0.999, 1.0)
             if at:
@@ -216,7 +219,8 @@ class _Drawing:
     def _along(self, name: str, label: str, piece: Piece) -> list[Spot]:
         """Upon a ray where it is long enough, else beside it."""
         upon = math.dist(*piece) > ROOMY * max(self.size, text_width(label, self.size))
-        return [Spot(along(piece, share), upon, name if upon else "") for share in SPOTS]
+        places = [along(piece, share) for share in SPOTS]
+        return [Spot(at, upon=True, spare=name) for at in places if upon] + [Spot(at) for at in places]
 
     def _ways_out(self, shadows: Sequence[RayLine]) -> list[Named]:
         """Where rays to a light leave the picture: which light they go to."""

@@ -1,7 +1,7 @@
 """One step of a figure that grows: which rays are there, and how far the colour has flowed back."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tracer.nodes import SHADOW
 from tracer.tree import RayTree
@@ -45,3 +45,13 @@ def by_colour(tree: RayTree) -> list[Stage]:
         Stage(tree, everything, frozenset(hits[: k + 1]), current=i, name=f"c{k + 1:0{digits}}")
         for k, i in enumerate(hits)
     ]
+
+
+def without_lights(stages: Sequence[Stage]) -> list[Stage]:
+    """The same without rays to lights; nor is there a page about one."""
+    found = []
+    for stage in stages:
+        shadows = {i for i in stage.rows if stage.tree.nodes["kind"][i] == SHADOW}
+        if stage.current not in shadows:
+            found.append(replace(stage, rows=stage.rows - shadows))
+    return found

@@ -20,7 +20,8 @@ from tracer.shapes.sphere import Sphere
 from viewer import lesson
 from viewer.figures.figure import Subject, Wishes, pages
 from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text, shares_within
-from viewer.figures.outlines import FINE, LEVEL, sharper, simpler, spots_of, straighter, too_fine
+from viewer.figures.outlines import FINE, spots_of, too_fine
+from viewer.figures.rings import sharper, simpler, straighter
 from viewer.figures.scenery import camera_of, scenery
 from viewer.figures.stage import by_depth
 from viewer.orbit import Frame, Orbit, home
@@ -271,15 +272,15 @@ def test_edges_are_straight_and_corners_sharp() -> None:
     for ((area,),) in zip(part.faces, strict=True):
         assert len(area.outline) == 4
         for x, y in area.outline:
-            # Two edges, each off by LEVEL at most, meet at no less than 60 degrees.
-            assert min(math.dist((x, y), place) for place in landings) < 2.0 * LEVEL
+            # Two edges, each off by a quarter of a point, the width of a ray, meet at no less than 45 degrees.
+            assert min(math.dist((x, y), place) for place in landings) < 0.7
 
 
 def test_round_outlines_stay_round() -> None:
     turn = np.linspace(0.0, 2.0 * math.pi, 400)[:-1]
     for radius in (3.0, 20.0, 200.0):
         ring = np.stack([radius * np.cos(turn), radius * np.sin(turn)], axis=1)
-        done = sharper(straighter(simpler(ring)))
+        done = sharper(straighter(simpler(ring)), ring)
         assert set(map(tuple, done)) == set(map(tuple, simpler(ring)))
         across = np.hypot(*done.T)
         assert np.abs(across - radius).max() < 1e-9
