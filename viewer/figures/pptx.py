@@ -96,7 +96,7 @@ class _Slide:
         _name(made, line.name, line.title)
         _ink(made.line, line.stroke)
         if line.arrow in HEADS:
-            made.line._get_or_add_ln().append(_element("tailEnd", type=HEADS[line.arrow], w="lg", len="lg"))
+            made.line._get_or_add_ln().append(_element("tailEnd", type=HEADS[line.arrow], w="lg", len="med"))
         if line.leaves in self.boxes:
             made.begin_connect(self.boxes[line.leaves], self._side(line.leaves, line.start))
         if line.reaches in self.boxes:
