@@ -21,7 +21,7 @@ CASES = {
     "several": (["render", "two-lights", "glass-ball", "-o", "new/", *BIG], r"two-lights \(1 of 2\) \d+ %", INT),
     "one tile": (["render", "glass-ball", "-o", "old.npy", *ENDLESS], r"render glass-ball \(\d s\)", TERM),
     "long file": (["trace", "long.nff", "--pixel", "1,1", "-o", "old.png"], r"load long.nff \d+ %, \d+ s left", INT),
-    "check": (["check"], r"check \d+ %, \d+ s left", TERM),
+    "measuring": (["plan", "glass-ball", "--measure"], r"measuring \d+ %, \d+ s left", TERM),
     "screenshot": (["view", "large.toml", "--screenshot", "old.png"], r"render the image \d+ %", INT),
     "screenshot, SIGTERM": (["view", "long.nff", "--screenshot", "old.png"], r"load the scene", TERM),
 }
