@@ -22,9 +22,10 @@ from tracer.jit import is_compiled
 from tracer.job import SMALL_TILE, TILE, Cancelled, Job, Remote, Traced, never, passes, trace_tiles
 from tracer.limits import MAX_NODES, make_limits
 from tracer.nodes import KINDS
+from tracer.sampler import SAMPLERS, SOBOL
 from tracer.scene import Material, Object, Scene
 from tracer.shapes.sphere import Sphere
-from tracer.tile import CENTER, Area, Samples, trace_area
+from tracer.tile import Area, make_samples, trace_area
 from tracer.tree import checked_size, trace
 from tracer.world import World, prepare
 
@@ -138,6 +139,7 @@ def render(
     tolerance: float | None = None,
     max_nodes: int = MAX_NODES,
     model: str | None = None,
+    sampler: str = SAMPLERS[SOBOL],
     executor: Executor | None = None,
     progress: Progress = lambda share: None,
     cancelled: Cancelled = never,
@@ -147,18 +149,18 @@ def render(
     Tiles go to an `executor` where one is given, `threads` calls at a time: any of `concurrent.futures`, or a cluster
     (`tracer.cluster`). The pixels are the same.
 
-    One sample is the pixel's centre; more are the mean of the sampler's first points. `progress` gets the finished
-    share, and where `cancelled` turns true, Stopped is raised within a tile's time. With a `tolerance` the rays that a
-    pixel lacks weigh no more than that in sum; the depth counts only if it is given.
+    One sample is the pixel's centre; more are the mean of the sampler's first points: Sobol's, or at random, or
+    jittered, whose number must be a square. `progress` gets the finished share, and where `cancelled` turns true,
+    Stopped is raised within a tile's time. With a `tolerance` the rays that a pixel lacks weigh no more than that in
+    sum; the depth counts only if it is given.
     """
-    if samples < 1:
-        raise ValueError(f"samples must be >= 1, got {samples}")
+    points = make_samples(samples, sampler)
     elsewhere = isinstance(executor, Remote)
     threads = threads or (executor.threads if elsewhere else processors())
     compiling = 0.0 if elsewhere else warm()
     view = world.view(checked_size(size))
     limits = make_limits(world, depth, min_weight, tolerance, max_nodes, model, records=False)
-    job = Job(world, view, limits, CENTER if samples == 1 else Samples(0, samples))
+    job = Job(world, view, limits, points)
     began = time.perf_counter()
     tiles = passes(view.width, view.height, side=TILE if tolerance is None else SMALL_TILE)
     with nullcontext(executor) if executor else ThreadPoolExecutor(threads) as pool:

@@ -4,6 +4,7 @@ An image is all its tiles; a click is the tile of one pixel, whose table is then
 pixel of a view that sees nothing else.
 """
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -21,7 +22,7 @@ from tracer.limits import Limits
 from tracer.nodes import CAMERA, KINDS, NODE, SHADOW
 from tracer.pairs import plus
 from tracer.rows import start_row
-from tracer.sampler import sample_offset
+from tracer.sampler import JITTERED, SAMPLERS, SOBOL, sample_offset
 from tracer.shadows import CROSSING, MOST_CROSSINGS
 from tracer.vector import Vector, add, store, vector
 
@@ -46,9 +47,26 @@ class Samples(NamedTuple):
 
     first: int
     count: int
+    sampler: int = SOBOL
+    side: int = 1  # of the grid that jittered points stand in
 
 
 CENTER = Samples(-1, 1)
+
+
+def make_samples(count: int, sampler: str = SAMPLERS[SOBOL], first: int = 0) -> Samples:
+    """`count` points of a sampler from number `first` on; one of Sobol's is the pixel's centre. Else a ValueError."""
+    if sampler not in SAMPLERS:
+        raise ValueError(f"sampler must be one of {', '.join(SAMPLERS)}, got {sampler!r}")
+    if count < 1:
+        raise ValueError(f"samples must be >= 1, got {count}")
+    side = math.isqrt(count)
+    if sampler == SAMPLERS[JITTERED] and side * side != count:
+        raise ValueError(f"jittered samples must be a square number like {side * side or 1}, got {count}")
+    if count == 1 and sampler == SAMPLERS[SOBOL]:
+        return CENTER
+    return Samples(first, count, SAMPLERS.index(sampler), side)
+
 
 # Rays of a kind, after which the kernel comes back within a tile, so that it can be stopped: some tenths of a second.
 ENOUGH = 2**20
@@ -188,7 +206,7 @@ def trace_pixel(
     for k in range(samples.count):
         direction = gaze
         if samples.first >= 0:
-            dx, dy = sample_offset(x, y, samples.first + k)
+            dx, dy = sample_offset(x, y, samples.first + k, samples.sampler, samples.side)
             direction = pixel_direction(view, x + dx, y + dy)
         row = start_row(limits, table, 0, -1, CAMERA, 0, (1.0, 1.0, 1.0), (1.0, 1.0, 1.0))
         store(row.origin, view.eye)

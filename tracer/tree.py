@@ -22,8 +22,9 @@ from tracer.limits import MAX_NODES, MODELS, make_limits
 from tracer.media import WORD
 from tracer.nodes import BLOCKED, ENDS, KINDS, PUBLIC, SHADOW, SURFACE
 from tracer.outline import digits_left, outline
+from tracer.sampler import SAMPLERS, SOBOL
 from tracer.scene import Scene
-from tracer.tile import CENTER, Area, Samples, Workspace, eye_view, run
+from tracer.tile import CENTER, Area, Workspace, eye_view, make_samples, run
 from tracer.vector import Vector, tame, unit
 from tracer.world import World
 
@@ -208,13 +209,15 @@ def trace(
     tolerance: float | None = None,
     max_nodes: int = MAX_NODES,
     model: str | None = None,
+    sampler: str = SAMPLERS[SOBOL],
+    samples: int | None = None,
 ) -> RayTree:
     """The tree behind a pixel of the image (counted from the top left), or of a ray (origin, direction).
 
     `size` (width, height) is the scene's by default, `depth` and `model` too; `sample` is the number of one point of
-    the pixel's sampler, its centre by default. With a `tolerance` the heaviest rays are followed first, to any depth
-    but one that is given, until those left weigh no more than that in sum, or `max_nodes` rays have been traced.
-    ValueError for a pixel outside the image or a ray without a direction.
+    the pixel's sampler (of `samples`, which only jittered points ask for), its centre by default. With a `tolerance`
+    the heaviest rays are followed first, to any depth but one that is given, until those left weigh no more than that in
+    sum, or `max_nodes` rays have been traced. ValueError for a pixel outside the image or a ray without a direction.
     """
     if (pixel is None) == (ray is None):
         raise ValueError("either a pixel or a ray is traced: give one of them")
@@ -230,11 +233,11 @@ def trace(
         assert ray is not None
         x, y = 0, 0
         view = _ray_view(*ray)
-    samples = CENTER if sample is None else Samples(sample, 1)
+    points = CENTER if sample is None else make_samples(samples or sample + 1, sampler)._replace(first=sample, count=1)
     workspace = Workspace(words(world))
     pixels = np.zeros((0, 0, 3))  # the colour stands in the table
     area = Area(x, y, x + 1, y + 1, 1, 0)
-    run(world.arrays, view, limits, samples, area, solids_at(world, view.eye), pixels, workspace)
+    run(world.arrays, view, limits, points, area, solids_at(world, view.eye), pixels, workspace)
     space = workspace.arrays
     count = int(space.tree[0])
     errors_of(world.arrays, space.table.view(np.recarray), count)

@@ -112,6 +112,12 @@ def make_parser() -> Parser:
     _add_limits(render)
     render.add_argument("--size", type=pair("x"), metavar="WxH", help="of the image, the scene's own by default")
     render.add_argument("--samples", type=at_least(1), default=1, metavar="N", help="a pixel; 1 is its centre")
+    render.add_argument(
+        "--sampler",
+        choices=("sobol", "random", "jittered"),
+        default="sobol",
+        help="where they lie; jittered: N is a square",
+    )
     where = render.add_mutually_exclusive_group()
     where.add_argument("--threads", type=at_least(1), metavar="N", help="as many as processors by default")
     where.add_argument("--dask", metavar="tcp://HOST:PORT", help="trace on the Dask cluster of this scheduler")

@@ -113,6 +113,7 @@ def render_one(
             min_weight=options.min_weight,
             tolerance=options.tolerance,
             model=options.model,
+            sampler=options.sampler,
             executor=executor,
             progress=share,
         )
