@@ -216,8 +216,8 @@ def trace(
 
     `size` (width, height) is the scene's by default, `depth` and `model` too; `sample` is the number of one point of
     the pixel's sampler (of `samples`, which only jittered points ask for), its centre by default. With a `tolerance`
-    the heaviest rays are followed first, to any depth but one that is given, until those left weigh no more than that in
-    sum, or `max_nodes` rays have been traced. ValueError for a pixel outside the image or a ray without a direction.
+    the heaviest rays are followed first, to any depth but one that is given, until those left weigh no more than that
+    in sum, or `max_nodes` rays have been traced. ValueError for a pixel outside the image or a ray without a direction.
     """
     if (pixel is None) == (ray is None):
         raise ValueError("either a pixel or a ray is traced: give one of them")

@@ -14,7 +14,7 @@ from typing import Any, NoReturn
 from viewer.arguments import at_least, depths, listed, pair, pixels, ray_name, share, six, text_size, view_from, weight
 from viewer.interrupt import Interrupted, interruptible
 
-COMMANDS = ("view", "trace", "render", "export", "plan", "check", "lessons")
+COMMANDS = ("view", "trace", "render", "export", "report", "plan", "check", "lessons")
 FORMATS = ("text", "json", "csv", "dot")
 FIGURES = ("tree", "scene", "both", "hit")
 FILES = ("svg", "pdf", "png", "tikz", "pptx", "dot", "csv", "json", "text")
@@ -162,6 +162,14 @@ def make_parser() -> Parser:
     export.add_argument(
         "-o", "--output", required=True, metavar="FILE|FOLDER/", help="names in a folder: SCENE_X_Y_FIGURE_dD.EXT"
     )
+
+    report = commands.add_parser("report", help="error against run time, for each source of error")
+    report.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+    report.add_argument(
+        "--size", type=pair("x"), metavar="WxH", help="of its images; some 240 pixels across by default"
+    )
+    report.add_argument("--quick", action="store_true", help="fewer settings on smaller images: under a minute")
+    report.add_argument("-o", "--output", required=True, metavar="FOLDER", help="for the page, its plots and its data")
 
     plan = commands.add_parser("plan", help="what a scene needs of the tracer, and what is left out")
     plan.add_argument("scene", metavar="SCENE", help=SCENE_HELP)

@@ -64,6 +64,12 @@ def export(options: Namespace) -> int:
     return export(options)
 
 
+def report(options: Namespace) -> int:
+    from viewer.report.command import report
+
+    return report(options)
+
+
 def plan(options: Namespace) -> int:
     from viewer import plantable
 

@@ -1,0 +1,118 @@
+"""Work and precision: what an image costs at each setting of a method, and how far it is from the truth.
+
+The protocol is that of SciML's work-precision diagrams: a curve a method, a marker a setting, both axes logarithmic,
+lower left is better. Time is the least of several runs once everything is warm, for others only add to it; what is an
+error is worked out when the clock has stopped. What fails is listed, not dropped.
+"""
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracer.measure.errors import Errors, errors
+from tracer.render import Image
+
+ENOUGH = 2.0  # seconds: a run so long is taken once
+RUNS = 5  # else so many, or as many as there is time for
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One marker of a method: how the image is made."""
+
+    label: str  # "depth 2"
+    value: float  # what the method turns: a depth, a number of samples
+    make: Callable[[], Image]
+
+
+@dataclass(frozen=True)
+class Method:
+    """`slope` is what theory has of its error against `value`, as a power; None where it has nothing simple to say."""
+
+    name: str
+    settings: Sequence[Setting]
+    slope: float | None = None
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The image that is taken for the truth: how it was made, and how far a second way of making it is from it."""
+
+    pixels: np.ndarray
+    how: str
+    own: Errors
+
+
+@dataclass(frozen=True)
+class Point:
+    """A setting as it was measured. `bound`: what the program itself says is missing at most, of any component."""
+
+    label: str
+    value: float
+    seconds: float
+    rays: int
+    errors: Errors
+    bound: float
+
+
+@dataclass(frozen=True)
+class Curve:
+    method: str
+    points: tuple[Point, ...]
+    slope: float | None  # theory's
+    fitted: float | None  # measured: of RMSE against value, where the reference is still far better
+
+
+@dataclass(frozen=True)
+class Source:
+    """One source of error by itself, or several together."""
+
+    name: str
+    title: str
+    about: str
+    reference: Reference
+    curves: tuple[Curve, ...]
+    failures: tuple[str, ...] = ()
+
+
+def measured(method: Method, reference: Reference, done: Callable[[], None]) -> tuple[Curve, list[str]]:
+    """The method's curve, and what failed of it. `done` is told of every setting."""
+    points, failures = [], []
+    for setting in method.settings:
+        try:
+            points.append(_point(setting, reference))
+        except (ValueError, MemoryError) as error:
+            failures.append(f"{method.name}, {setting.label}: {error}")
+        done()
+    for point in points:
+        if not math.isfinite(point.errors.rmse):
+            failures.append(f"{method.name}, {point.label}: its image has pixels that are no numbers")
+    return Curve(
+        method.name, tuple(points), method.slope, fitted(points, reference) if method.slope else None
+    ), failures
+
+
+def _point(setting: Setting, reference: Reference) -> Point:
+    setting.make()  # warm
+    least, spent, image = math.inf, 0.0, None
+    for _ in range(RUNS):
+        began = time.perf_counter()
+        image = setting.make()
+        took = time.perf_counter() - began
+        least, spent = min(least, took), spent + took
+        if spent > ENOUGH:
+            break
+    assert image
+    off = errors(image.pixels, reference.pixels)
+    return Point(setting.label, setting.value, least, sum(image.rays.values()), off, image.bound)
+
+
+def fitted(points: Sequence[Point], reference: Reference) -> float | None:
+    """The power of `value` that RMSE falls with; of points whose error the reference's own does not blur."""
+    clear = [p for p in points if p.errors.rmse > 4.0 * reference.own.rmse and p.value > 1.0]
+    if len(clear) < 3:
+        return None
+    return float(np.polyfit([math.log(p.value) for p in clear], [math.log(p.errors.rmse) for p in clear], 1)[0])

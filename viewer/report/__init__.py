@@ -1,0 +1,1 @@
+"""The report: an image's error against the time it takes, as a page, plots and data."""

@@ -1,0 +1,64 @@
+"""The report's figures for programs: JSON, and a CSV with a line a marker."""
+
+import csv
+import io
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from typing import Any
+
+from tracer.measure.errors import MEASURES
+from tracer.measure.precision import Source
+
+FORMAT = "raytree-report/1"
+HEAD = ("source", "method", "setting", "value", "seconds", "rays", *MEASURES, "bound")
+
+
+def as_csv(sources: Sequence[Source]) -> bytes:
+    """What is not known, or bounded by nothing, is empty."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(HEAD)
+    for source in sources:
+        for curve in source.curves:
+            for p in curve.points:
+                figures = (p.seconds, p.rays, *(getattr(p.errors, name) for name in MEASURES), p.bound)
+                writer.writerow((source.name, curve.method, p.label, p.value, *map(_finite, figures)))
+    return text.getvalue().encode("utf-8")
+
+
+def as_json(
+    scene: str, size: tuple[int, int], sources: Sequence[Source], left_out: Sequence[str], about: Mapping[str, str]
+) -> bytes:
+    document = {
+        "format": FORMAT,
+        "scene": scene,
+        "size": list(size),
+        "sources": [_source(source) for source in sources],
+        "left_out": list(left_out),
+        "machine": dict(about),
+    }
+    return (json.dumps(_plain(document), indent=1, allow_nan=False) + "\n").encode("utf-8")
+
+
+def _source(source: Source) -> dict[str, Any]:
+    reference = {"how": source.reference.how, "own": asdict(source.reference.own)}
+    curves = [asdict(curve) for curve in source.curves]
+    return {"name": source.name, "reference": reference, "curves": curves, "failures": list(source.failures)}
+
+
+def _finite(number: float) -> Any:
+    return number if math.isfinite(number) else ""
+
+
+def _plain(value: Any) -> Any:
+    """JSON knows no infinity: null stands for it."""
+    match value:
+        case dict():
+            return {key: _plain(item) for key, item in value.items()}
+        case list() | tuple():
+            return [_plain(item) for item in value]
+        case float() if not math.isfinite(value):
+            return None
+    return value

@@ -1,0 +1,109 @@
+"""The report as one page that needs nothing else: plots in it, tables beside them, machine and versions at its end."""
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from html import escape
+
+from tracer.measure.precision import Curve, Point, Source
+
+STYLE = """
+body { font: 16px/1.45 "DejaVu Sans", Verdana, sans-serif; color: #14181d; max-width: 66em; margin: 2em auto;
+  padding: 0 1em; }
+h1 { font-size: 1.6em } h2 { font-size: 1.25em; margin-top: 2em }
+.plots { display: flex; flex-wrap: wrap; gap: 1em } .plots svg { flex: 1 1 26em; max-width: 32em; height: auto }
+table { border-collapse: collapse; font-size: 0.85em; margin: 1em 0; font-variant-numeric: tabular-nums }
+th, td { padding: 0.15em 0.7em; text-align: right; border-bottom: 1px solid #d6dbe1 }
+th:first-child, td:first-child, th:nth-child(2), td:nth-child(2) { text-align: left }
+.small { color: #5a6572; font-size: 0.9em }
+@media print { body { max-width: none; font-size: 11px } section { break-inside: avoid-page } }
+"""
+HEAD = ("method", "setting", "time", "rays", "RMSE", "MRSE", "largest", "FLIP", "bound")
+
+
+def as_html(
+    title: str,
+    command: str,
+    sources: Sequence[Source],
+    plots: Mapping[str, Sequence[bytes]],
+    left_out: Sequence[str],
+    about: Mapping[str, str],
+) -> bytes:
+    """`plots`: of each source's name, its plots as SVG."""
+    body = [f"<h1>Error against run time: {escape(title)}</h1>", f'<p class="small">{escape(command)}</p>']
+    body.append(f"<p>{escape(INTRODUCTION)}</p>")
+    for source in sources:
+        body += _section(source, plots[source.name])
+    failures = [line for source in sources for line in source.failures]
+    body += _list("What failed", failures or ["nothing"])
+    body += _list("Left out", left_out)
+    body += _list("Machine", [f"{name}: {value}" for name, value in about.items()])
+    page = ["<!doctype html>", '<html lang="en">', "<head>", '<meta charset="utf-8">']
+    page += [f"<title>Error against run time: {escape(title)}</title>", f"<style>{STYLE}</style>", "</head>", "<body>"]
+    return "\n".join([*page, *body, "</body>", "</html>", ""]).encode("utf-8")
+
+
+INTRODUCTION = (
+    "Each curve is a method, each marker a setting of it; lower left is better. Time is the least of several runs once "
+    "everything is warm; working out an error is not timed. RMSE is in linear light, 1 is white; MRSE is relative to "
+    "the pixel (pbrt's definition); FLIP is the difference a person sees who flips between the two images."
+)
+
+
+def _section(source: Source, plots: Sequence[bytes]) -> list[str]:
+    own = source.reference.own
+    judged = (
+        f"Judged against: {source.reference.how}; the two differ by {own.rmse:.1e} (RMSE), {own.largest:.1e} at most."
+    )
+    drawings = [_inline(plot, f"{source.name}{k}") for k, plot in enumerate(plots)]
+    return [
+        f'<section id="{source.name}">',
+        f"<h2>{escape(source.title)}</h2>",
+        f"<p>{escape(source.about)}</p>",
+        f'<p class="small">{escape(judged)}</p>',
+        '<div class="plots">',
+        *drawings,
+        "</div>",
+        *_slopes(source.curves),
+        *_table(source.curves),
+        "</section>",
+    ]
+
+
+def _inline(plot: bytes, name: str) -> str:
+    """An SVG as a part of the page: without its head, its names made its own."""
+    text = plot.decode("utf-8")
+    text = text[text.index("<svg") :]
+    return re.sub(r'(id="|url\(#|href="#)', rf"\g<1>{name}-", text)
+
+
+def _slopes(curves: Sequence[Curve]) -> list[str]:
+    lines = [
+        f"{curve.method}: error falls as N^{curve.fitted:.2f}; theory has N^{curve.slope:g} for edges"
+        for curve in curves
+        if curve.slope is not None and curve.fitted is not None
+    ]
+    return [f"<p>{escape('. '.join(lines))}.</p>"] if lines else []
+
+
+def _table(curves: Sequence[Curve]) -> list[str]:
+    rows = [f"<tr><td>{escape(curve.method)}</td>{_cells(p)}</tr>" for curve in curves for p in curve.points]
+    head = "".join(f"<th>{name}</th>" for name in HEAD)
+    return ["<table>", f"<thead><tr>{head}</tr></thead>", "<tbody>", *rows, "</tbody>", "</table>"]
+
+
+def _cells(p: Point) -> str:
+    e = p.errors
+    figures = (e.rmse, e.mrse, e.largest, e.flip, p.bound)
+    cells = (escape(p.label), f"{1e3 * p.seconds:.3g} ms", f"{p.rays}", *map(_figure, figures))
+    return "".join(f"<td>{cell}</td>" for cell in cells)
+
+
+def _figure(number: float) -> str:
+    if math.isnan(number):
+        return "–"
+    return "none" if math.isinf(number) else f"{number:.2e}" if number else "0"
+
+
+def _list(title: str, lines: Sequence[str]) -> list[str]:
+    return [f"<h2>{title}</h2>", "<ul>", *(f"<li>{escape(line)}</li>" for line in lines), "</ul>"]

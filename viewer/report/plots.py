@@ -1,0 +1,112 @@
+"""Error against work as plots: a curve a method, a marker a setting, both axes logarithmic, lower left is better.
+
+Curves differ in marker and dash as well as in colour; what they are called stands under the plot, never over it. What
+the program itself says is missing at most is a hollow marker of the same form.
+"""
+
+import io
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from tracer.measure.errors import MEASURES
+from tracer.measure.precision import Curve, Point, Source
+
+LOOKS = (("#0072B2", "o", "-"), ("#B35C00", "s", "--"), ("#11723F", "^", "-."), ("#5A5A5A", "D", ":"))
+INK, GRID = "#14181D", "#D6DBE1"
+WORK: dict[str, tuple[str, Callable[[Point], float]]] = {
+    "seconds": ("time (s)", lambda point: point.seconds),
+    "rays": ("rays traced", lambda point: float(point.rays)),
+}
+FORMATS = ("svg", "pdf")
+FEW = 30.0  # an axis that reaches no farther has marks at 2 and 5, too
+
+
+def plot(source: Source, work: str, measure: str) -> dict[str, bytes]:
+    """One plot in every format: the measure's error against seconds or rays."""
+    import matplotlib as mpl  # pyright: ignore[reportMissingImports]
+    from matplotlib.figure import Figure  # pyright: ignore[reportMissingImports]
+
+    settings: Any = {"font.size": 11, "font.family": "DejaVu Sans", "svg.hashsalt": "raytree"}
+    with mpl.rc_context(settings | {"svg.fonttype": "none", "pdf.fonttype": 42, "figure.dpi": 72}):
+        canvas = Figure(figsize=(6.4, 4.6), layout="constrained", facecolor="white")
+        _draw(canvas.subplots(), source, work, measure)
+        canvas.legend(loc="outside lower center", ncols=2, frameon=False)
+        return {name: _saved(canvas, name) for name in FORMATS}
+
+
+def _saved(canvas: Any, name: str) -> bytes:
+    content = io.BytesIO()
+    canvas.savefig(content, format=name, metadata={"Date": None} if name == "svg" else {"CreationDate": None})
+    return content.getvalue()
+
+
+def _draw(axes: Any, source: Source, work: str, measure: str) -> None:
+    from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
+
+    label, cost = WORK[work]
+    ends: list[tuple[str, float, float]] = []
+    for curve, (color, marker, dash) in zip(source.curves, LOOKS, strict=False):
+        points = drawable(curve, measure)
+        if not points:
+            continue
+        x, y = [cost(p) for p in points], [error_of(p, measure) for p in points]
+        axes.plot(x, y, color=color, marker=marker, linestyle=dash, linewidth=1.8, markersize=6, label=name_of(curve))
+        ends += [(points[k].label, x[k], y[k]) for k in sorted({0, len(points) - 1})]
+        bounds = [(cost(p), p.bound) for p in points if 0.0 < p.bound < math.inf]
+        if measure == "largest" and bounds:
+            axes.plot(
+                *zip(*bounds, strict=True), color=color, marker=marker, markerfacecolor="white", linestyle="none",
+                markersize=8, label=f"{curve.method}: its bound",
+            )  # fmt: skip
+    own = getattr(source.reference.own, measure)
+    if own > 0.0:
+        axes.axhline(own, color=INK, linewidth=1.0, linestyle=(0, (1, 3)), label="the reference's own error")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel(label)
+    axes.set_ylabel(f"{MEASURES[measure]}" + ("" if measure == "flip" else " (linear light)"))
+    axes.grid(which="major", color=GRID)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.margins(0.14, 0.1)
+    for reach, locator in ((axes.get_xlim(), axes.xaxis), (axes.get_ylim(), axes.yaxis)):
+        few = reach[1] / reach[0] < FEW
+        locator.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,), numticks=12))
+        locator.set_major_formatter(LogFormatterSciNotation(labelOnlyBase=False))
+        locator.set_minor_formatter(NullFormatter())
+    _say(axes, ends)
+
+
+def _say(axes: Any, ends: Sequence[tuple[str, float, float]]) -> None:
+    """What the first and the last marker of each curve are, each beside its marker and over none before it."""
+    taken: list[tuple[float, float, float, float]] = []
+    for label, x, y in ends:
+        at_x, at_y = axes.transData.transform((x, y))
+        wide, high = 6.0 * len(label), 12.0
+        for right, up in ((True, 6), (True, -15), (False, 6), (False, -15), (True, 19), (False, 19)):
+            left = at_x + 6.0 if right else at_x - 6.0 - wide
+            box = (left, at_y + up, left + wide, at_y + up + high)
+            if not any(box[0] < b[2] and b[0] < box[2] and box[1] < b[3] and b[1] < box[3] for b in taken):
+                taken.append(box)
+                side = "left" if right else "right"
+                axes.annotate(
+                    label, (x, y), textcoords="offset points", xytext=(6 if right else -6, up), ha=side, fontsize=9,
+                    color=INK,
+                )  # fmt: skip
+                break
+
+
+def drawable(curve: Curve, measure: str) -> Sequence[Point]:
+    """An error of 0 has no place on a logarithmic axis."""
+    return [p for p in curve.points if 0.0 < error_of(p, measure) < math.inf]
+
+
+def error_of(point: Point, measure: str) -> float:
+    return float(getattr(point.errors, measure))
+
+
+def name_of(curve: Curve) -> str:
+    """With the slope that was measured, beside theory's."""
+    if curve.slope is None or curve.fitted is None:
+        return curve.method
+    return f"{curve.method}: N^{curve.fitted:.2f} (theory {curve.slope:g})"
