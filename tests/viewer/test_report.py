@@ -37,6 +37,7 @@ def test_page_needs_nothing_else(folder: Path) -> None:
     names = re.findall(r'\bid="([^"]+)"', page)
     assert len(names) == len(set(names))
     assert {link[1:] for link in links} <= set(names)
+    assert page.count("16x12 pixels") == 3
     for words in ("Trees that are cut", "Pixels that are sampled", "Both together", "What failed", "numba"):
         assert words in page
 

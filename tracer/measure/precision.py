@@ -76,6 +76,12 @@ class Source:
     reference: Reference
     curves: tuple[Curve, ...]
     failures: tuple[str, ...] = ()
+    bounded: bool = False  # whether the program's own bound is one on this error
+
+    @property
+    def size(self) -> tuple[int, int]:
+        height, width, _ = self.reference.pixels.shape
+        return (width, height)
 
 
 def measured(method: Method, reference: Reference, done: Callable[[], None]) -> tuple[Curve, list[str]]:

@@ -6,8 +6,10 @@ many of another sampler. Together: both, each setting finer in both.
 """
 
 import math
+import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from tracer.measure.errors import errors
 from tracer.measure.precision import Method, Reference, Setting, Source, measured
@@ -15,6 +17,8 @@ from tracer.render import Image, render
 from tracer.scene import Scene
 from tracer.world import World
 
+PATIENCE = 6.0  # seconds that an image taken for true may take
+PROBE = 12  # pixels across, of the image that tells how long others take
 DEEP = 1000  # levels: where it is a weight that cuts, no depth does
 TRUE = 1e-9  # of the weight, that the trees taken for true lack at most
 MOST_NODES = 20_000  # rays of them, where weights hardly fall
@@ -52,8 +56,23 @@ def _branches(scene: Scene) -> bool:
     return any(item.material.reflect > 0.0 or item.material.transmit > 0.0 for item in scene.objects)
 
 
-def sources(world: World, size: Size, effort: Effort, progress: Progress = lambda share: None) -> list[Source]:
-    """Every source of error that this scene has, measured on images of that size; `progress` gets the share done."""
+def affordable(world: World, size: Size, **how: Any) -> Size:
+    """This size, or a smaller one of that shape, so that such an image takes no longer than PATIENCE."""
+    probe = (min(size[0], PROBE), max(1, min(size[0], PROBE) * size[1] // size[0]))
+    began = time.perf_counter()
+    render(world, probe, **how)
+    each = (time.perf_counter() - began) / (probe[0] * probe[1])
+    share = min(1.0, math.sqrt(PATIENCE / (each * size[0] * size[1])))
+    return max(1, round(share * size[0])), max(1, round(share * size[1]))
+
+
+def sources(
+    world: World, size: Size, effort: Effort, progress: Progress = lambda share: None, smaller: bool = False
+) -> list[Source]:
+    """Every source of error that this scene has, measured on images of that size; `progress` gets the share done.
+
+    `smaller`: where what is taken for true would take too long, images are smaller.
+    """
     makers = [_trees, _pixels, _together] if _branches(world.scene) else [_pixels]
     total = sum(_settings(effort, maker) for maker in makers)
     done = 0
@@ -63,7 +82,18 @@ def sources(world: World, size: Size, effort: Effort, progress: Progress = lambd
         done += 1
         progress(done / total)
 
-    return [maker(world, size, effort, step) for maker in makers]
+    found = []
+    for maker in makers:
+        how = _true(maker, effort)
+        found.append(maker(world, affordable(world, size, **how) if smaller else size, effort, step))
+    return found
+
+
+def _true(maker: object, effort: Effort) -> dict[str, Any]:
+    """How the image is made that a source's are judged against."""
+    if maker is _trees:
+        return {"tolerance": TRUE, "max_nodes": MOST_NODES}
+    return {"samples": effort.true_samples} | ({"depth": max(effort.depths)} if maker is _together else {})
 
 
 def _settings(effort: Effort, maker: object) -> int:
@@ -75,9 +105,10 @@ def _settings(effort: Effort, maker: object) -> int:
 def _measure(
     name: str, title: str, about: str, methods: Sequence[Method], reference: Reference, step: Callable[[], None]
 ) -> Source:
+    """Where pixels are sampled a bound on what trees lack says nothing of the error."""
     pairs = [measured(method, reference, step) for method in methods]
     failures = tuple(line for _, lines in pairs for line in lines)
-    return Source(name, title, about, reference, tuple(curve for curve, _ in pairs), failures)
+    return Source(name, title, about, reference, tuple(curve for curve, _ in pairs), failures, bounded=name == "trees")
 
 
 # --- trees that are cut -----------------------------------------------------------------------------------------------

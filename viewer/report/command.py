@@ -26,9 +26,10 @@ def report(options: Namespace) -> int:
     compile_once()
     with faults():
         world = prepared(path)
-        size = options.size or own_size(world, QUICK_ACROSS if options.quick else ACROSS)
+        effort = QUICK if options.quick else FULL
         with Progress("report") as progress:
-            found = sources(world, size, QUICK if options.quick else FULL, progress)
+            size = options.size or own_size(world, QUICK_ACROSS if options.quick else ACROSS)
+            found = sources(world, size, effort, progress, smaller=options.size is None)
     missing = left_out(world.scene)
     about = machine()
     title = world.scene.title or (lesson.name if lesson else path.name)
@@ -43,9 +44,9 @@ def report(options: Namespace) -> int:
                 written.append(folder / f"{source.name}-{measure}-{work}.{kind}")
                 write_atomically(written[-1], made[kind])
     pages = {
-        "report.html": as_html(f"{title}, {size[0]}x{size[1]}", command(options), found, drawn, missing, about),
+        "report.html": as_html(title, command(options), found, drawn, missing, about),
         "report.csv": as_csv(found),
-        "report.json": as_json(title, size, found, missing, about),
+        "report.json": as_json(title, found, missing, about),
     }
     for name, content in pages.items():
         write_atomically(folder / name, content)

@@ -28,13 +28,10 @@ def as_csv(sources: Sequence[Source]) -> bytes:
     return text.getvalue().encode("utf-8")
 
 
-def as_json(
-    scene: str, size: tuple[int, int], sources: Sequence[Source], left_out: Sequence[str], about: Mapping[str, str]
-) -> bytes:
+def as_json(scene: str, sources: Sequence[Source], left_out: Sequence[str], about: Mapping[str, str]) -> bytes:
     document = {
         "format": FORMAT,
         "scene": scene,
-        "size": list(size),
         "sources": [_source(source) for source in sources],
         "left_out": list(left_out),
         "machine": dict(about),
@@ -45,7 +42,13 @@ def as_json(
 def _source(source: Source) -> dict[str, Any]:
     reference = {"how": source.reference.how, "own": asdict(source.reference.own)}
     curves = [asdict(curve) for curve in source.curves]
-    return {"name": source.name, "reference": reference, "curves": curves, "failures": list(source.failures)}
+    return {
+        "name": source.name,
+        "size": list(source.size),
+        "reference": reference,
+        "curves": curves,
+        "failures": list(source.failures),
+    }
 
 
 def _finite(number: float) -> Any:

@@ -53,7 +53,8 @@ INTRODUCTION = (
 def _section(source: Source, plots: Sequence[bytes]) -> list[str]:
     own = source.reference.own
     judged = (
-        f"Judged against: {source.reference.how}; the two differ by {own.rmse:.1e} (RMSE), {own.largest:.1e} at most."
+        f"{source.size[0]}x{source.size[1]} pixels. Judged against: {source.reference.how}; the two differ by "
+        f"{own.rmse:.1e} (RMSE), {own.largest:.1e} at most."
     )
     drawings = [_inline(plot, f"{source.name}{k}") for k, plot in enumerate(plots)]
     return [
@@ -65,7 +66,7 @@ def _section(source: Source, plots: Sequence[bytes]) -> list[str]:
         *drawings,
         "</div>",
         *_slopes(source.curves),
-        *_table(source.curves),
+        *_table(source),
         "</section>",
     ]
 
@@ -86,8 +87,8 @@ def _slopes(curves: Sequence[Curve]) -> list[str]:
     return [f"<p>{escape('. '.join(lines))}.</p>"] if lines else []
 
 
-def _table(curves: Sequence[Curve]) -> list[str]:
-    rows = [f"<tr><td>{escape(curve.method)}</td>{_cells(p)}</tr>" for curve in curves for p in curve.points]
+def _table(source: Source) -> list[str]:
+    rows = [f"<tr><td>{escape(curve.method)}</td>{_cells(p)}</tr>" for curve in source.curves for p in curve.points]
     head = "".join(f"<th>{name}</th>" for name in HEAD)
     return ["<table>", f"<thead><tr>{head}</tr></thead>", "<tbody>", *rows, "</tbody>", "</table>"]
 

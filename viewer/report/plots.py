@@ -19,6 +19,7 @@ WORK: dict[str, tuple[str, Callable[[Point], float]]] = {
     "rays": ("rays traced", lambda point: float(point.rays)),
 }
 FORMATS = ("svg", "pdf")
+WORDY = 26  # letters of a method's name, beside which there is no room for another
 FEW = 30.0  # an axis that reaches no farther has marks at 2 and 5, too
 
 
@@ -31,7 +32,8 @@ def plot(source: Source, work: str, measure: str) -> dict[str, bytes]:
     with mpl.rc_context(settings | {"svg.fonttype": "none", "pdf.fonttype": 42, "figure.dpi": 72}):
         canvas = Figure(figsize=(6.4, 4.6), layout="constrained", facecolor="white")
         _draw(canvas.subplots(), source, work, measure)
-        canvas.legend(loc="outside lower center", ncols=2, frameon=False)
+        names = [name_of(curve) for curve in source.curves]
+        canvas.legend(loc="outside lower center", ncols=1 if max(map(len, names)) > WORDY else 2, frameon=False)
         return {name: _saved(canvas, name) for name in FORMATS}
 
 
@@ -54,7 +56,7 @@ def _draw(axes: Any, source: Source, work: str, measure: str) -> None:
         axes.plot(x, y, color=color, marker=marker, linestyle=dash, linewidth=1.8, markersize=6, label=name_of(curve))
         ends += [(points[k].label, x[k], y[k]) for k in sorted({0, len(points) - 1})]
         bounds = [(cost(p), p.bound) for p in points if 0.0 < p.bound < math.inf]
-        if measure == "largest" and bounds:
+        if source.bounded and measure == "largest" and bounds:
             axes.plot(
                 *zip(*bounds, strict=True), color=color, marker=marker, markerfacecolor="white", linestyle="none",
                 markersize=8, label=f"{curve.method}: its bound",
