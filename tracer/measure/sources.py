@@ -142,6 +142,10 @@ def _trees(world: World, size: Size, effort: Effort, step: Callable[[], None]) -
     return _measure("trees", "Trees that are cut", about, methods, reference, step)
 
 
+def _many(samples: int) -> str:
+    return f"{samples} sample{'s' if samples > 1 else ''}"
+
+
 def _bounded(bound: float) -> str:
     return f"at most {bound:.1e}" if math.isfinite(bound) else "bounded by nothing, for light may add up without end"
 
@@ -167,7 +171,7 @@ def _pixels(world: World, size: Size, effort: Effort, step: Callable[[], None]) 
     kinds = (("at random", "random", -0.5), ("jittered", "jittered", -0.75), ("evenly (Sobol)", "sobol", -0.75))
     methods = []
     for label, sampler, slope in kinds:
-        settings = [Setting(f"{n} samples", n, _made(world, size, n, sampler=sampler)) for n in effort.samples]
+        settings = [Setting(_many(n), n, _made(world, size, n, sampler=sampler)) for n in effort.samples]
         methods.append(Method(label, settings, slope))
     about = (
         "What the mean of a pixel's samples is off. Where a pixel has an edge in it, theory has N^-1/2 for samples at "
@@ -185,7 +189,7 @@ def _together(world: World, size: Size, effort: Effort, step: Callable[[], None]
     how = f"{effort.true_samples} samples a pixel (Sobol's) at depth {deep}. The second way is as many, jittered"
     reference = Reference(even.pixels, how, errors(jittered.pixels, even.pixels))
     settings = [
-        Setting(f"depth {d}, {n} samples", n, _made(world, size, n, depth=d))
+        Setting(f"depth {d}, {_many(n)}", n, _made(world, size, n, depth=d))
         for d, n in zip((1, 2, 3, 4, 6), effort.samples, strict=False)
     ]
     about = "What an image is off that is cut and sampled: finer in both from marker to marker."

@@ -19,6 +19,7 @@ WORK: dict[str, tuple[str, Callable[[Point], float]]] = {
     "rays": ("rays traced", lambda point: float(point.rays)),
 }
 FORMATS = ("svg", "pdf")
+SAME = 40.0  # points: of markers so close one name is enough, if they share it
 WORDY = 26  # letters of a method's name, beside which there is no room for another
 FEW = 30.0  # an axis that reaches no farther has marks at 2 and 5, too
 
@@ -82,8 +83,12 @@ def _draw(axes: Any, source: Source, work: str, measure: str) -> None:
 def _say(axes: Any, ends: Sequence[tuple[str, float, float]]) -> None:
     """What the first and the last marker of each curve are, each beside its marker and over none before it."""
     taken: list[tuple[float, float, float, float]] = []
+    said: list[tuple[str, float, float]] = []
     for label, x, y in ends:
         at_x, at_y = axes.transData.transform((x, y))
+        if any(label == name and math.dist((at_x, at_y), at) < SAME for name, *at in said):
+            continue
+        said.append((label, at_x, at_y))
         wide, high = 6.0 * len(label), 12.0
         for right, up in ((True, 6), (True, -15), (False, 6), (False, -15), (True, 19), (False, 19)):
             left = at_x + 6.0 if right else at_x - 6.0 - wide
