@@ -54,8 +54,8 @@ class Samples(NamedTuple):
 CENTER = Samples(-1, 1)
 
 
-def make_samples(count: int, sampler: str = SAMPLERS[SOBOL], first: int = 0) -> Samples:
-    """`count` points of a sampler from number `first` on; one of Sobol's is the pixel's centre. Else a ValueError."""
+def make_samples(count: int, sampler: str = SAMPLERS[SOBOL]) -> Samples:
+    """The first `count` points of a sampler; one of Sobol's is the pixel's centre. ValueError for what can be none."""
     if sampler not in SAMPLERS:
         raise ValueError(f"sampler must be one of {', '.join(SAMPLERS)}, got {sampler!r}")
     if count < 1:
@@ -65,7 +65,7 @@ def make_samples(count: int, sampler: str = SAMPLERS[SOBOL], first: int = 0) -> 
         raise ValueError(f"jittered samples must be a square number like {side * side or 1}, got {count}")
     if count == 1 and sampler == SAMPLERS[SOBOL]:
         return CENTER
-    return Samples(first, count, SAMPLERS.index(sampler), side)
+    return Samples(0, count, SAMPLERS.index(sampler), side)
 
 
 # Rays of a kind, after which the kernel comes back within a tile, so that it can be stopped: some tenths of a second.

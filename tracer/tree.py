@@ -104,7 +104,7 @@ class RayTree:
 
     def light_name(self, i: int) -> str | None:
         j = self.nodes["light"][i]
-        return (self.scene.lights[j].name or f"light {j}") if j >= 0 else None
+        return light_name(self.scene, int(j)) if j >= 0 else None
 
     def path(self, i: int) -> str:
         """The surfaces between the eye and the ray's end, eye first (Heckbert 1990).
@@ -185,6 +185,11 @@ def name_of(scene: Scene, k: int) -> str:
     """An object's name, or its shape and number where the author gave none."""
     item = scene.objects[k]
     return item.name or f"{type(item.shape).__name__.lower()} {k}"
+
+
+def light_name(scene: Scene, j: int) -> str:
+    """A light's name, or its number where the author gave none."""
+    return scene.lights[j].name or f"light {j}"
 
 
 def _plain(value: Any) -> Any:

@@ -4,7 +4,7 @@ import math
 import shlex
 from argparse import Namespace
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import tracer
@@ -100,12 +100,13 @@ def make(
     subject = Subject(stages, world, view_of(options.view, world, lesson))
     wishes = wishes_of(options, stages)
     stem = stem_of(options, lesson)
+    drawn = pages(options.figure, subject, wishes) if any(FORMATS[name].write for name in formats) else []
+    notes = notes_on(drawn, options.figure, subject, wishes)
     files: list[tuple[Path, bytes]] = []
-    notes: list[str] = []
     for name in formats:
         kind = FORMATS[name]
-        figures = pages(options.figure, subject, wishes, command(options, name)) if kind.write else []
-        notes += notes_on(figures, options.figure, name, subject, wishes)
+        figures = [replace(page, command=command(options, name)) for page in drawn]
+        notes += letters_missing(drawn, name)
         for k, group in enumerate(grouped(kind, stages, options.step)):
             progress(len(files) / (len(formats) * len(stages)))
             if kind.write:
@@ -116,7 +117,7 @@ def make(
                 assert kind.data
                 tree = group[-1].tree
                 files.append((target.file(f"{stem}_d{tree.depth}", kind.suffix), kind.data(tree).encode("utf-8")))
-    return Made(files, list(dict.fromkeys(notes)))
+    return Made(files, notes)
 
 
 def wishes_of(options: Namespace, stages: Sequence[Stage]) -> Wishes:
@@ -132,18 +133,20 @@ def wishes_of(options: Namespace, stages: Sequence[Stage]) -> Wishes:
     )
 
 
-def notes_on(figures: Sequence[Figure], figure: str, format_name: str, subject: Subject, wishes: Wishes) -> list[str]:
-    """Letters that a format has not, and branches for which there was no room."""
-    notes = []
-    lacks = FORMATS[format_name].lacks
-    words = "".join(mark.content for page in figures for mark in page.marks if isinstance(mark, Text))
-    if lacks and lacks(words):
-        notes.append(f'{format_name} has no letter for "{lacks(words)}": svg and pptx leave it to the reader')
-    if not wishes.fold and any(mark.name.startswith("fold-") for page in figures for mark in page.marks):
-        size = fitting_size([stage.tree for stage in subject.stages], wanted(wishes, TREES[figure]))
-        helps = f", --text-size {size:g} all of them" if size else ""
-        notes.append(f"{figure}: branches are folded for want of room; a smaller --depth leaves some out{helps}")
-    return notes
+def notes_on(drawn: Sequence[Figure], figure: str, subject: Subject, wishes: Wishes) -> list[str]:
+    """Branches for which there was no room."""
+    if wishes.fold or not any(mark.name.startswith("fold-") for page in drawn for mark in page.marks):
+        return []
+    size = fitting_size([stage.tree for stage in subject.stages], wanted(wishes, TREES[figure]))
+    helps = f", --text-size {size:g} all of them" if size else ""
+    return [f"{figure}: branches are folded for want of room; a smaller --depth leaves some out{helps}"]
+
+
+def letters_missing(drawn: Sequence[Figure], format_name: str) -> list[str]:
+    """Letters that a format cannot show, each once."""
+    words = "".join(mark.content for page in drawn for mark in page.marks if isinstance(mark, Text))
+    missing = "".join(letter for letter in dict.fromkeys(words) if not FORMATS[format_name].has(letter))
+    return [f'{format_name} has no letter for "{missing}": svg and pptx leave it to the reader'] if missing else []
 
 
 def view_of(numbers: tuple[float, ...] | None, world: World, lesson: Lesson | None) -> Orbit:

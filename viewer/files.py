@@ -56,6 +56,14 @@ def check_writable(path: Path) -> None:
         raise Unusable(f"{path}: cannot be written: no permission for {path.parent}")
 
 
+def check_folder(path: Path) -> None:
+    """Unusable where files cannot go into this folder, which may be still to be made."""
+    if path.exists() and not path.is_dir():
+        raise Unusable(f"{path}: must be a folder, got a file")
+    if not path.exists():
+        check_writable(path)
+
+
 def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)

@@ -4,7 +4,7 @@ import numpy as np
 
 from tracer.scene import Material
 from tracer.shading import surface_color
-from tracer.tree import RayTree
+from tracer.tree import RayTree, light_name
 from tracer.vector import vector
 from tracer.world import World
 from viewer.sections import Section
@@ -23,7 +23,7 @@ def local_light(tree: RayTree, world: World, i: int) -> Section:
     section.add(f"ambient: A · {shown(material.ambient)} · C", triple(ambient, 4))
     rows = {int(tree.nodes["light"][child]): child for child in tree.children[i]}
     for j, light in enumerate(world.scene.lights):
-        name = light.name or f"light {j}"
+        name = light_name(world.scene, j)
         child = rows[j]
         n_l, r_v = _cosines(tree, i, child)
         if n_l <= 0.0:
@@ -48,7 +48,7 @@ def one_light(tree: RayTree, world: World, i: int, j: int) -> Section:
     material = world.scene.objects[row["object"]].material
     n_l, r_v = _cosines(tree, i, child)
     color = _color(world, tree, i)
-    section = Section(f"Light from {light.name or f'light {j}'}", "S L (kd C (N·L) + ks (R·V)ᵖ)")
+    section = Section(f"Light from {light_name(world.scene, j)}", "S L (kd C (N·L) + ks (R·V)ᵖ)")
     section.add("light L", triple(light.color, 3))
     section.add("N·L", shown(n_l))
     if n_l <= 0.0:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from viewer.figures.formats import FORMATS, Format, format_of
 from viewer.figures.stage import Stage
-from viewer.files import Unusable, check_writable
+from viewer.files import Unusable, check_folder, check_writable
 from viewer.lesson import Lesson
 
 
@@ -36,10 +36,8 @@ def chosen(options: Namespace) -> tuple[Target, list[str]]:
             raise Unusable(f"{path}: is {own}, but --format asks for {','.join(formats)}: name a folder, or one format")
         formats = [own]
         check_writable(path)
-    elif path.exists() and not path.is_dir():
-        raise Unusable(f"{path}: must be a folder, got a file")
-    elif not path.exists():
-        check_writable(path)
+    else:
+        check_folder(path)
     formats = formats or ["svg"]
     if options.width and "png" not in formats:
         raise Unusable(f"raytree export: --width is for png, got {','.join(formats)}")

@@ -37,14 +37,13 @@ def letters() -> frozenset[int]:
         return frozenset(font.getBestCmap() or ())
 
 
-def without(content: str) -> str:
-    """The letters of a text that the font lacks, each once."""
-    return "".join(dict.fromkeys(letter for letter in content if ord(letter) not in letters()))
+def has(letter: str) -> bool:
+    return ord(letter) in letters()
 
 
 def boxed(content: str) -> str:
     """The text with a box for each letter that the font lacks."""
-    return "".join(letter if ord(letter) in letters() else "□" for letter in content)
+    return "".join(letter if has(letter) else "□" for letter in content)
 
 
 @cache

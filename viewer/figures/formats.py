@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from tracer.tree import RayTree
-from viewer.figures.font import without
+from viewer.figures.font import has
 from viewer.figures.marks import Figure
 
 Pages = Sequence[Figure]
@@ -18,7 +18,7 @@ class Format:
     write: Callable[[Pages, int], bytes] | None = None
     many_pages: bool = False
     data: Callable[[RayTree], str] | None = None
-    lacks: Callable[[str], str] | None = None  # which letters of a text it cannot show
+    has: Callable[[str], bool] = lambda letter: True  # whether it can show a letter
 
 
 def _svg(pages: Pages, across: int) -> bytes:
@@ -63,17 +63,17 @@ def _csv(tree: RayTree) -> str:
     return write_csv(tree)
 
 
-def _tikz_lacks(content: str) -> str:
-    from viewer.figures.tikz import without
+def _tikz_has(letter: str) -> bool:
+    from viewer.figures.tikz import has
 
-    return without(content)
+    return has(letter)
 
 
 FORMATS = {
     "svg": Format(".svg", _svg),
-    "pdf": Format(".pdf", _pdf, many_pages=True, lacks=without),
-    "png": Format(".png", _png, lacks=without),
-    "tikz": Format(".tex", _tikz, lacks=_tikz_lacks),
+    "pdf": Format(".pdf", _pdf, many_pages=True, has=has),
+    "png": Format(".png", _png, has=has),
+    "tikz": Format(".tex", _tikz, has=_tikz_has),
     "pptx": Format(".pptx", _pptx, many_pages=True),
     "dot": Format(".dot", data=_dot),
     "csv": Format(".csv", data=_csv),

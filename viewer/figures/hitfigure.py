@@ -44,7 +44,7 @@ FormulaLine = tuple[str, str, Color]  # name, value, the name's colour
 
 
 def hit_marks(stage: Stage, node: int, size: float, theme: Theme, world: World | None = None) -> list[Mark]:
-    """`node` is the row of a ray that meets a surface; ValueError for another. `world` tells its light's numbers."""
+    """`node` is the row of a ray that meets a surface (`node_of`). `world` tells its light's numbers."""
     return _Drawing(stage, node, size, theme, world).marks
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from tracer.nodes import KINDS, SHADOW
 from tracer.scene import Material
-from tracer.tree import RayTree, name_of
+from tracer.tree import RayTree, light_name, name_of
 from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.labels import ray_label, ray_title
@@ -44,11 +44,11 @@ Named = tuple[frozenset[int], list[Mark]]  # the rays with which a name comes (n
 
 def scene_pages(view: SceneView, stages: Sequence[Stage], size: float, theme: Theme) -> list[list[Mark]]:
     """A page a stage. Names are placed for the last, the fullest, and come with what they name: none ever moves."""
-    names = _Drawing(view, stages[-1], size, theme).named()
+    drawings = [_Drawing(view, stage, size, theme) for stage in stages]
+    names = drawings[-1].named()
     return [
-        _Drawing(view, stage, size, theme).marks
-        + [mark for rows, marks in names if not rows or rows & stage.rows for mark in marks]
-        for stage in stages
+        drawing.marks + [mark for rows, marks in names if not rows or rows & drawing.stage.rows for mark in marks]
+        for drawing in drawings
     ]
 
 
@@ -126,10 +126,8 @@ class _Drawing:
         met = self._on_canvas(line, 0.999, 1.0)
         if met and line.kind != "shadow":  # what it meets there is to be seen
             self.names.take(met[1], 0.5 * self.size)
-        if line.blocked:
-            at = self._on_canvas(line, 0.999, 1.0)
-            if at:
-                self.marks += signs.cross(name, at[1], self.size, color)
+        if met and line.blocked:
+            self.marks += signs.cross(name, met[1], self.size, color)
 
     def _arrow_at(self, line: RayLine) -> float:
         """Where its arrow stands, of its length: as always or, if that is outside, in the middle of what is seen."""
@@ -189,7 +187,7 @@ class _Drawing:
         """Names of lights, of rays, the heaviest first, then of what these meet."""
         found: list[Named] = []
         for j, at in self.lights.items():
-            name = self._light_name(j)
+            name = light_name(self.scene, j)
             found.append((frozenset(), self.names.label(f"light-{j}", name, [Spot(at)], self.theme.text)))
         nodes = self.tree.nodes
         rays = [line for line in self.lines if nodes["kind"][line.row] != SHADOW]
@@ -226,24 +224,23 @@ class _Drawing:
         """Where rays to a light leave the picture: which light they go to."""
         found: list[Named] = []
         left, top, right, bottom = self.view.where
-        for j in range(len(self.scene.lights)):
+        for j in sorted(set(range(len(self.scene.lights))) - self.lights.keys()):
             ends: list[Spot] = []
             rows: set[int] = set()
             for line in shadows:
-                piece = self._on_canvas(line, 0.0, 1.0)
-                if j in self.lights or self.tree.nodes["light"][line.row] != j or piece is None:
+                piece = self._on_canvas(line, 0.0, 1.0) if self.tree.nodes["light"][line.row] == j else None
+                if piece is None:
                     continue
                 x, y = piece[1]
                 if min(x - left, right - x, y - top, bottom - y) < 0.5:
                     inner = max(0.0, 1.0 - 1.2 * self.size / max(1.0, math.dist(*piece)))
                     ends.append(Spot(along(piece, inner)))
                     rows.add(line.row)
-            words = f"to {self._light_name(j)}"
-            found.append((frozenset(rows), self.names.label(f"light-{j}", words, ends, self.theme.text)))
-        return [(rows, marks) for rows, marks in found if marks]
-
-    def _light_name(self, j: int) -> str:
-        return self.scene.lights[j].name or f"light {j}"
+            words = f"to {light_name(self.scene, j)}"
+            marks = self.names.label(f"light-{j}", words, ends, self.theme.text)
+            if marks:
+                found.append((frozenset(rows), marks))
+        return found
 
 
 def _wide(part: Part) -> float:

@@ -2,8 +2,8 @@
 
 The tracer itself is asked. An image of the scene with every material replaced holds in red the number of the part that
 is seen, in green the cosine at which it is seen, and in blue which of the checkers' two colours it has; where a number
-changes is an outline. Only camera rays and rays
-back to the eye are traced, for any shape that the tracer knows, and what hides what is exact.
+changes is an outline. Only camera rays and rays back to the eye are traced, for any shape that the tracer knows, and
+what hides what is exact.
 """
 
 import math

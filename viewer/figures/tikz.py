@@ -85,12 +85,11 @@ def _draw(mark: Mark) -> list[str]:
 
 
 def escaped(text: str) -> str:
-    return "".join(SIGNS.get(letter, letter if ord(letter) < LATIN else BOX) for letter in text)
+    return "".join(SIGNS.get(letter, letter) if has(letter) else BOX for letter in text)
 
 
-def without(text: str) -> str:
-    """The letters of a text for which there is a box, each once."""
-    return "".join(dict.fromkeys(letter for letter in text if letter not in SIGNS and ord(letter) >= LATIN))
+def has(letter: str) -> bool:
+    return letter in SIGNS or ord(letter) < LATIN
 
 
 def _options(fill: Color | None, stroke: Stroke | None) -> str:

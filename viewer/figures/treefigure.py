@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tracer.nodes import SHADOW
-from tracer.tree import RayTree
+from tracer.tree import RayTree, light_name
 from viewer.figures import signs
 from viewer.figures.folds import Fold
 from viewer.figures.font import text_width
@@ -236,7 +236,7 @@ def _entries(plan: TreePlan) -> list[Entry]:
     shadows = [i for i in plan.rows if tree.nodes["kind"][i] == SHADOW]
     ends = {"away" if tree.faces_away(i) else tree.end(i) or "" for i in shadows}
     entries += [Entry(end, words) for end, words in LIGHT_ENDS.items() if end in ends]
-    lights = [light.name or f"light {j}" for j, light in enumerate(tree.scene.lights)]
+    lights = [light_name(tree.scene, j) for j in range(len(tree.scene.lights))]
     if ends and len(lights) <= MOST_LIGHTS:  # each hit has a stub for each, in this order
         entries.append(Entry("lights", f"L: {', '.join(lights)}"))
     return entries

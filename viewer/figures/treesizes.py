@@ -8,6 +8,7 @@ from tracer.tree import RayTree
 from viewer.figures.folds import Fold
 from viewer.figures.font import text_width
 from viewer.figures.labels import end_label, factor_label, hit_label, ray_label
+from viewer.figures.marks import WIDTH
 
 # In sizes of the text.
 MARGIN = 0.6
@@ -29,12 +30,16 @@ LONG, SHORT = 24, 14  # characters of a name, where there is room for it and whe
 
 
 @dataclass(frozen=True)
-class Style:
-    """What is asked of the boxes."""
+class Wanted:
+    """What is asked of a plan: `fold` is the weight below which branches are folded in any case."""
 
     size: float  # of the text, in points
-    swatches: bool  # in each the colour that is sent up
-    longest: int  # characters of a name
+    swatches: bool = False  # in each box the colour that is sent up
+    fold: float = 0.0
+    where: tuple[float, float] = (0.0, WIDTH)  # left and right of its part of the canvas
+    eye: str = "top"  # or left
+    lights: bool = True  # whether rays to lights are drawn
+    longest: int = LONG  # characters of a name
 
 
 @dataclass(frozen=True)
@@ -53,10 +58,10 @@ class Sizes:
         rows: Collection[int],
         folds: dict[int, Fold],
         inside: dict[int, int],
-        style: Style,
+        wanted: Wanted,
     ) -> "Sizes":
         """Of all that stands in, over or under any box at any step, the deepest last."""
-        tree, size = trees[-1], style.size
+        tree, size = trees[-1], wanted.size
         kinds = tree.nodes["kind"]
         names, loose, stubs, shares = [""], [""], [""], [""]
         hung = {fold.under for fold in folds.values()}
@@ -65,7 +70,7 @@ class Sizes:
             if kinds[i] == SHADOW:
                 stubs.append(ray_label(tree, i))
                 continue
-            names.append(name_in_box(tree, i, style.longest))
+            names.append(name_in_box(tree, i, wanted.longest))
             loose.append(edge_label(tree, i))
             notes = [end_label(step, i) for step in trees if i < len(step)]
             loose += notes
@@ -80,7 +85,7 @@ class Sizes:
             shares += fold.words(range(len(tree)), inside)
         around = 2 * PADDING * size
         widest = max(
-            _widest(names, size) + around + SWATCH * size * style.swatches,
+            _widest(names, size) + around + SWATCH * size * wanted.swatches,
             _widest(shares, size) + around,
             _widest(loose, size),
         )

@@ -6,6 +6,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 from tracer.nodes import SHADOW
+from tracer.tree import light_name
 from viewer.canvas import Canvas, texture_ref
 from viewer.figures.labels import ray_label
 from viewer.orbit import project
@@ -121,16 +122,16 @@ class _Overlay:
 
     def _lights(self) -> None:
         theme = self.session.theme
-        color = (1.0, 0.82, 0.25, 1.0) if theme.dark else (0.80, 0.55, 0.0, 1.0)
         assert self.session.world
-        for j, light in enumerate(self.session.world.scene.lights):
+        scene = self.session.world.scene
+        for j, light in enumerate(scene.lights):
             if light.position is None:
                 continue
             at = self.at(self.session.frame.inside(light.position))
             if at:
-                d.sun(self.stage, at, 10.0 * self.unit, color, theme.ground)
+                d.sun(self.stage, at, 10.0 * self.unit, theme.sun, theme.ground)
                 if self.session.shown.labels:
-                    self.label(at, light.name or f"light {j}", theme.text, (13, -9))
+                    self.label(at, light_name(scene, j), theme.text, (13, -9))
 
     def _camera_name(self) -> None:
         assert self.session.world

@@ -11,7 +11,7 @@ from tracer.measure.sources import FULL, QUICK, left_out, sources
 from tracer.render import processors
 from tracer.world import World
 from viewer.commands import compile_once, faults, find, prepared, put
-from viewer.files import Unusable, check_writable, every, write_atomically
+from viewer.files import Unusable, check_folder, every, write_atomically
 from viewer.progress import Progress
 from viewer.report.data import as_csv, as_json
 from viewer.report.page import as_html
@@ -56,10 +56,7 @@ def report(options: Namespace) -> int:
 
 def target(output: str) -> Path:
     path = Path(output)
-    if path.exists() and not path.is_dir():
-        raise Unusable(f"{path}: must be a folder, got a file")
-    if not path.exists():
-        check_writable(path)
+    check_folder(path)
     return path
 
 
