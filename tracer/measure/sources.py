@@ -7,8 +7,9 @@ many of another sampler. Together: both, each setting finer in both.
 
 import math
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from tracer.measure.errors import errors
@@ -25,6 +26,8 @@ MOST_NODES = 20_000  # rays of them, where weights hardly fall
 
 Size = tuple[int, int]
 Progress = Callable[[float], None]
+Maker = Callable[..., Callable[[], Image]]  # from how an image is made to what makes it
+How = Mapping[str, Any]  # what `render` is asked, but for the world and the size
 
 
 @dataclass(frozen=True)
@@ -56,7 +59,7 @@ def _branches(scene: Scene) -> bool:
     return any(item.material.reflect > 0.0 or item.material.transmit > 0.0 for item in scene.objects)
 
 
-def affordable(world: World, size: Size, **how: Any) -> Size:
+def affordable(world: World, size: Size, how: How) -> Size:
     """This size, or a smaller one of that shape, so that such an image takes no longer than PATIENCE."""
     probe = (min(size[0], PROBE), max(1, min(size[0], PROBE) * size[1] // size[0]))
     began = time.perf_counter()
@@ -66,6 +69,39 @@ def affordable(world: World, size: Size, **how: Any) -> Size:
     return max(1, round(share * size[0])), max(1, round(share * size[1]))
 
 
+@dataclass(frozen=True)
+class Study:
+    """How a source of error is measured: against what, and the settings of each method."""
+
+    name: str
+    title: str
+    about: str
+    true: How  # of the image that is taken for the truth
+    second: How  # another way to make it
+    said: Callable[[Image], str]  # what is said of the two
+    methods: Callable[[Maker], Sequence[Method]]  # of how images are made
+    bounded: bool = False  # whether what the program says is missing bounds this error
+
+    def run(self, world: World, size: Size, step: Callable[[], None]) -> Source:
+        """`step` is told of every image that is taken for true and of every setting."""
+        true = render(world, size, **self.true)
+        step()
+        second = render(world, size, **self.second)
+        step()
+        reference = Reference(true.pixels, self.said(true), errors(second.pixels, true.pixels))
+        pairs = [measured(method, reference, step) for method in self.methods(_maker(world, size))]
+        failures = tuple(line for _, lines in pairs for line in lines)
+        curves = tuple(curve for curve, _ in pairs)
+        return Source(self.name, self.title, self.about, reference, curves, failures, self.bounded)
+
+    def steps(self, world: World) -> int:
+        return 2 + sum(len(method.settings) for method in self.methods(_maker(world, (1, 1))))
+
+
+def _maker(world: World, size: Size) -> Maker:
+    return lambda **how: partial(render, world, size, **how)
+
+
 def sources(
     world: World, size: Size, effort: Effort, progress: Progress = lambda share: None, smaller: bool = False
 ) -> list[Source]:
@@ -73,8 +109,9 @@ def sources(
 
     `smaller`: where what is taken for true would take too long, images are smaller.
     """
-    makers = [_trees, _pixels, _together] if _branches(world.scene) else [_pixels]
-    total = sum(_settings(effort, maker) for maker in makers)
+    kinds = [trees_cut, pixels_sampled, both_together] if _branches(world.scene) else [pixels_sampled]
+    studies = [kind(effort) for kind in kinds]
+    total = sum(study.steps(world) for study in studies)
     done = 0
 
     def step() -> None:
@@ -82,115 +119,88 @@ def sources(
         done += 1
         progress(done / total)
 
-    found = []
-    for maker in makers:
-        how = _true(maker, effort)
-        found.append(maker(world, affordable(world, size, **how) if smaller else size, effort, step))
-    return found
+    return [study.run(world, affordable(world, size, study.true) if smaller else size, step) for study in studies]
 
 
-def _true(maker: object, effort: Effort) -> dict[str, Any]:
-    """How the image is made that a source's are judged against."""
-    if maker is _trees:
-        return {"tolerance": TRUE, "max_nodes": MOST_NODES}
-    return {"samples": effort.true_samples} | ({"depth": max(effort.depths)} if maker is _together else {})
+def trees_cut(effort: Effort) -> Study:
+    def said(true: Image) -> str:
+        missing = (
+            f"at most {true.bound:.1e}"
+            if math.isfinite(true.bound)
+            else "bounded by nothing, for light may add up without end"
+        )
+        return (
+            f"trees followed, the heaviest ray first, until what is left weighs {TRUE:g} in sum or they have "
+            f"{MOST_NODES} rays: what is missing is {missing}. The second way is level by level, up to {DEEP} levels"
+        )
 
+    def methods(made: Maker) -> Sequence[Method]:
+        depths = [Setting(f"depth {d}", d, made(depth=d)) for d in effort.depths]
+        weights = [Setting(f"weight {w:g}", w, made(depth=DEEP, min_weight=w)) for w in effort.weights]
+        sums = [Setting(f"tolerance {t:g}", t, made(tolerance=t, max_nodes=MOST_NODES)) for t in effort.tolerances]
+        return (
+            Method("cut at a depth", depths),
+            Method("cut at a ray's weight", weights),
+            Method("cut at a sum of weights", sums),
+        )
 
-def _settings(effort: Effort, maker: object) -> int:
-    """How many markers, and the two images of a reference."""
-    trees = len(effort.depths) + len(effort.weights) + len(effort.tolerances)
-    return 2 + {_trees: trees, _pixels: 3 * len(effort.samples), _together: len(effort.samples)}[maker]  # type: ignore[index]
-
-
-def _measure(
-    name: str, title: str, about: str, methods: Sequence[Method], reference: Reference, step: Callable[[], None]
-) -> Source:
-    """Where pixels are sampled a bound on what trees lack says nothing of the error."""
-    pairs = [measured(method, reference, step) for method in methods]
-    failures = tuple(line for _, lines in pairs for line in lines)
-    return Source(name, title, about, reference, tuple(curve for curve, _ in pairs), failures, bounded=name == "trees")
-
-
-# --- trees that are cut -----------------------------------------------------------------------------------------------
-
-
-def _trees(world: World, size: Size, effort: Effort, step: Callable[[], None]) -> Source:
-    true = render(world, size, tolerance=TRUE, max_nodes=MOST_NODES)
-    step()
-    deep = render(world, size, depth=DEEP, min_weight=TRUE, max_nodes=MOST_NODES)
-    step()
-    how = (
-        f"trees followed, the heaviest ray first, until what is left weighs {TRUE:g} in sum or they have {MOST_NODES} "
-        f"rays: what is missing is {_bounded(true.bound)}. The second way is level by level, up to {DEEP} levels"
+    return Study(
+        "trees",
+        "Trees that are cut",
+        "What the image lacks where rays are not followed on. Pixels are traced at their centres.",
+        {"tolerance": TRUE, "max_nodes": MOST_NODES},
+        {"depth": DEEP, "min_weight": TRUE, "max_nodes": MOST_NODES},
+        said,
+        methods,
+        bounded=True,
     )
-    reference = Reference(true.pixels, how, errors(deep.pixels, true.pixels))
-    methods = (
-        Method("cut at a depth", [Setting(f"depth {d}", d, _made(world, size, depth=d)) for d in effort.depths]),
-        Method(
-            "cut at a ray's weight",
-            [Setting(f"weight {w:g}", w, _made(world, size, depth=DEEP, min_weight=w)) for w in effort.weights],
-        ),
-        Method(
-            "cut at a sum of weights",
-            [
-                Setting(f"tolerance {t:g}", t, _made(world, size, tolerance=t, max_nodes=MOST_NODES))
-                for t in effort.tolerances
-            ],
-        ),
+
+
+def pixels_sampled(effort: Effort) -> Study:
+    kinds = (("at random", "random", -0.5), ("jittered", "jittered", -0.75), ("evenly (Sobol)", "sobol", -0.75))
+
+    def methods(made: Maker) -> Sequence[Method]:
+        return [
+            Method(label, [Setting(_many(n), n, made(samples=n, sampler=sampler)) for n in effort.samples], slope)
+            for label, sampler, slope in kinds
+        ]
+
+    how = f"{effort.true_samples} samples a pixel that fill it evenly (Sobol's). The second way is as many, jittered"
+    true = {"samples": effort.true_samples}
+    return Study(
+        "pixels",
+        "Pixels that are sampled",
+        "What the mean of a pixel's samples is off. Where a pixel has an edge in it, theory has N^-1/2 for samples at "
+        "random and N^-3/4 for jittered ones; smooth pixels do better than that. The scene's own depth.",
+        true,
+        {**true, "sampler": "jittered"},
+        lambda _: how,
+        methods,
     )
-    about = "What the image lacks where rays are not followed on. Pixels are traced at their centres."
-    return _measure("trees", "Trees that are cut", about, methods, reference, step)
+
+
+def both_together(effort: Effort) -> Study:
+    deep = max(effort.depths)
+
+    def methods(made: Maker) -> Sequence[Method]:
+        settings = [
+            Setting(f"depth {d}, {_many(n)}", n, made(samples=n, depth=d))
+            for d, n in zip((1, 2, 3, 4, 6), effort.samples, strict=False)
+        ]
+        return [Method("depth and samples", settings)]
+
+    how = f"{effort.true_samples} samples a pixel (Sobol's) at depth {deep}. The second way is as many, jittered"
+    true = {"samples": effort.true_samples, "depth": deep}
+    return Study(
+        "together",
+        "Both together",
+        "What an image is off that is cut and sampled: finer in both from marker to marker.",
+        true,
+        {**true, "sampler": "jittered"},
+        lambda _: how,
+        methods,
+    )
 
 
 def _many(samples: int) -> str:
     return f"{samples} sample{'s' if samples > 1 else ''}"
-
-
-def _bounded(bound: float) -> str:
-    return f"at most {bound:.1e}" if math.isfinite(bound) else "bounded by nothing, for light may add up without end"
-
-
-def _made(world: World, size: Size, samples: int = 1, **how) -> Callable[[], Image]:
-    return lambda: render(world, size, samples, **how)
-
-
-# --- pixels that are sampled ------------------------------------------------------------------------------------------
-
-
-def _sampled(world: World, size: Size, effort: Effort, step: Callable[[], None], **how) -> Iterator[Image]:
-    """An image of very many samples, and as many by another sampler."""
-    for sampler in ("sobol", "jittered"):
-        yield render(world, size, effort.true_samples, sampler=sampler, **how)
-        step()
-
-
-def _pixels(world: World, size: Size, effort: Effort, step: Callable[[], None]) -> Source:
-    even, jittered = _sampled(world, size, effort, step)
-    how = f"{effort.true_samples} samples a pixel that fill it evenly (Sobol's). The second way is as many, jittered"
-    reference = Reference(even.pixels, how, errors(jittered.pixels, even.pixels))
-    kinds = (("at random", "random", -0.5), ("jittered", "jittered", -0.75), ("evenly (Sobol)", "sobol", -0.75))
-    methods = []
-    for label, sampler, slope in kinds:
-        settings = [Setting(_many(n), n, _made(world, size, n, sampler=sampler)) for n in effort.samples]
-        methods.append(Method(label, settings, slope))
-    about = (
-        "What the mean of a pixel's samples is off. Where a pixel has an edge in it, theory has N^-1/2 for samples at "
-        "random and N^-3/4 for jittered ones; smooth pixels do better than that. The scene's own depth."
-    )
-    return _measure("pixels", "Pixels that are sampled", about, methods, reference, step)
-
-
-# --- both together ----------------------------------------------------------------------------------------------------
-
-
-def _together(world: World, size: Size, effort: Effort, step: Callable[[], None]) -> Source:
-    deep = max(effort.depths)
-    even, jittered = _sampled(world, size, effort, step, depth=deep)
-    how = f"{effort.true_samples} samples a pixel (Sobol's) at depth {deep}. The second way is as many, jittered"
-    reference = Reference(even.pixels, how, errors(jittered.pixels, even.pixels))
-    settings = [
-        Setting(f"depth {d}, {_many(n)}", n, _made(world, size, n, depth=d))
-        for d, n in zip((1, 2, 3, 4, 6), effort.samples, strict=False)
-    ]
-    about = "What an image is off that is cut and sampled: finer in both from marker to marker."
-    return _measure("together", "Both together", about, [Method("depth and samples", settings)], reference, step)
