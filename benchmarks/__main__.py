@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from benchmarks import against_embree, against_povray, click, flat, growth, lessons, start, window
+from benchmarks import adaptive, against_embree, against_povray, click, flat, growth, lessons, start, window
 from benchmarks.against_before import changes
 from benchmarks.figure import Figure
 from benchmarks.machine import machine
@@ -25,6 +25,7 @@ PARTS: dict[str, Callable[[Options], list[Task]]] = {
     "counts": against_povray.counts,
     "lessons": lessons.times,
     "embree": against_embree.rates,
+    "adaptive": adaptive.adaptive,
     "growth": growth.growth,
     "flat": flat.flat,
     "click": click.clicks,

@@ -15,6 +15,7 @@ LABELS = {
     "povray": "Images against POV-Ray", "lessons": "Lessons against POV-Ray",
     "embree": "First hits against Embree", "growth": "Larger meshes", "click": "A click",
     "flat": "Boxes for a few surfaces", "start": "Starts", "window": "The window",
+    "adaptive": "Samples where the error is, against everywhere",
 }  # fmt: skip
 
 

@@ -4,6 +4,7 @@ A `Task` is what all tiles of an image have in common; it travels to other proce
 their pixels into the image where they belong; other processes send them back.
 """
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
@@ -18,11 +19,12 @@ from tracer.camera import View
 from tracer.jit import versions
 from tracer.limits import Limits
 from tracer.nodes import KINDS
-from tracer.tile import CENTER, Area, Counts, Samples, Workspace, run
+from tracer.tile import CENTER, NOTHING, Area, Begun, Counts, Samples, Workspace, run
 from tracer.tree import solids_at
 from tracer.world import World
 
 TILE = 64  # pixels a side: some milliseconds of work, so that cancelling is quick and threads end together
+COARSE_TO_FINE = (8, 4, 2, 1)  # steps of the passes of an image that is watched
 SMALL_TILE = 16  # where trees are followed to a tolerance: a pixel may then take a second
 
 Cancelled = Callable[[], bool]
@@ -86,9 +88,16 @@ class Traced(NamedTuple):
 
 
 def trace_tiles(
-    task: Task, areas: Sequence[Area], image: np.ndarray | None = None, cancelled: Cancelled = never
+    task: Task,
+    areas: Sequence[Area],
+    image: np.ndarray | None = None,
+    cancelled: Cancelled = never,
+    begun: Sequence[Begun] = (),
 ) -> list[Traced]:
-    """Trace these tiles into the image or, without one, into arrays of their own; those that are finished."""
+    """Trace these tiles into the image or, without one, into arrays of their own; those that are finished.
+
+    `begun`: of pixels that have samples already, tile by tile; with an image one, for all of it.
+    """
     if found := difference(task.made_by, versions()):
         raise Mismatch(found)
     try:
@@ -96,15 +105,16 @@ def trace_tiles(
     except Empty:
         space = Workspace(len(task.eye_solids))
     done = []
-    for area in areas:
-        pixels, corner = image, (0, 0)
+    for k, area in enumerate(areas):
+        pixels, corner, before = image, (0, 0), begun[0 if image is not None else k] if begun else NOTHING
         if pixels is None:
-            pixels, corner = np.zeros((area.bottom - area.top, area.right - area.left, 3)), (area.left, area.top)
+            pixels = np.zeros((area.bottom - area.top, area.right - area.left, 4 if begun else 3))
+            corner = (area.left, area.top)
         counts = None
         if not cancelled():
             counts = run(
                 *(task.arrays, task.view, task.limits, task.samples, area, task.eye_solids),
-                *(pixels, space, corner, cancelled),
+                *(pixels, space, corner, before, cancelled),
             )
         if counts is None:
             break
@@ -114,7 +124,12 @@ def trace_tiles(
 
 
 class Job:
-    """An image in the making: what is to be traced, and the pixels so far."""
+    """An image in the making: what is to be traced, and the pixels so far.
+
+    Of one whose pixels are `begun`, `pixels` are sums over samples (`tracer.tile.Begun`), where there are new ones.
+    """
+
+    begun: Begun | None = None
 
     def __init__(self, world: World, view: View, limits: Limits, samples: Samples = CENTER) -> None:
         self.view = view
@@ -122,6 +137,21 @@ class Job:
         self.pixels = np.zeros((view.height, view.width, 3))
         self.rays = np.zeros(len(KINDS), np.int64)
         self.residuals: list[np.ndarray] = []
+        self._shared: Any = None
+
+    def shared_with(self, executor: Remote) -> Any:
+        """The task as that executor's calls are given it; an image of several rounds sends it once."""
+        if self._shared is None:
+            self._shared = executor.share(self.task)
+        return self._shared
+
+    def ways_on(self, areas: Sequence[Area], here: bool) -> Sequence[Begun]:
+        """What tiles have begun with, as `trace_tiles` takes it: elsewhere each needs its own part only."""
+        if self.begun is None or here:
+            return (self.begun,) if self.begun else ()
+        sums, plan = self.begun
+        parts = [np.s_[area.top : area.bottom, area.left : area.right] for area in areas]
+        return [Begun(sums[part].copy(), plan[part].copy()) for part in parts]
 
     def keep(self, traced: Traced) -> None:
         """Take in a finished tile."""
@@ -130,6 +160,12 @@ class Job:
         self.residuals.append(traced.counts.residuals)
         if traced.pixels is not None:
             self.pixels[area.top : area.bottom, area.left : area.right] = traced.pixels
+
+    def residual(self) -> dict[str, float]:
+        """Of the weight that was cut: the largest of a pixel, and the mean."""
+        total = math.fsum(figure[1] for figure in self.residuals)
+        largest = float(max(figure[0] for figure in self.residuals))
+        return {"max": largest, "mean": total / (self.view.width * self.view.height)}
 
 
 def passes(width: int, height: int, steps: Sequence[int] = (1,), side: int = TILE) -> list[list[Area]]:

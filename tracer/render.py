@@ -1,46 +1,33 @@
-"""The image: every pixel's tree, tile by tile on a pool of threads or a cluster, of each tree only the colour kept.
-
-Tiles write disjoint pixels and no sum crosses a tile's border, so the image has the same bits for any number of threads
-and any order of tiles. Passes from coarse to fine trace no pixel twice.
-"""
+"""The image: every pixel's tree, tile by tile on a pool of threads or a cluster, of each tree only the colour kept."""
 
 import math
 import os
-import threading
 import time
-from collections import deque
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from collections.abc import Callable
+from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import nullcontext
-from dataclasses import dataclass
-from queue import SimpleQueue
+from dataclasses import dataclass, field
+from numbers import Real
 
 import numpy as np
 
 from tracer.bound import brightest
+from tracer.converge import MOST, Converging, Reached
 from tracer.jit import is_compiled
-from tracer.job import SMALL_TILE, TILE, Cancelled, Job, Remote, Traced, never, passes, trace_tiles
+from tracer.job import SMALL_TILE, TILE, Cancelled, Job, Remote, never, passes
 from tracer.limits import MAX_NODES, make_limits
 from tracer.nodes import KINDS
-from tracer.sampler import SAMPLERS, SOBOL
+from tracer.passes import Stopped, trace_passes
+from tracer.sampler import JITTERED, SAMPLERS, SOBOL
 from tracer.scene import Material, Object, Scene
 from tracer.shapes.sphere import Sphere
-from tracer.tile import Area, make_samples, trace_area
+from tracer.tile import make_samples, trace_area
 from tracer.tree import checked_size, trace
 from tracer.world import World, prepare
 
 BALL = Scene((Object(Sphere((0.0, 0.0, -1.0), 0.5), Material()),))  # what kernels are warmed up with
-COARSE_TO_FINE = (8, 4, 2, 1)
-AHEAD = 2  # calls a thread: one it works on, one that waits
-MOST_TILES = 16  # that another process is sent at a time, for a message costs a millisecond
-MOST_HERE = 8  # and a thread, for a call costs a tenth of that
 
 Progress = Callable[[float], None]
-Finished = Callable[[Area, float], None]
-
-
-class Stopped(Exception):
-    """The rendering was cancelled; its image is incomplete."""
 
 
 @dataclass(eq=False, repr=False)
@@ -53,85 +40,54 @@ class Image:
     residual: dict[str, float]  # max, mean over the pixels
     threads: int
     size: tuple[int, int]
-    samples: int
+    samples: int  # of a pixel; where they differ, the most
     depth: int | None  # None: no limit but the tolerance
     tolerance: float | None
-    bound: float  # no component of a pixel lacks more than this; infinite where nothing bounds it
+    bound: float  # no component of a pixel lacks more than this for rays that were cut; infinite: nothing bounds it
     left_out: list[str]
+    counts: np.ndarray | None = None  # (height, width) samples, where pixels have as many as their error asks for
+    reached: Reached | None = None  # and how far they came
+    ended: str = ""  # by what: "error", "seconds", or "samples" where no pixel could have any more
 
     def __repr__(self) -> str:
         width, height = self.size
         return f"<Image {width}x{height}: {sum(self.rays.values())} rays in {self.seconds['trace']:.3f} s>"
 
 
-def trace_passes(
-    job: Job,
-    all_passes: Sequence[Sequence[Area]],
-    executor: Executor,
-    threads: int,
-    finished: Finished = lambda area, share: None,
-    cancelled: Cancelled = never,
-) -> None:
-    """Trace the tiles of each pass in their order; Stopped where `cancelled` turns true.
+@dataclass(frozen=True)
+class Goal:
+    """When an image that converges is good enough; whichever comes first."""
 
-    A pass begins when the one before has ended: a coarse square must not fall onto a finer one. `finished` is told of
-    each tile and of the share done, on this thread.
-    """
-    here = isinstance(executor, ThreadPoolExecutor)
-    if not here and len(all_passes) > 1:
-        raise ValueError("several passes need threads of this process: a finer pass leaves the pixels of a coarser one")
-    total = sum(len(areas) for areas in all_passes)
-    done = due = 0
-    ended = threading.Event()  # where this thread is interrupted the others are to end, too
-    task = executor.share(job.task) if isinstance(executor, Remote) else job.task
-    if here:
-        ways = (job.pixels, lambda: ended.is_set() or cancelled())
-    else:
-        ways = (None, executor.abandoned if isinstance(executor, Remote) else never)
-    for areas in all_passes:
-        due += len(areas)
-        waiting = deque(shared_out(areas, threads, MOST_HERE if here else MOST_TILES))
-        news: SimpleQueue[Future[list[Traced]]] = SimpleQueue()
-        running: set[Future[list[Traced]]] = set()
-        try:
-            while True:
-                if isinstance(executor, Remote):
-                    threads = max(threads, executor.threads)
-                while waiting and len(running) < AHEAD * threads and not cancelled():
-                    future = executor.submit(trace_tiles, task, waiting.popleft(), *ways)
-                    running.add(future)
-                    future.add_done_callback(news.put)
-                if not running:
-                    break
-                future = news.get()
-                running.remove(future)
-                for traced in future.result():
-                    job.keep(traced)
-                    done += 1
-                    finished(traced.area, done / total)
-        finally:
-            if running:
-                ended.set()
-            for future in running:
-                future.cancel()
-        if done < due:
-            raise Stopped
+    error: float | None = None  # estimated: root mean square over pixels and components, linear
+    seconds: float | None = None
+    began: float = field(default_factory=time.perf_counter)
 
+    def __post_init__(self) -> None:
+        for name, value in (("until_error", self.error), ("until_seconds", self.seconds)):
+            if value is not None and not (isinstance(value, Real) and 0.0 < value < math.inf):
+                raise ValueError(f"{name} must be a number > 0, got {value!r}")
 
-def shared_out(areas: Sequence[Area], threads: int, most: int) -> Iterator[Sequence[Area]]:
-    """The tiles a call is given, fewer and fewer, so that all threads end together (guided self-scheduling:
-    Polychronopoulos & Kuck, IEEE Trans. Computers 36(12), 1987)."""
-    first = 0
-    while first < len(areas):
-        count = min(most, -(-(len(areas) - first) // (4 * threads)))
-        yield areas[first : first + count]
-        first += count
+    def __bool__(self) -> bool:
+        return self.error is not None or self.seconds is not None
+
+    @property
+    def is_late(self) -> bool:
+        return self.seconds is not None and time.perf_counter() - self.began >= self.seconds
+
+    def share(self, error: float) -> float:
+        """How much is done; an edge's error falls as N^-3/4."""
+        shares = [0.0]
+        if self.error is not None and error >= self.error:
+            shares.append((self.error / error) ** (4.0 / 3.0))
+        if self.seconds is not None:
+            shares.append((time.perf_counter() - self.began) / self.seconds)
+        return min(1.0, max(shares))
 
 
 def render(
     world: World,
     size: tuple[int, int] | None = None,
-    samples: int = 1,
+    samples: int | None = None,
     depth: int | None = None,
     threads: int | None = None,
     *,
@@ -140,6 +96,8 @@ def render(
     max_nodes: int = MAX_NODES,
     model: str | None = None,
     sampler: str = SAMPLERS[SOBOL],
+    until_error: float | None = None,
+    until_seconds: float | None = None,
     executor: Executor | None = None,
     progress: Progress = lambda share: None,
     cancelled: Cancelled = never,
@@ -149,40 +107,76 @@ def render(
     Tiles go to an `executor` where one is given, `threads` calls at a time: any of `concurrent.futures`, or a cluster
     (`tracer.cluster`). The pixels are the same.
 
-    One sample is the pixel's centre; more are the mean of the sampler's first points: Sobol's, or at random, or
-    jittered, whose number must be a square. `progress` gets the finished share, and where `cancelled` turns true,
-    Stopped is raised within a tile's time. With a `tolerance` the rays that a pixel lacks weigh no more than that in
-    sum; the depth counts only if it is given.
+    One sample, the default, is the pixel's centre; more are the mean of the sampler's first points: Sobol's, or at
+    random, or jittered, whose number must be a square. `until_error` and `until_seconds` give each pixel as many as its
+    error asks for (`tracer.adaptive`), until that error is estimated for the image or so much time has passed, but
+    `samples` of a pixel at most and one at least. With a `tolerance` the rays that a pixel lacks weigh no more than
+    that in sum; the depth counts only if it is given. `progress` gets the finished share, and where `cancelled` turns
+    true, Stopped is raised within a tile's time. ValueError for what can be none of these.
     """
-    points = make_samples(samples, sampler)
+    goal = Goal(until_error, until_seconds)
+    points = make_samples(1 if goal else samples or 1, sampler)
+    if goal and points.sampler == JITTERED:
+        raise ValueError("jittered samples cannot be added to: until_error and until_seconds need sobol or random ones")
     elsewhere = isinstance(executor, Remote)
     threads = threads or (executor.threads if elsewhere else processors())
     compiling = 0.0 if elsewhere else warm()
     view = world.view(checked_size(size))
     limits = make_limits(world, depth, min_weight, tolerance, max_nodes, model, records=False)
-    job = Job(world, view, limits, points)
     began = time.perf_counter()
-    tiles = passes(view.width, view.height, side=TILE if tolerance is None else SMALL_TILE)
     with nullcontext(executor) if executor else ThreadPoolExecutor(threads) as pool:
-        trace_passes(job, tiles, pool, threads, lambda area, share: progress(share), cancelled)
-    tracing = time.perf_counter() - began
-    largest = float(max(figure[0] for figure in job.residuals))
+        if goal:
+            made = Converging(world, view, limits, points.sampler, most=samples or MOST)
+            ended = _converge(made, Goal(until_error, until_seconds), pool, threads, progress, cancelled)
+            job, pixels, residual, reached = made.job, made.sampled.means(), made.residual(), made.reached
+        else:
+            job, made, ended, reached = Job(world, view, limits, points), None, "", None
+            tiles = passes(view.width, view.height, side=TILE if tolerance is None else SMALL_TILE)
+            trace_passes(job, tiles, pool, threads, lambda area, share: progress(share), cancelled)
+            pixels, residual = job.pixels, job.residual()
     return Image(
-        pixels=job.pixels,
-        seconds={"compile": compiling, "trace": tracing},
+        pixels=pixels,
+        seconds={"compile": compiling, "trace": time.perf_counter() - began},
         rays={kind: int(n) for kind, n in zip(KINDS, job.rays, strict=True)},
-        residual={
-            "max": largest,
-            "mean": math.fsum(figure[1] for figure in job.residuals) / (view.width * view.height),
-        },
+        residual=residual,
         threads=threads,
         size=(view.width, view.height),
-        samples=samples,
+        samples=reached.most if reached else points.count,
         depth=limits.depth if depth is not None or tolerance is None else None,
         tolerance=tolerance,
-        bound=largest * brightest(world.scene) if largest > 0.0 else 0.0,
+        bound=residual["max"] * brightest(world.scene) if residual["max"] > 0.0 else 0.0,
         left_out=world.left_out,
+        counts=made.sampled.counts if made else None,
+        reached=reached,
+        ended=ended,
     )
+
+
+def _converge(
+    made: Converging, goal: Goal, executor: Executor, threads: int, progress: Progress, cancelled: Cancelled
+) -> str:
+    """Round after round up to the goal; by what it ended. Time is up when it is, but every pixel has a sample."""
+
+    def stops() -> bool:
+        return cancelled() or (goal.is_late and made.sampled.counts.min() > 0)
+
+    error = math.nan
+
+    def told(*_: object) -> None:
+        progress(goal.share(error))
+
+    try:
+        for reached in made.rounds(executor, threads, told, stops):
+            error = reached.error
+            if goal.error is not None and reached.error <= goal.error:
+                return "error"
+            if goal.is_late:
+                return "seconds"
+    except Stopped:
+        if cancelled():
+            raise
+        return "seconds"
+    return "samples"
 
 
 def warm() -> float:

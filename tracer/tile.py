@@ -68,6 +68,15 @@ def make_samples(count: int, sampler: str = SAMPLERS[SOBOL]) -> Samples:
     return Samples(0, count, SAMPLERS.index(sampler), side)
 
 
+class Begun(NamedTuple):
+    """Pixels that have some samples already and are to have more."""
+
+    sums: np.ndarray  # (height, width, 4): over the samples so far, of red, green, blue and the weight that was cut
+    plan: np.ndarray  # (height, width, 2) int32: how many these are, how many they are to be
+
+
+NOTHING = Begun(np.zeros((0, 0, 4)), np.zeros((0, 0, 2), np.int32))
+
 # Rays of a kind, after which the kernel comes back within a tile, so that it can be stopped: some tenths of a second.
 ENOUGH = 2**20
 
@@ -135,12 +144,14 @@ def trace_area(
     resume: int,
     eye_solids: Any,
     pixels: Any,
+    begun: Begun,
     corner: tuple[int, int],
     space: Bundle,
 ) -> int:
     """Trace the area's pixels in reading order, from number `resume` on, into `pixels` (height, width, 3).
 
-    `corner` is the pixel of the image, (x, y), that stands first in `pixels`. Returns how many pixels are done: all, or
+    Of pixels that are `begun`, those that are to have more samples: `pixels` (height, width, 4) then gets the new sums.
+    `corner` is the pixel of the image, (x, y), that stands first in both. Returns how many pixels are done: all, or
     fewer after ENOUGH rays; -1 where a tree is too large for the table, and nothing of this call counts.
     """
     number = 0
@@ -148,6 +159,9 @@ def trace_area(
     rays[:] = 0
     residuals[:] = 0.0
     left, top = corner
+    goes_on = len(begun.plan) > 0
+    k0 = max(samples.first, 0)
+    k1 = k0 + samples.count
     for y in range(area.top, area.bottom, area.step):
         column = -1
         for x in range(area.left, area.right, area.step):
@@ -159,13 +173,30 @@ def trace_area(
                 continue
             if area.traced > 0 and x % area.traced == 0 and y % area.traced == 0:
                 continue
+            total, residual = (0.0, 0.0, 0.0), 0.0
+            if goes_on:
+                k0, k1 = begun.plan[y - top, x - left, 0], begun.plan[y - top, x - left, 1]
+                if k1 <= k0:
+                    continue
+                before = begun.sums[y - top, x - left]
+                total, residual = vector(before), before[3]
             if is_enough(rays):
                 return number - 1
             k = column % AHEAD
             gaze = (ahead[0, k], ahead[1, k], ahead[2, k])
-            color, residual = trace_pixel(world, view, limits, samples, x, y, gaze, eye_solids, space)
+            total, residual = trace_pixel(
+                world, view, limits, samples, x, y, gaze, k0, k1, total, residual, eye_solids, space
+            )
             if residual < 0.0:
                 return -1
+            if goes_on:
+                store(pixels[y - top, x - left], total)
+                pixels[y - top, x - left, 3] = residual
+                continue
+            color = total
+            if samples.count > 1:
+                color = (total[0] / samples.count, total[1] / samples.count, total[2] / samples.count)
+                residual /= samples.count
             if residual > 0.0:
                 residuals[0] = max(residuals[0], residual)
                 residuals[1] += residual
@@ -193,20 +224,23 @@ def trace_pixel(
     x: int,
     y: int,
     gaze: Vector,
+    first: int,
+    end: int,
+    total: Vector,
+    lost: float,
     eye_solids: Any,
     space: Bundle,
 ) -> tuple[Vector, float]:
-    """(colour, residual): the mean over the samples; residual -1 where the table was too short for a tree.
+    """(colour, residual): summed over the samples from number `first` to before `end`, onto what is there.
 
-    `gaze` is the direction through the pixel's centre; samples have their own.
+    A residual of -1 says that the table was too short for a tree. `gaze` is the direction through the pixel's centre;
+    samples have their own.
     """
-    total = (0.0, 0.0, 0.0)
-    lost = 0.0
     table, solids = space.table, space.solids
-    for k in range(samples.count):
+    for k in range(first, end):
         direction = gaze
         if samples.first >= 0:
-            dx, dy = sample_offset(x, y, samples.first + k, samples.sampler, samples.side)
+            dx, dy = sample_offset(x, y, k, samples.sampler, samples.side)
             direction = pixel_direction(view, x + dx, y + dy)
         row = start_row(limits, table, 0, -1, CAMERA, 0, (1.0, 1.0, 1.0), (1.0, 1.0, 1.0))
         store(row.origin, view.eye)
@@ -229,9 +263,6 @@ def trace_pixel(
         space.tree[1] = residual
         lost += residual
         total = add(total, vector(table[0].radiance))
-    if samples.count > 1:
-        total = (total[0] / samples.count, total[1] / samples.count, total[2] / samples.count)
-        lost /= samples.count
     return (total, lost)
 
 
@@ -257,6 +288,7 @@ def run(
     pixels: np.ndarray,
     workspace: Workspace,
     corner: tuple[int, int] = (0, 0),
+    begun: Begun = NOTHING,
     cancelled: Callable[[], bool] = lambda: False,
 ) -> Counts | None:
     """`trace_area` until it is through, with as much room as its trees need; None where it was cancelled."""
@@ -265,7 +297,9 @@ def run(
     counts = Counts(np.zeros(len(KINDS), np.int64), np.zeros(2))
     number = 0
     while True:
-        reached = trace_area(world, view, limits, samples, area, number, eye_solids, pixels, corner, workspace.bundle)
+        reached = trace_area(
+            world, view, limits, samples, area, number, eye_solids, pixels, begun, corner, workspace.bundle
+        )
         if reached < 0:
             workspace.grow()
             continue

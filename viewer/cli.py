@@ -11,7 +11,20 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any, NoReturn
 
-from viewer.arguments import at_least, depths, listed, pair, pixels, ray_name, share, six, text_size, view_from, weight
+from viewer.arguments import (
+    above_zero,
+    at_least,
+    depths,
+    listed,
+    pair,
+    pixels,
+    ray_name,
+    share,
+    six,
+    text_size,
+    view_from,
+    weight,
+)
 from viewer.interrupt import Interrupted, interruptible
 
 COMMANDS = ("view", "trace", "render", "export", "report", "plan", "check", "lessons")
@@ -111,13 +124,19 @@ def make_parser() -> Parser:
     render.add_argument("--format", choices=("png", "npy", "exr"), help="of the files in a folder, png by default")
     _add_limits(render)
     render.add_argument("--size", type=pair("x"), metavar="WxH", help="of the image, the scene's own by default")
-    render.add_argument("--samples", type=at_least(1), default=1, metavar="N", help="a pixel; 1 is its centre")
+    render.add_argument(
+        "--samples", type=at_least(1), metavar="N", help="a pixel; 1, its centre, by default; with --until at most"
+    )
     render.add_argument(
         "--sampler",
         choices=("sobol", "random", "jittered"),
         default="sobol",
         help="where they lie; jittered: N is a square",
     )
+    render.add_argument(
+        "--until-error", type=above_zero, metavar="E", help="samples where the error is, until it is estimated as E"
+    )
+    render.add_argument("--until-seconds", type=above_zero, metavar="S", help="the same, until S seconds have passed")
     where = render.add_mutually_exclusive_group()
     where.add_argument("--threads", type=at_least(1), metavar="N", help="as many as processors by default")
     where.add_argument("--dask", metavar="tcp://HOST:PORT", help="trace on the Dask cluster of this scheduler")

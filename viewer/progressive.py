@@ -10,8 +10,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from tracer.job import COARSE_TO_FINE, Job, passes
 from tracer.limits import Limits
-from tracer.render import COARSE_TO_FINE, Job, Stopped, passes, processors, trace_passes
+from tracer.passes import Stopped, trace_passes
+from tracer.render import processors
 from tracer.tile import Area
 from tracer.world import World
 from viewer.picture import srgb

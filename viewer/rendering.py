@@ -14,7 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import tracer
+from tracer.converge import MOST, Reached
 from tracer.outline import light_missing, number
+from tracer.render import Image
 from viewer.commands import compile_once, faults, find
 from viewer.files import Unusable, check_writable, write_atomically
 from viewer.picture import WRITERS, check_format, write_picture
@@ -114,6 +116,8 @@ def render_one(
             tolerance=options.tolerance,
             model=options.model,
             sampler=options.sampler,
+            until_error=options.until_error,
+            until_seconds=options.until_seconds,
             executor=executor,
             progress=share,
         )
@@ -125,6 +129,8 @@ def render_one(
         progress.put(
             f"a pixel's rays that were cut carry at most {most} of the weight{light_missing(image.bound)}", sys.stdout
         )
+    if image.reached:
+        progress.put(how_far(image, image.reached, options), sys.stdout)
     return {
         "scene": str(order.scene),
         "image": str(order.target),
@@ -132,13 +138,32 @@ def render_one(
         "rays": image.rays,
         "threads": image.threads,
         "size": list(image.size),
-        "samples": image.samples,
+        "samples": image.reached.samples if image.reached else image.samples,
         "depth": image.depth,
         "tolerance": image.tolerance,
         "residual": image.residual,
         "bound": image.bound if math.isfinite(image.bound) else None,
         "left_out": image.left_out,
+        **(reached(image, image.reached) if image.reached else {}),
     }
+
+
+def how_far(image: Image, far: Reached, options: Namespace) -> str:
+    """What an image that converges has come to, in a line."""
+    error = "is not known yet" if math.isnan(far.error) else f"is {far.error:.2g} (RMSE, linear light)"
+    spread = f"{far.samples:.3g} samples a pixel" + (f", {far.least} to {far.most}" if far.most > far.least else "")
+    ends = {
+        "error": f"{options.until_error:g} was asked for" if options.until_error else "",
+        "seconds": "time is up",
+        "samples": f"no pixel may have more than {options.samples or MOST}",
+    }
+    return f"estimated error {error} after {far.seconds:.2f} s and {far.rays:,} rays: {spread}; {ends[image.ended]}"
+
+
+def reached(image: Image, far: Reached) -> dict[str, Any]:
+    """The same for programs."""
+    error = None if math.isnan(far.error) else far.error
+    return {"error": error, "samples_least": far.least, "samples_most": far.most, "ended": image.ended}
 
 
 def ordered(options: Namespace) -> list[Order]:

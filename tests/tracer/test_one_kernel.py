@@ -13,9 +13,10 @@ import pytest
 import tracer
 from tests.scenes import ball, box, world_of
 from tracer.bvh import part_all
+from tracer.job import COARSE_TO_FINE, Job, passes
 from tracer.limits import MODELS, make_limits
 from tracer.nodes import BACKGROUND, SHADOW
-from tracer.render import COARSE_TO_FINE, Job, passes, trace_passes
+from tracer.passes import trace_passes
 from tracer.scene import Image, Material
 from tracer.tile import trace_area
 from tracer.tree import RayTree

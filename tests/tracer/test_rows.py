@@ -6,8 +6,8 @@ import pytest
 import tracer
 from tests.scenes import MIRROR, ball, kinds, plane, world_of
 from tests.tracer.test_certified import WHITE, plates
+from tracer.job import Job
 from tracer.limits import make_limits
-from tracer.render import Job
 from tracer.scene import Camera, Light, Material
 from tracer.tile import CENTER, Area, Workspace, eye_view, run
 from tracer.tree import solids_at, words

@@ -10,14 +10,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tracer.job import Job, passes
 from tracer.limits import make_limits
 from tracer.measure.imports import import_seconds
 from tracer.measure.plainer import WITHOUT
 from tracer.measure.turns import Turns, in_turn, work
 from tracer.measure.variants import WITH, Variant, depth_of, everything
 from tracer.nodes import KINDS
+from tracer.passes import trace_passes
 from tracer.plan import Need
-from tracer.render import Image, Job, passes, render, trace_passes, warm
+from tracer.render import Image, render, warm
 from tracer.world import World, prepare
 
 MOST_PIXELS = 80_000
