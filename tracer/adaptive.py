@@ -51,6 +51,11 @@ class Sampled:
         """Root mean square over pixels and components; NaN where some pixel has not been doubled yet."""
         return math.sqrt(float(self.moved.mean()))
 
+    def errors(self) -> np.ndarray:
+        """Each pixel's, estimated from all its doublings; NaN before the first."""
+        with np.errstate(invalid="ignore"):
+            return np.sqrt(self.spread[..., 0] / self.spread[..., 1] / self.counts.astype(float) ** 1.5)
+
     def next(self, most: int) -> Begun | None:
         """What each pixel is to have after another round, no more than `most`; None where nothing is to be gained."""
         have = self.counts

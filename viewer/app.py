@@ -9,7 +9,7 @@ from imgui_bundle.imgui import internal
 
 from viewer import keys, style
 from viewer.canvas import Canvas
-from viewer.panels import PANELS, bar, image, lesson, menu, ray, scene, tree
+from viewer.panels import PANELS, bar, error, image, lesson, menu, ray, scene, tree
 from viewer.session import Session
 from viewer.window import Offscreen, Window
 
@@ -170,7 +170,9 @@ class App:
             imgui.set_window_focus(lesson.TITLE)
         elif session.wants_numbers:
             imgui.set_window_focus(ray.TITLE)
-        session.wants_text = session.wants_numbers = False
+        elif session.wants_error:
+            imgui.set_window_focus(error.TITLE)
+        session.wants_text = session.wants_numbers = session.wants_error = False
 
     def _panel(self, title: str, draw: Callable[[], None]) -> None:
         tight = title in (scene.TITLE, image.TITLE, tree.TITLE)
@@ -216,6 +218,7 @@ class App:
             tree.TITLE: below_left,
             lesson.TITLE: below_right,
             ray.TITLE: below_right,
+            error.TITLE: below_right,
         }
         for title, node in place.items():
             internal.dock_builder_dock_window(title, node)

@@ -1,6 +1,7 @@
 """What panels share of the GPU: the 3D stage and the picture's texture, made anew only when something has changed."""
 
 import time
+from typing import NamedTuple
 
 import moderngl
 import numpy as np
@@ -8,7 +9,9 @@ from imgui_bundle import imgui
 
 from tracer.tile import Area
 from tracer.tree import RayTree
+from viewer.colormap import colored
 from viewer.gl.stage import ImagePlane, Stage
+from viewer.magnified import NEAR, Place, magnified
 from viewer.progressive import Picture
 from viewer.raylines import RayLine, ray_lines
 from viewer.session import Session
@@ -16,6 +19,14 @@ from viewer.stagelines import StageLines, frustum_lines, glass_edges, image_plan
 
 REFRESH = 0.4  # seconds between the states of an unfinished image that the 3D view shows, at least
 RARELY = 10.0  # times the frame that draws it anew: else a slow one would be every frame
+
+
+class Seen(NamedTuple):
+    """A texture and the corners of its place on the screen."""
+
+    texture: moderngl.Texture
+    first: tuple[float, float]
+    end: tuple[float, float]
 
 
 class Canvas:
@@ -30,6 +41,10 @@ class Canvas:
         self.nodes: dict[int, tuple[float, float]] = {}
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
         self.told: tuple[RayTree, int] | None = None  # which ray the panel of numbers was about
+        self.map_image: moderngl.Texture | None = None
+        self._mapped: object = None  # what of an image that converges is in that texture
+        self._near: Seen | None = None
+        self._near_key: object = None
         self._sent: tuple[Picture | None, int] = (None, 0)  # the picture in the texture, and how many of its tiles
         self._world: object = None
         self._theme: object = None
@@ -51,8 +66,6 @@ class Canvas:
             if self.image:
                 self.image.release()
             self.image = self.ctx.texture((width, height), 4)
-            # Far away smooth, near by the pixels themselves: they are what is clicked on.
-            self.image.filter = (moderngl.LINEAR, moderngl.NEAREST)
             self._sent = (None, 0)
         before, count = self._sent
         if shown is not before:
@@ -62,6 +75,59 @@ class Canvas:
             _send(self.image, shown.shown, tiles)
             self._sent = (shown, count + len(tiles))
         return self.image
+
+    def seen(self, place: Place) -> Seen | None:
+        """What stands in the image's panel: the rendered image or a map of it; near by, its pixels as squares."""
+        if self.session.image.picture is None:
+            return None
+        if place.scale < NEAR:
+            texture = self._map() or self.picture()
+            if texture is None:
+                return None
+            width, height = (place.scale * side for side in texture.size)
+            return Seen(texture, (place.left, place.top), (place.left + width, place.top + height))
+        shown = self.session.image.picture
+        key = (place, self._map_key(), shown, len(shown.tiles))
+        if key != self._near_key:
+            self._near_key = key
+            values = self.session.convergence.map
+            pixels = colored(values, self.session.convergence.shows) if values is not None else shown.shown
+            found = magnified(pixels, place)
+            self._near = self._near_at(*found) if found else None
+        return self._near
+
+    def _near_at(self, pixels: np.ndarray, left: int, top: int) -> Seen:
+        height, width = pixels.shape[:2]
+        if self._near and self._near.texture.size == (width, height):
+            texture = self._near.texture
+            texture.write(pixels)
+        else:
+            if self._near:
+                self._near.texture.release()
+            texture = self.ctx.texture((width, height), 4, pixels)
+        return Seen(texture, (left, top), (left + width, top + height))
+
+    def _map_key(self) -> object:
+        """What the map depends on: it changes from round to round."""
+        run = self.session.convergence.current
+        if not run or self.session.convergence.shows == "image":
+            return None
+        return (run, self.session.convergence.shows, len(run.points), run.picture and run.picture.finished)
+
+    def _map(self) -> moderngl.Texture | None:
+        """Each pixel's error, or its samples; None where the image itself is to be seen."""
+        key = self._map_key()
+        if key != self._mapped:
+            self._mapped = key
+            values = self.session.convergence.map
+            if self.map_image:
+                self.map_image.release()
+            self.map_image = None
+            if values is not None:
+                height, width = values.shape
+                pixels = colored(values, self.session.convergence.shows)
+                self.map_image = self.ctx.texture((width, height), 4, pixels)
+        return self.map_image
 
     def view3d(self, size: tuple[int, int], scale: float) -> moderngl.Texture:
         """The 3D view, `size` in pixels, `scale` pixels a logical one; bottom row first, as GL has it."""
@@ -135,8 +201,9 @@ class Canvas:
 
     def release(self) -> None:
         self.stage.release()
-        if self.image:
-            self.image.release()
+        for texture in (self.image, self.map_image, self._near and self._near.texture):
+            if texture:
+                texture.release()
 
 
 def _send(image: moderngl.Texture, pixels: np.ndarray, tiles: list[Area]) -> None:

@@ -19,6 +19,7 @@ HELP = (
     ("V", "look through the scene's camera"),
     ("C  L  N  B", "camera, lights, normals, names: show or hide"),
     ("M", "Whitted's model or Fresnel's"),
+    ("R", "refine the image, pause"),
     ("T", "light or dark theme"),
     ("Tab", "lecture size: everything larger"),
     ("Esc", "select nothing, pick nothing"),
@@ -111,6 +112,8 @@ def _typed(session: Session) -> None:
                 shown.labels = not shown.labels
             case "m":
                 session.toggle_model()
+            case "r":
+                session.toggle_refining()
             case "t":
                 session.toggle_theme()
             case "h" | "?":

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from tracer.converge import Converging, Reached
 from tracer.job import COARSE_TO_FINE, Job, passes
 from tracer.limits import Limits
 from tracer.passes import Stopped, trace_passes
@@ -32,6 +33,7 @@ class Picture:
     seconds: float = 0.0
     cancelled: threading.Event = field(default_factory=threading.Event)
     tiles: list[Area] = field(default_factory=list)  # finished so far, for whoever shows what is new
+    endless: bool = False  # gets finer for as long as it may
 
     @property
     def finished(self) -> bool:
@@ -53,8 +55,7 @@ class Progressive:
     def show(self, world: World, limits: Limits, size: tuple[int, int]) -> None:
         """Make this the image to be seen: at once where it is kept, else begin it and drop the one in the making."""
         key = (id(world), limits, size)
-        if self.picture and not self.picture.finished:
-            self.picture.cancelled.set()
+        self.pause()
         if key in self.kept:
             self.kept.move_to_end(key)
             self.picture = self.kept[key]
@@ -64,6 +65,21 @@ class Progressive:
         self.picture = picture
         self.last = self.runner.submit(self._run, picture, key)
 
+    def refine(self, made: Converging, picture: Picture, noted: Callable[[Reached | None], None]) -> None:
+        """Go on with an image that converges, as the one to be seen, until another is to be seen or it is paused.
+
+        `noted` is told, on another thread, how far each round has come; None: nothing more is to be gained.
+        """
+        self.pause()
+        picture.cancelled, picture.share = threading.Event(), 0.0
+        self.picture = picture
+        self.last = self.runner.submit(self._refine, made, picture, picture.cancelled, noted)
+
+    def pause(self) -> None:
+        """Stop what is being rendered where it is."""
+        if self.picture and not self.picture.finished:
+            self.picture.cancelled.set()
+
     def forget(self) -> None:
         """Drop every image: another world is on show."""
         if self.picture:
@@ -72,8 +88,8 @@ class Progressive:
         self.kept.clear()
 
     def wait(self) -> None:
-        """Until the image to be seen is finished."""
-        if self.picture and not self.picture.finished:
+        """Until the image to be seen is finished, if it ever is."""
+        if self.picture and not self.picture.finished and not self.picture.endless:
             self.last.result()  # type: ignore[attr-defined]
 
     def close(self) -> None:
@@ -88,7 +104,7 @@ class Progressive:
         width, height = picture.job.view.width, picture.job.view.height
 
         def finished(area: Area, share: float) -> None:
-            _show(picture, area)
+            _show(picture, area, _part(picture.job.pixels, area))
             picture.seconds = time.perf_counter() - began
             picture.tiles.append(area)
             picture.share = share
@@ -110,14 +126,46 @@ class Progressive:
             while len(self.kept) > KEPT:
                 self.kept.popitem(last=False)
 
+    def _refine(
+        self,
+        made: Converging,
+        picture: Picture,
+        cancelled: threading.Event,
+        noted: Callable[[Reached | None], None],
+    ) -> None:
+        before = made.seconds
+        began = time.perf_counter()
 
-def _show(picture: Picture, area: Area) -> None:
+        def finished(area: Area, share: float) -> None:
+            sums, counts = _part(made.sampled.sums, area), _part(made.sampled.counts, area)
+            if counts.min() > 1:  # the first samples are worse than the centres that are seen already
+                _show(picture, area, sums[..., :3] / counts[..., None])
+                picture.tiles.append(area)
+            picture.seconds = before + time.perf_counter() - began
+            picture.share = min(share, 0.999)
+            self.changed()
+
+        try:
+            for reached in made.rounds(self.pool, self.threads, finished, cancelled.is_set):
+                noted(reached)
+            noted(None)
+        except Stopped:
+            pass
+        if picture.cancelled is cancelled:  # and it has not been gone on with since
+            picture.share = 1.0
+            self.changed()
+
+
+def _part(image: np.ndarray, area: Area) -> np.ndarray:
+    return image[area.top : area.bottom, area.left : area.right]
+
+
+def _show(picture: Picture, area: Area, linear: np.ndarray) -> None:
     """Encode the pixels that this tile's pass has traced, each over the square that it stands for."""
     step = area.step
     height, width = area.bottom - area.top, area.right - area.left
-    inside = np.s_[area.top : area.bottom, area.left : area.right]
-    traced = srgb(picture.job.pixels[inside][::step, ::step])
-    picture.shown[inside][..., :3] = traced.repeat(step, 0).repeat(step, 1)[:height, :width]
+    traced = srgb(linear[::step, ::step])
+    _part(picture.shown, area)[..., :3] = traced.repeat(step, 0).repeat(step, 1)[:height, :width]
 
 
 def _step_back() -> None:

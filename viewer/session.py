@@ -8,9 +8,12 @@ from pathlib import Path
 import numpy as np
 
 import tracer
-from tracer.limits import MODELS, make_limits
+from tracer.bound import brightest
+from tracer.converge import Reached
+from tracer.limits import MODELS, Limits, make_limits
 from tracer.tree import RayTree
 from tracer.world import World
+from viewer.convergence import Convergence, Run, Way
 from viewer.lesson import Lesson
 from viewer.looks import Look, Notice, Shown
 from viewer.orbit import Frame, Orbit, home
@@ -33,6 +36,7 @@ class Session:
         self.loader = ThreadPoolExecutor(1)
         self.loading: Future | None = None
         self.image = Progressive(changed)
+        self.convergence = Convergence()
         self.watch = Watch()
         self.shown = Shown()
         self.image_view = Look()
@@ -60,6 +64,7 @@ class Session:
         self.wants_quit = False
         self.wants_numbers = False  # the panel of the selected ray is to come to the front
         self.wants_text = False  # the lesson's is
+        self.wants_error = False  # that of the error against time is
         self.folder: Path | None = None  # which that dialog shows
         self.not_found = ""  # what was typed into it
         self.wanted_pixel: tuple[int, int] | None = None  # to be picked once the scene is there
@@ -123,6 +128,7 @@ class Session:
         if self.world and self.warmup.ready and not self.image.picture:
             self._render()
             news = True
+        self._go_on_refining()
         picture = self.image.picture
         finished = picture if picture and picture.finished else None
         if finished is not self.seen_finished:
@@ -142,6 +148,7 @@ class Session:
         self.faults = []
         scene = world.scene
         self.image.forget()
+        self.convergence.forget()
         self.wants_text = lesson is not None and self.world is not None and not again
         self.world, self.path, self.lesson = world, path, lesson
         self.watch.follow_meshes(path, scene)
@@ -250,8 +257,61 @@ class Session:
 
     def _render(self) -> None:
         assert self.world
-        limits = make_limits(self.world, self.depth, model=self.model, records=False)
-        self.image.show(self.world, limits, self.size)
+        self.convergence.current = None
+        self.image.show(self.world, self._limits(), self.size)
+
+    def _limits(self) -> Limits:
+        assert self.world
+        return make_limits(self.world, self.depth, model=self.model, records=False)
+
+    # --- more rays a pixel --------------------------------------------------------------------------------------------
+
+    def toggle_refining(self) -> None:
+        """Give pixels more rays, or pause; what there is stays."""
+        state = self.convergence
+        state.goes_on = not state.goes_on
+        self.wants_error = state.goes_on
+        if not state.goes_on:
+            self.image.pause()
+
+    def set_way(self, way: Way) -> None:
+        """Spread samples in this way; what the others have come to stays to be compared."""
+        if way != self.convergence.way:
+            self.convergence.way = way
+            if self.convergence.goes_on:
+                self._render()
+
+    def _go_on_refining(self) -> None:
+        """Once the image of one ray a pixel is there, or where it was paused."""
+        state, picture = self.convergence, self.image.picture
+        if not (self.world and state.goes_on and picture and picture.finished):
+            return
+        if state.current is None or not picture.endless:
+            run = state.run(self.world, self._limits(), self.size, self.model, picture)
+        elif state.current.way != state.way:
+            self._render()
+            return
+        else:
+            run = state.current
+        if run.ended:
+            self.image.picture = run.picture
+            state.goes_on = False
+        else:
+            self._refine(run)
+
+    def _refine(self, run: Run) -> None:
+        assert self.world
+        made, picture, light = run.made, run.picture, brightest(self.world.scene)
+        if made is None or picture is None:
+            return
+
+        def noted(reached: Reached | None) -> None:
+            if reached:
+                run.note(reached, light)
+            else:
+                run.ended = True
+
+        self.image.refine(made, picture, noted)
 
     # --- how it is looked at ------------------------------------------------------------------------------------------
 

@@ -73,6 +73,13 @@ FRAME_WIDTH = 1.2  # the camera's frustum
 EDGE_WIDTH = 1.0  # edges of cut glass: less than any ray
 EDGE_OPACITY = 0.5
 
+# Curves in a plot, one after the other: they differ by marker, too.
+CURVES = (("#F2C14E", "#B0127B"), ("#56B4E9", "#0072B2"), ("#7FD6A2", "#11723F"), ("#E69F00", "#B35C00"),
+          ("#C7A6F0", "#5B3A9C"), ("#ECEFF3", "#14181D"))  # fmt: skip
+
+# Numbers as colours, from little to much: each stop is lighter than the one before, in grey as well.
+MAP = (rgb("#0B1026"), rgb("#2F2A7A"), rgb("#8C2F7F"), rgb("#DD5A4F"), rgb("#F7A93B"), rgb("#FCF3B8"))
+
 FONT_SIZE = 16.0  # pixels at 1280x720; 18 is what a back row reads, 16 what four panels leave room for
 SMALL = 0.9  # of the font's size, for labels in figures
 LECTURE_ZOOM = 1.35  # what the lecture mode multiplies sizes by
@@ -115,6 +122,12 @@ class Theme:
         if self.mono:
             return self.text
         return (1.0, 0.82, 0.25, 1.0) if self.dark else (0.80, 0.55, 0.0, 1.0)
+
+
+def curve_color(theme: Theme, k: int) -> Color:
+    """Of the k-th curve in a plot."""
+    dark, light = CURVES[k % len(CURVES)]
+    return rgb(dark if theme.dark else light)
 
 
 DARK = Theme(

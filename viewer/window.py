@@ -17,7 +17,7 @@ import glfw
 # isort: on
 import moderngl
 import numpy as np
-from imgui_bundle import imgui
+from imgui_bundle import imgui, implot
 from imgui_bundle.imgui import backends
 
 from viewer.theme import FONT_SIZE
@@ -40,6 +40,7 @@ class Surface:
 
     def _start_imgui(self, ini: Path | None) -> None:
         imgui.create_context()
+        implot.create_context()
         io = imgui.get_io()
         io.set_ini_filename(str(ini) if ini else "")
         io.config_flags |= imgui.ConfigFlags_.docking_enable
@@ -155,6 +156,7 @@ class Window(Surface):
     def close(self) -> None:
         backends.opengl3_shutdown()
         backends.glfw_shutdown()
+        implot.destroy_context()
         imgui.destroy_context()
         self.ctx.release()
         glfw.destroy_window(self.window)
@@ -203,6 +205,7 @@ class Offscreen(Surface):
 
     def close(self) -> None:
         backends.opengl3_shutdown()
+        implot.destroy_context()
         imgui.destroy_context()
         with self.ctx:  # leaving it unbinds it from this thread, where a window may want to be next
             pass

@@ -108,7 +108,8 @@ def test_time_ends_it(worlds: dict[str, tracer.World]) -> None:
 
 
 def test_a_flat_image_needs_two_samples() -> None:
-    image = tracer.render(world_of(ball((0, 0, 50), 0.1), camera=((0, 0, 0), (0, 0, -1))), SIZE, until_error=1e-9)
+    """The ball is behind the eye."""
+    image = tracer.render(world_of(ball((0, 0, 50), 0.1)), SIZE, until_error=1e-9)
     assert image.reached
     assert image.reached.error == 0.0
     assert image.ended == "error"

@@ -274,3 +274,20 @@ def test_every_lesson_opens_on_its_pixel_and_draws_every_panel(name: str) -> Non
         for row in range(len(session.tree)):
             session.select(row)
             driver.frames(1)
+
+
+def test_near_by_pixels_are_squares(glass: Driver) -> None:
+    """What is clicked on is seen as it is: one colour, up to where the next pixel begins."""
+    session = glass.session
+    session.clear()
+    session.clear()
+    glass.wheel(*glass.pixel_at(400, 300), 14)
+    picture, shown = glass.picture(), session.image.picture
+    assert shown
+    _, _, scale = glass.canvas.image_place
+    assert scale > 5.0
+    inside = int(0.5 * scale) - 1
+    for x, y in ((400, 300), (403, 298), (396, 305)):
+        left, top = (int(place) for place in glass.pixel_at(x, y))
+        square = picture[top - inside : top + inside + 1, left - inside : left + inside + 1]
+        assert (square == shown.shown[y, x, :3]).all()

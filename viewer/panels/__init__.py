@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from viewer.panels import image, lesson, ray, scene, tree
+from viewer.panels import error, image, lesson, ray, scene, tree
 from viewer.session import Session
 
 
@@ -19,5 +19,6 @@ PANELS = (
     Panel(image.TITLE, image.draw),
     Panel(tree.TITLE, tree.draw),
     Panel(ray.TITLE, ray.draw),
+    Panel(error.TITLE, error.draw),
     Panel(lesson.TITLE, lesson.draw, exists=lambda session: session.lesson is not None),
 )

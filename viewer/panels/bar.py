@@ -49,17 +49,17 @@ def _depth(session: Session) -> None:
     imgui.text("Depth")
     for depth in range(4):
         imgui.same_line(0.0, (8 if depth == 0 else 3) * d.unit())
-        if _toggle(session, str(depth), session.depth == depth):
+        if d.toggle(session.theme, str(depth), session.depth == depth):
             session.set_depth(depth)
-        _hint(f"rays that were reflected or refracted at most {depth} times (key {depth})")
+        d.hint(f"rays that were reflected or refracted at most {depth} times (key {depth})")
     imgui.same_line(0.0, 3 * d.unit())
     if imgui.button("−"):
         session.set_depth(session.depth - 1)
-    _hint("one less (key -)")
+    d.hint("one less (key -)")
     imgui.same_line(0.0, 3 * d.unit())
     if imgui.button("+"):
         session.set_depth(session.depth + 1)
-    _hint("one more (key +)")
+    d.hint("one more (key +)")
     if session.depth > 3:
         imgui.same_line(0.0, 6 * d.unit())
         imgui.text_colored(session.theme.accent, str(session.depth))
@@ -73,9 +73,9 @@ def _model(session: Session) -> None:
     for k, (model, hint) in enumerate(zip(MODELS, hints, strict=True)):
         if k:
             imgui.same_line(0.0, 3 * d.unit())
-        if _toggle(session, model.capitalize(), session.model == model):
+        if d.toggle(session.theme, model.capitalize(), session.model == model):
             session.set_model(model)
-        _hint(hint)
+        d.hint(hint)
 
 
 def _legend(session: Session, right: float) -> None:
@@ -94,7 +94,7 @@ def _legend(session: Session, right: float) -> None:
         if imgui.invisible_button(f"legend {kind}", size):
             session.toggle_kind(kind)
         hovered = imgui.is_item_hovered()
-        _hint(f"{style.label}: {_meaning(session, kind)} (click to {'hide' if on else 'show'})")
+        d.hint(f"{style.label}: {_meaning(session, kind)} (click to {'hide' if on else 'show'})")
         pad = imgui.get_window_draw_list()
         if hovered:
             pad.add_rect_filled(at, (at.x + size[0], at.y + size[1]), d.u32(theme.hover), 4 * unit)
@@ -159,22 +159,8 @@ def _status_text(session: Session) -> str:
         return waiting_lines(session)[0]
     count = len(session.tree) if session.tree else 0
     rays = f"{count} ray{'s' if count > 1 else ''}" if count else "no pixel picked"
+    if picture.endless:
+        return f"{rays}  ·  image refined for {picture.seconds:.1f} s"
     if picture.finished:
         return f"{rays}  ·  image in {picture.seconds:.2f} s"
     return f"{rays}  ·  image {100 * picture.share:.0f} %"
-
-
-def _toggle(session: Session, label: str, on: bool) -> bool:
-    if on:
-        imgui.push_style_color(imgui.Col_.button, session.theme.accent)
-        imgui.push_style_color(imgui.Col_.button_hovered, session.theme.accent)
-        imgui.push_style_color(imgui.Col_.text, session.theme.on_accent)
-    pressed = imgui.button(label)
-    if on:
-        imgui.pop_style_color(3)
-    return pressed
-
-
-def _hint(text: str) -> None:
-    if imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
-        imgui.set_tooltip(text)

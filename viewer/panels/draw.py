@@ -4,7 +4,7 @@ import math
 
 from imgui_bundle import imgui
 
-from viewer.theme import FONT_SIZE, Arrow, Color, RayStyle, faded
+from viewer.theme import FONT_SIZE, Arrow, Color, RayStyle, Theme, faded
 
 Point = tuple[float, float]
 
@@ -115,6 +115,24 @@ def sample(draw: imgui.ImDrawList, at: Point, width: float, style: RayStyle, col
     dash = (style.dash[0] * scale * 0.8, style.dash[1] * scale * 0.8)
     line(draw, a, b, color, style.width * scale, dash)
     arrow(draw, a, b, 0.62, color, 9.0 * scale, style.arrow)
+
+
+def toggle(theme: Theme, label: str, on: bool) -> bool:
+    """A button that shows whether it is on; whether it was pressed."""
+    if on:
+        imgui.push_style_color(imgui.Col_.button, theme.accent)
+        imgui.push_style_color(imgui.Col_.button_hovered, theme.accent)
+        imgui.push_style_color(imgui.Col_.text, theme.on_accent)
+    pressed = imgui.button(label)
+    if on:
+        imgui.pop_style_color(3)
+    return pressed
+
+
+def hint(content: str) -> None:
+    """What the item before is for, while the mouse rests on it."""
+    if imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
+        imgui.set_tooltip(content)
 
 
 def _between(a: Point, b: Point, share: float) -> Point:

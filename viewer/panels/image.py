@@ -3,6 +3,8 @@
 from imgui_bundle import imgui
 
 from viewer.canvas import Canvas, texture_ref
+from viewer.colormap import RANGES, strip
+from viewer.magnified import Place
 from viewer.panels import draw as d
 from viewer.picture import as_shown
 from viewer.session import Session
@@ -28,10 +30,10 @@ def draw(session: Session, canvas: Canvas) -> None:
     canvas.image_place = place
     _handle_mouse(session, place)
     canvas_draw.push_clip_rect(corner, (corner.x + room.x, corner.y + room.y), True)
-    texture = canvas.picture()
-    if texture is not None:
-        right, bottom = place[0] + place[2] * session.size[0], place[1] + place[2] * session.size[1]
-        canvas_draw.add_image(texture_ref(texture), place[:2], (right, bottom))
+    panel = (corner.x, corner.y, corner.x + room.x, corner.y + room.y)
+    seen = canvas.seen(Place(*place, panel))
+    if seen is not None:
+        canvas_draw.add_image(texture_ref(seen.texture), seen.first, seen.end)
         if session.pixel:
             _mark_pixel(session, canvas_draw, place)
     else:
@@ -100,7 +102,9 @@ def _head(session: Session) -> None:
         )
         if changed and text.isdigit():
             session.pick(*((int(text), max(y, 0)) if label == "x" else (max(x, 0), int(text))))
-    if session.tree:
+    if session.convergence.map is not None:
+        _scale(session)
+    elif session.tree:
         rgb = session.tree.radiance
         imgui.same_line()
         imgui.color_button(
@@ -116,16 +120,56 @@ def _head(session: Session) -> None:
             imgui.text(content)
         if imgui.is_item_hovered():
             meaning = "red, green, blue: linear light, before it is made into sRGB for the screen"
+            if session.convergence.current:
+                meaning += f"\nof the ray through the pixel's centre{_refined(session)}"
             imgui.set_tooltip(f"{content}\n{meaning}")
     else:
         imgui.same_line()
         imgui.text_colored(session.theme.muted, "click the image")
 
 
+def _refined(session: Session) -> str:
+    """What more samples have made of the picked pixel."""
+    run = session.convergence.current
+    if not (run and run.made and session.pixel and run.points):
+        return ""
+    x, y = session.pixel
+    sampled = run.made.sampled
+    count = int(sampled.counts[y, x])
+    mean = "  ".join(f"{value / count:.4f}" for value in sampled.sums[y, x, :3])
+    return f"; the mean of {count} samples is {mean}"
+
+
+def _scale(session: Session) -> None:
+    """What the map's colours stand for, at the right end."""
+    unit, size = d.unit(), imgui.get_font_size()
+    low, high = (f"{value:g}" for value in RANGES[session.convergence.shows])
+    word = session.convergence.shows
+    imgui.same_line()
+    start, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+    ends = d.text_size(low, size)[0] + d.text_size(high, size)[0] + 14 * unit
+    named = d.text_size(word, size)[0] + 10 * unit
+    if ends + named + 60 * unit > room:
+        word, named = "", 0.0
+    bar = min(110 * unit, max(20 * unit, room - ends - named))
+    left = start.x + max(0.0, room - ends - named - bar)
+    top = start.y + 0.5 * (imgui.get_frame_height() - size)
+    pad = imgui.get_window_draw_list()
+    d.text(pad, (left, top), session.theme.muted, word, size)
+    d.text(pad, (left + named, top), session.theme.text, low, size)
+    left += named + d.text_size(low, size)[0] + 6 * unit
+    colors = strip(48)
+    for k, color in enumerate(colors):
+        a, b = left + k * bar / len(colors), left + (k + 1) * bar / len(colors)
+        pad.add_rect_filled((a, top + 0.1 * size), (b + 0.5, top + size), d.u32(color))
+    d.text(pad, (left + bar + 6 * unit, top), session.theme.text, high, size)
+    imgui.new_line()
+
+
 def _progress(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
     """A thin bar while the image is not finished."""
     shown = session.image.picture
-    if shown is None or shown.finished:
+    if shown is None or shown.finished or shown.endless:
         return
     bottom = corner.y + room.y
     height = 4.0 * d.unit()

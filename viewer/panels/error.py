@@ -1,0 +1,164 @@
+"""Error against time while the image converges, every setting's curve, and a map of where the error is."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from imgui_bundle import imgui, implot
+
+from viewer.canvas import Canvas
+from viewer.convergence import SHOWN, WAYS, Run, forecast
+from viewer.panels import draw as d
+from viewer.session import Session
+from viewer.theme import SMALL, curve_color
+
+TITLE = "Error"
+MAP_WIDTH = 92  # logical pixels
+PLOT_HEIGHT = 96
+LEGEND_FROM = 290  # of the panel's width
+MARKERS = (
+    implot.Marker_.circle, implot.Marker_.square, implot.Marker_.diamond, implot.Marker_.up, implot.Marker_.down,
+    implot.Marker_.cross,
+)  # fmt: skip
+
+
+def draw(session: Session, canvas: Canvas) -> None:
+    if not session.world:
+        return
+    _controls(session)
+    _numbers(session)
+    if any(run.points for run in session.convergence.runs):
+        _plot(session)
+    else:
+        imgui.push_text_wrap_pos(0.0)
+        imgui.text_colored(session.theme.muted, EMPTY)
+        imgui.pop_text_wrap_pos()
+
+
+EMPTY = (
+    "The image has one ray a pixel, through its centre. Refine it: pixels get more rays, twice as many each time, and "
+    "how far their mean moves then says how far off it is. Try another depth or another way to place the rays: every "
+    "curve is kept."
+)
+
+
+def _controls(session: Session) -> None:
+    state, unit = session.convergence, d.unit()
+    if imgui.button("Pause" if state.goes_on else "Refine", (66 * unit, 0)):
+        session.toggle_refining()
+    d.hint("more rays for each pixel, until it is paused (key R)")
+    imgui.same_line()
+    imgui.set_next_item_width(152 * unit)
+    if imgui.begin_combo("##way", state.way.name):
+        for way in WAYS:
+            if imgui.selectable(way.name, way == state.way)[0]:
+                session.set_way(way)
+            d.hint(way.hint)
+        imgui.end_combo()
+    d.hint("where the rays of a pixel go")
+    imgui.same_line()
+    if imgui.get_content_region_avail().x < MAP_WIDTH * unit:
+        imgui.new_line()
+    imgui.set_next_item_width(MAP_WIDTH * unit)
+    if imgui.begin_combo("##map", SHOWN[state.shows]):
+        for name, meaning in SHOWN.items():
+            if imgui.selectable(meaning, name == state.shows)[0]:
+                state.shows = name
+        imgui.end_combo()
+    d.hint("what stands in the image's place")
+
+
+def _numbers(session: Session) -> None:
+    """How far the image has come, what one more second buys, and what no second does."""
+    run, theme = session.convergence.current, session.theme
+    if not run or not run.points:
+        return
+    last = run.points[-1]
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text(f"error {last.error:.2g} after {last.seconds:.1f} s  ·  {_outlook(run)}")
+    spread = f", {last.least} to {last.most}" if last.most > last.least else ""
+    lines = [(f"{last.samples:.3g} samples a pixel{spread}", "in the mean, and where they are fewest and most")]
+    if run.floor > 0.0:
+        cut = f"at most {run.floor:.2g} more" if math.isfinite(run.floor) else "bounded by nothing"
+        lines.append((f"rays cut at depth {run.depth}: {cut}", FLOOR))
+    for content, meaning in lines:
+        if imgui.get_content_region_avail().y > (PLOT_HEIGHT + 40) * d.unit():
+            imgui.text_colored(theme.muted, content)
+            d.hint(meaning)
+    imgui.pop_text_wrap_pos()
+
+
+FLOOR = "the error that no further sample takes away: what the rays that were not followed may be worth"
+
+
+def _outlook(run: Run) -> str:
+    last, after = run.points[-1], forecast(run.points, 1.0)
+    if run.ended:
+        return "no sample gains more"
+    if math.isnan(after):
+        return "1 s more: too early to tell"
+    return f"1 s more: {100.0 * (1.0 - after / last.error):.2g} % less"
+
+
+def _plot(session: Session) -> None:
+    unit, theme, state = d.unit(), session.theme, session.convergence
+    size = SMALL * imgui.get_font_size()
+    at = imgui.get_cursor_screen_pos()
+    d.text(imgui.get_window_draw_list(), (at.x, at.y), theme.muted, "estimated RMSE over seconds", size)
+    imgui.dummy((0.0, 1.2 * size))
+    if len(state.runs) > 1:
+        width = d.text_size("clear", imgui.get_font_size())[0] + 14 * unit
+        imgui.same_line(imgui.get_cursor_pos_x() + imgui.get_content_region_avail().x - width)
+        if imgui.small_button("clear"):
+            state.clear()
+        d.hint("drop the curves of earlier settings")
+    room = imgui.get_content_region_avail()
+    room.y = max(room.y, PLOT_HEIGHT * unit)  # else the panel scrolls
+    flags, axis = implot.Flags_, implot.AxisFlags_
+    implot.push_style_var(implot.StyleVar_.plot_padding, (4.0 * unit, 4.0 * unit))
+    implot.push_style_color(implot.Col_.frame_bg, (0.0, 0.0, 0.0, 0.0))
+    shown = flags.no_title | flags.no_menus | flags.no_mouse_text | flags.no_box_select
+    if room.x < LEGEND_FROM * unit:
+        shown |= flags.no_legend
+    if implot.begin_plot("##convergence", room, shown):
+        implot.setup_axes("", "", axis.no_label, axis.no_label)
+        implot.setup_axis_scale(implot.ImAxis_.x1, implot.Scale_.log10)
+        implot.setup_axis_scale(implot.ImAxis_.y1, implot.Scale_.log10)
+        implot.setup_legend(implot.Location_.east, implot.LegendFlags_.outside)
+        times = [p.seconds for run in state.runs for p in run.points]
+        errors = [p.error for run in state.runs for p in run.points if p.error > 0.0]
+        errors += [run.floor for run in state.runs if 0.0 < run.floor < math.inf]
+        (left, right), (low, high) = _around(times), _around(errors)
+        implot.setup_axes_limits(left, right, low, high, implot.Cond_.always)
+        for k, run in enumerate(state.runs):
+            _curve(session, k, run, (left, right))
+        implot.end_plot()
+    implot.pop_style_color()
+    implot.pop_style_var()
+
+
+def _around(values: Sequence[float]) -> tuple[float, float]:
+    """Ends of a logarithmic axis with room on either side of its values."""
+    low, high = min(values, default=1.0), max(values, default=1.0)
+    room = max((high / low) ** 0.06, 1.15)
+    return low / room, high * room
+
+
+def _curve(session: Session, k: int, run: Run, reach: tuple[float, float]) -> None:
+    """A marker a round; flat from first to last second, the error that stays for rays that are cut."""
+    points = [p for p in run.points if p.error > 0.0]
+    if not points:
+        return
+    state, unit = session.convergence, d.unit()
+    color = imgui.ImVec4(*curve_color(session.theme, k))
+    on = run is state.current
+    name = run.name([other.model for other in state.runs])
+    if 0.0 < run.floor < math.inf:
+        faint = imgui.ImVec4(color.x, color.y, color.z, 0.55)
+        flat = implot.Spec(line_color=faint, line_weight=1.2 * unit)
+        implot.plot_line(f"##floor {name}", np.array(reach), np.full(2, run.floor), flat)
+    spec = implot.Spec(
+        line_color=color, line_weight=(2.6 if on else 1.5) * unit, marker=MARKERS[k % len(MARKERS)],
+        marker_size=(4.0 if on else 3.0) * unit, marker_line_color=color, marker_fill_color=color,
+    )  # fmt: skip
+    implot.plot_line(name, np.array([p.seconds for p in points]), np.array([p.error for p in points]), spec)
