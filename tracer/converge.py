@@ -76,9 +76,8 @@ class Converging:
                 return
             plan = begun.plan
             if self.sampled.renews:
-                rays = self.job.rays
-                self.job = self._job(math.isqrt(int(plan[..., 1].max())))
-                self.job.rays += rays
+                before, self.job = self.job, self._job(math.isqrt(int(plan[..., 1].max())))
+                self.job.rays, self.job.tests = before.rays, before.tests
             self.job.begun = begun
 
             def take_in(area: Area, share: float, plan: np.ndarray = plan) -> None:

@@ -53,6 +53,7 @@ def closest_within(
 def try_surface(
     world: Any, s: int, ray: Ray, after: tuple[float, int, float], known: tuple[float, int, bool], space: Any
 ) -> tuple[float, int, bool]:
+    space.tests[0] += 1
     best, found, tied = known
     t = distance(world, s, ray, after[0], after[1], after[2], best, True)
     return nearer(t, s, best, found, tied)

@@ -136,6 +136,7 @@ class Job:
         self.task = Task(world.arrays, view, limits, samples, solids_at(world, view.eye))
         self.pixels = np.zeros((view.height, view.width, 3))
         self.rays = np.zeros(len(KINDS), np.int64)
+        self.tests = 0
         self.residuals: list[np.ndarray] = []
         self._shared: Any = None
 
@@ -157,6 +158,7 @@ class Job:
         """Take in a finished tile."""
         area = traced.area
         self.rays += traced.counts.rays
+        self.tests += int(traced.counts.tests[0])
         self.residuals.append(traced.counts.residuals)
         if traced.pixels is not None:
             self.pixels[area.top : area.bottom, area.left : area.right] = traced.pixels

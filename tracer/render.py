@@ -37,6 +37,7 @@ class Image:
     pixels: np.ndarray  # (height, width, 3) float64, linear RGB
     seconds: dict[str, float]  # compile, trace
     rays: dict[str, int]  # traced, by kind
+    tests: int  # of a ray against a surface
     residual: dict[str, float]  # max, mean over the pixels
     threads: int
     size: tuple[int, int]
@@ -138,6 +139,7 @@ def render(
         pixels=pixels,
         seconds={"compile": compiling, "trace": time.perf_counter() - began},
         rays={kind: int(n) for kind, n in zip(KINDS, job.rays, strict=True)},
+        tests=job.tests,
         residual=residual,
         threads=threads,
         size=(view.width, view.height),

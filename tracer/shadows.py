@@ -76,6 +76,7 @@ def look_at(
     world: Any, s: int, ray: Ray, glass_blocks: bool, known: tuple[float, int], space: Any
 ) -> tuple[float, int]:
     """(how far to look on, count) after surface s has been looked at."""
+    space.tests[0] += 1
     end, count = known
     if distance(world, s, ray, 0.0, -1, SMALLEST, end, False) >= end:
         return known

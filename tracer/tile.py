@@ -92,6 +92,7 @@ class Space(NamedTuple):
     crossed: np.ndarray  # glass on the way to a light
     ahead: np.ndarray  # directions through the next pixels of a line
     rays: np.ndarray  # traced in this call, by kind
+    tests: np.ndarray  # of a ray against a surface, in this call; the eight triangles of a block count as eight
     tree: np.ndarray  # rows and residual of the last tree; -1 rows where the table was too short for it
     residuals: np.ndarray  # largest and sum over the pixels of this call
 
@@ -109,6 +110,7 @@ class Workspace:
             np.zeros(MOST_CROSSINGS, CROSSING),
             np.zeros((3, AHEAD)),
             np.zeros(len(KINDS), np.int64),
+            np.zeros(1, np.int64),
             np.zeros(2),
             np.zeros(2),
         )
@@ -126,11 +128,13 @@ class Counts(NamedTuple):
     """What tracing an area took."""
 
     rays: np.ndarray  # by kind
+    tests: np.ndarray  # of a ray against a surface
     residuals: np.ndarray  # largest and sum over the pixels
 
     def take_in(self, space: Space) -> None:
         """Add one call's."""
         self.rays[:] += space.rays
+        self.tests[:] += space.tests
         self.residuals[:] = (max(self.residuals[0], space.residuals[0]), self.residuals[1] + space.residuals[1])
 
 
@@ -157,6 +161,7 @@ def trace_area(
     number = 0
     rays, residuals, ahead = space.rays, space.residuals, space.ahead
     rays[:] = 0
+    space.tests[:] = 0
     residuals[:] = 0.0
     left, top = corner
     goes_on = len(begun.plan) > 0
@@ -294,7 +299,7 @@ def run(
     """`trace_area` until it is through, with as much room as its trees need; None where it was cancelled."""
     columns = -(-(area.right - area.left) // area.step)
     lines = -(-(area.bottom - area.top) // area.step)
-    counts = Counts(np.zeros(len(KINDS), np.int64), np.zeros(2))
+    counts = Counts(np.zeros(len(KINDS), np.int64), np.zeros(1, np.int64), np.zeros(2))
     number = 0
     while True:
         reached = trace_area(

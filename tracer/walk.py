@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from tracer.bvh import BOXES, KINDS, TRIANGLES
 from tracer.intrinsics import natural, soon
 from tracer.jit import compiled, routine
-from tracer.lanes import alike, first_of, keep, lanes, larger, no_more, smaller
+from tracer.lanes import WIDTH, alike, first_of, keep, lanes, larger, no_more, smaller
 from tracer.pairs import U
 from tracer.rays import Ray
 from tracer.shapes.triangle import within
@@ -108,6 +108,8 @@ def walker(visit: Callable[..., Any], nearest_first: bool) -> Callable[..., Any]
                         stack[natural(depth)].child = node.child[natural(k)]
                     depth += 1
             else:
+                if kind == TRIANGLES:
+                    space.tests[0] += WIDTH
                 met = within(world.blocks[natural(number)], ray, per_unit) if kind == TRIANGLES else 1
                 while met != 0:
                     s = world.blocks[natural(number)].surface[natural(first_of(met))] if kind == TRIANGLES else number

@@ -136,6 +136,7 @@ def render_one(
         "image": str(order.target),
         "seconds": {"load": loaded - began, "prepare": prepared - loaded, **image.seconds},
         "rays": image.rays,
+        "tests": image.tests,
         "threads": image.threads,
         "size": list(image.size),
         "samples": image.reached.samples if image.reached else image.samples,

@@ -48,6 +48,7 @@ def test_what_is_cut_is_counted_as_in_plain_images(worlds: dict[str, tracer.Worl
     plain = tracer.render(world, SIZE, depth=1, samples=2)
     assert image.ended == "samples"
     assert image.rays == plain.rays
+    assert image.tests == plain.tests > 0
     assert image.residual["max"] == plain.residual["max"] > 0.0
     assert image.residual["mean"] == pytest.approx(plain.residual["mean"], rel=1e-14)
     assert image.bound == plain.bound

@@ -14,7 +14,7 @@ from tracer.render import render
 from tracer.scene import Camera, Object
 from tracer.shapes.polygon import Polygon
 
-TINY = Effort((0, 1, 2, 3), (1e-1, 1e-2), (1e-1, 1e-2, 1e-3), (1, 4, 16), 64)
+TINY = Effort((0, 1, 2, 3), (1e-1, 1e-2), (1e-1, 1e-2, 1e-3), (1, 4, 16), 64, (0.03, 0.01))
 SIZE = (16, 12)
 EXACT = Errors(0.0, 0.0, 0.0, 0.0)
 

@@ -24,7 +24,7 @@ def test_files(folder: Path) -> None:
     plots = {
         f"{source}-{what}.{kind}"
         for source in ("trees", "pixels", "together")
-        for what in ("rmse-seconds", "rmse-rays", "largest-seconds", "flip-seconds")
+        for what in ("rmse-seconds", "rmse-rays", "rmse-tests", "largest-seconds", "flip-seconds")
         for kind in ("svg", "pdf")
     }
     assert {path.name for path in folder.iterdir()} == plots | {"report.html", "report.csv", "report.json"}
@@ -47,6 +47,7 @@ def test_plots_say_what_their_axes_are(folder: Path) -> None:
         text = " ".join(element.text or "" for element in xml.parse(path).iter() if element.tag.endswith("text"))
         assert ("time (s)" in text) == path.stem.endswith("seconds")
         assert ("rays traced" in text) == path.stem.endswith("rays")
+        assert ("tests of a ray against a surface" in text) == path.stem.endswith("tests")
     bounds = (folder / "trees-largest-seconds.svg").read_text("utf-8")
     assert "cut at a depth: its bound" in bounds
 

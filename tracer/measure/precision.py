@@ -48,14 +48,19 @@ class Reference:
 
 @dataclass(frozen=True)
 class Point:
-    """A setting as it was measured. `bound`: what the program itself says is missing at most, of any component."""
+    """A setting as it was measured. `bound`: what the program itself says is missing at most, of any component.
+
+    `tests` are of a ray against a surface.
+    """
 
     label: str
     value: float
     seconds: float
     rays: int
+    tests: int
     errors: Errors
     bound: float
+    estimate: float  # RMSE as the program itself puts it; NaN: it does not
 
 
 @dataclass(frozen=True)
@@ -113,7 +118,8 @@ def _point(setting: Setting, reference: Reference) -> Point:
             break
     assert image
     off = errors(image.pixels, reference.pixels)
-    return Point(setting.label, setting.value, least, sum(image.rays.values()), off, image.bound)
+    estimate = image.reached.error if image.reached else math.nan
+    return Point(setting.label, setting.value, least, sum(image.rays.values()), image.tests, off, image.bound, estimate)
 
 
 def fitted(points: Sequence[Point], reference: Reference) -> float | None:

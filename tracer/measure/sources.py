@@ -39,11 +39,14 @@ class Effort:
     tolerances: Sequence[float]
     samples: Sequence[int]
     true_samples: int  # a square
+    errors: Sequence[float]  # to be reached by samples where the error is
 
 
 FULL = Effort(tuple(range(9)), tuple(10.0**-k for k in range(1, 7)), tuple(10.0**-k for k in range(1, 7)),
-              (1, 4, 16, 64, 256), 4096)  # fmt: skip
-QUICK = Effort(tuple(range(6)), (1e-1, 1e-2, 1e-3, 1e-4), (1e-1, 1e-2, 1e-3, 1e-4), (1, 4, 16, 64), 576)
+              (1, 4, 16, 64, 256), 4096, (0.03, 0.01, 0.003, 0.001, 0.0005))  # fmt: skip
+QUICK = Effort(
+    tuple(range(6)), (1e-1, 1e-2, 1e-3, 1e-4), (1e-1, 1e-2, 1e-3, 1e-4), (1, 4, 16, 64), 576, (0.03, 0.01, 0.003)
+)
 
 
 def left_out(scene: Scene) -> list[str]:
@@ -160,10 +163,12 @@ def pixels_sampled(effort: Effort) -> Study:
     kinds = (("at random", "random", -0.5), ("jittered", "jittered", -0.75), ("evenly (Sobol)", "sobol", -0.75))
 
     def methods(made: Maker) -> Sequence[Method]:
-        return [
+        found = [
             Method(label, [Setting(_many(n), n, made(samples=n, sampler=sampler)) for n in effort.samples], slope)
             for label, sampler, slope in kinds
         ]
+        settings = [Setting(f"error {e:g}", e, made(until_error=e)) for e in effort.errors]
+        return [*found, Method("where the error is", settings)]
 
     how = f"{effort.true_samples} samples a pixel that fill it evenly (Sobol's). The second way is as many, jittered"
     true = {"samples": effort.true_samples}
@@ -171,7 +176,9 @@ def pixels_sampled(effort: Effort) -> Study:
         "pixels",
         "Pixels that are sampled",
         "What the mean of a pixel's samples is off. Where a pixel has an edge in it, theory has N^-1/2 for samples at "
-        "random and N^-3/4 for jittered ones; smooth pixels do better than that. The scene's own depth.",
+        "random and N^-3/4 for jittered ones; smooth pixels do better than that. Where the error is: more samples only "
+        "for pixels that still change, until the image's error is estimated as what was asked for. The scene's own "
+        "depth.",
         true,
         {**true, "sampler": "jittered"},
         lambda _: how,

@@ -18,7 +18,7 @@ from viewer.report.page import as_html
 from viewer.report.plots import FORMATS, plot
 
 ACROSS, QUICK_ACROSS = 240, 100  # pixels, of an image whose size nobody has chosen
-PLOTS = (("seconds", "rmse"), ("rays", "rmse"), ("seconds", "largest"), ("seconds", "flip"))
+PLOTS = (("seconds", "rmse"), ("rays", "rmse"), ("tests", "rmse"), ("seconds", "largest"), ("seconds", "flip"))
 
 
 def report(options: Namespace) -> int:

@@ -12,7 +12,7 @@ from tracer.measure.errors import MEASURES
 from tracer.measure.precision import Source
 
 FORMAT = "raytree-report/1"
-HEAD = ("source", "method", "setting", "value", "seconds", "rays", *MEASURES, "bound")
+HEAD = ("source", "method", "setting", "value", "seconds", "rays", "tests", *MEASURES, "bound", "estimate")
 
 
 def as_csv(sources: Sequence[Source]) -> bytes:
@@ -23,7 +23,14 @@ def as_csv(sources: Sequence[Source]) -> bytes:
     for source in sources:
         for curve in source.curves:
             for p in curve.points:
-                figures = (p.seconds, p.rays, *(getattr(p.errors, name) for name in MEASURES), p.bound)
+                figures = (
+                    p.seconds,
+                    p.rays,
+                    p.tests,
+                    *(getattr(p.errors, name) for name in MEASURES),
+                    p.bound,
+                    p.estimate,
+                )
                 writer.writerow((source.name, curve.method, p.label, p.value, *map(_finite, figures)))
     return text.getvalue().encode("utf-8")
 

@@ -18,7 +18,7 @@ th:first-child, td:first-child, th:nth-child(2), td:nth-child(2) { text-align: l
 .small { color: #5a6572; font-size: 0.9em }
 @media print { body { max-width: none; font-size: 11px } section { break-inside: avoid-page } }
 """
-HEAD = ("method", "setting", "time", "rays", "RMSE", "MRSE", "largest", "FLIP", "bound")
+HEAD = ("method", "setting", "time", "rays", "tests", "RMSE", "estimated", "MRSE", "largest", "FLIP", "bound")
 
 
 def as_html(
@@ -95,8 +95,8 @@ def _table(source: Source) -> list[str]:
 
 def _cells(p: Point) -> str:
     e = p.errors
-    figures = (e.rmse, e.mrse, e.largest, e.flip, p.bound)
-    cells = (escape(p.label), f"{1e3 * p.seconds:.3g} ms", f"{p.rays}", *map(_figure, figures))
+    figures = (e.rmse, p.estimate, e.mrse, e.largest, e.flip, p.bound)
+    cells = (escape(p.label), f"{1e3 * p.seconds:.3g} ms", f"{p.rays}", f"{p.tests}", *map(_figure, figures))
     return "".join(f"<td>{cell}</td>" for cell in cells)
 
 

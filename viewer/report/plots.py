@@ -17,6 +17,7 @@ INK, GRID = "#14181D", "#D6DBE1"
 WORK: dict[str, tuple[str, Callable[[Point], float]]] = {
     "seconds": ("time (s)", lambda point: point.seconds),
     "rays": ("rays traced", lambda point: float(point.rays)),
+    "tests": ("tests of a ray against a surface", lambda point: float(point.tests)),
 }
 FORMATS = ("svg", "pdf")
 SAME = 40.0  # points: of markers so close one name is enough, if they share it
@@ -56,11 +57,12 @@ def _draw(axes: Any, source: Source, work: str, measure: str) -> None:
         x, y = [cost(p) for p in points], [error_of(p, measure) for p in points]
         axes.plot(x, y, color=color, marker=marker, linestyle=dash, linewidth=1.8, markersize=6, label=name_of(curve))
         ends += [(points[k].label, x[k], y[k]) for k in sorted({0, len(points) - 1})]
-        bounds = [(cost(p), p.bound) for p in points if 0.0 < p.bound < math.inf]
-        if source.bounded and measure == "largest" and bounds:
+        by_itself, word = said_of(source, measure)
+        said = [(cost(p), by_itself(p)) for p in points if 0.0 < by_itself(p) < math.inf]
+        if said:
             axes.plot(
-                *zip(*bounds, strict=True), color=color, marker=marker, markerfacecolor="white", linestyle="none",
-                markersize=8, label=f"{curve.method}: its bound",
+                *zip(*said, strict=True), color=color, marker=marker, markerfacecolor="white", linestyle="none",
+                markersize=8, label=f"{curve.method}: {word}",
             )  # fmt: skip
     own = getattr(source.reference.own, measure)
     if own > 0.0:
@@ -101,6 +103,15 @@ def _say(axes: Any, ends: Sequence[tuple[str, float, float]]) -> None:
                     color=INK,
                 )  # fmt: skip
                 break
+
+
+def said_of(source: Source, measure: str) -> tuple[Callable[[Point], float], str]:
+    """What the program itself says of this measure, and how that is called."""
+    if measure == "largest" and source.bounded:
+        return (lambda point: point.bound), "its bound"
+    if measure == "rmse":
+        return (lambda point: point.estimate), "as estimated"
+    return (lambda point: math.nan), ""
 
 
 def drawable(curve: Curve, measure: str) -> Sequence[Point]:
