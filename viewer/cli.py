@@ -183,7 +183,8 @@ def make_parser() -> Parser:
     )
 
     report = commands.add_parser("report", help="error against run time, for each source of error")
-    report.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+    report.add_argument("scene", nargs="?", metavar="SCENE", help=SCENE_HELP)
+    report.add_argument("--all", action="store_true", help="every lesson, and stiff trees with exact answers")
     report.add_argument(
         "--size", type=pair("x"), metavar="WxH", help="of its images; some 240 pixels across by default"
     )

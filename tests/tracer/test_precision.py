@@ -38,6 +38,40 @@ def test_flip_of_what_could_not_differ_more() -> None:
     assert 0.0 < flip(0.98 * green, green) < flip(0.9 * green, green) < 1.0
 
 
+TO_XYZ = np.array(
+    [[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750], [0.0193339, 0.1191920, 0.9503041]]
+)  # of linear sRGB (IEC 61966-2-1)
+
+
+def hunt_lab(linear: np.ndarray) -> np.ndarray:
+    """CIE L*a*b* under D65, with a* and b* smaller in the dark (Hunt), as the paper has it."""
+    ratio = TO_XYZ @ linear / (TO_XYZ @ np.ones(3))
+    x, y, z = np.where(ratio > (6 / 29) ** 3, np.cbrt(ratio), ratio * (29 / 6) ** 2 / 3 + 4 / 29)
+    light = 116.0 * y - 16.0
+    return np.array([light, 0.01 * light * 500.0 * (x - y), 0.01 * light * 200.0 * (y - z)])
+
+
+def flat_flip(a: np.ndarray, b: np.ndarray) -> float:
+    """FLIP of two flat images of linear colours, by the paper: no filter changes them, no feature is there."""
+
+    def apart(p: np.ndarray, q: np.ndarray) -> float:
+        off = np.abs(hunt_lab(p) - hunt_lab(q))
+        return (off[0] + math.hypot(off[1], off[2])) ** 0.7
+
+    most = apart(np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
+    share, knee = apart(a, b) / most, 0.4
+    return 0.95 * share / knee if share < knee else 0.95 + 0.05 * (share - knee) / (1.0 - knee)
+
+
+@pytest.mark.parametrize("colors", [((0.2, 0.2, 0.2), (0.25, 0.2, 0.2)), ((0.9, 0.5, 0.1), (0.1, 0.5, 0.9)),
+                                    ((0.01, 0.02, 0.0), (0.03, 0.02, 0.01)), ((1, 1, 1), (0.5, 0.5, 0.5))])  # fmt: skip
+def test_flip_of_flat_images_is_the_paper_s(colors: tuple) -> None:
+    """The library computes in single precision: its cubes and cube roots leave some 1e-5."""
+    a, b = (np.array(color, float) for color in colors)
+    images = [encoded(np.broadcast_to(color, (96, 96, 3))) for color in (a, b)]
+    assert flip(images[1], images[0]) == pytest.approx(flat_flip(a, b), rel=1e-3)
+
+
 def test_encoding_is_srgb() -> None:
     light = np.array([0.0, 0.0031308, 0.214041140482, 1.0, 2.0, -1.0])
     assert encoded(light) == pytest.approx([0.0, 0.0404499, 0.5, 1.0, 1.0, 0.0], abs=1e-6)

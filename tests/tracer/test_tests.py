@@ -28,9 +28,9 @@ def test_a_shadow_ray_ends_with_the_first_that_blocks_it() -> None:
 
 
 def test_a_block_of_triangles_counts_as_eight() -> None:
-    """One triangle alone in its block, which every ray meets: eight lanes, and then the triangle itself."""
-    vertices = np.array([[-90.0, -90.0, 0.0], [90.0, -90.0, 0.0], [0.0, 90.0, 0.0]])
-    mesh = Object(Mesh(Geometry(vertices, np.array([[0, 1, 2]]), None)), MATTE, "face")
-    world = tracer.prepare(world_of(mesh).scene, hierarchy=True)
-    image = tracer.render(world, SIZE)
-    assert image.tests == (WIDTH + 1) * image.rays["camera"]
+    """Four in one block, one behind the other, that every ray passes through: eight lanes, then each of the four."""
+    corners = [[(-90.0, -90.0, -k), (90.0, -90.0, -k), (0.0, 90.0, -k)] for k in range(4)]
+    faces = np.arange(12).reshape(4, 3)
+    mesh = Object(Mesh(Geometry(np.array(corners, float).reshape(-1, 3), faces, None)), MATTE, "faces")
+    image = tracer.render(world_of(mesh), SIZE)
+    assert image.tests == (WIDTH + 4) * image.rays["camera"]

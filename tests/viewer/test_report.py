@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from viewer import cli
+from tracer.measure.stiff import PROBLEMS
+from viewer import cli, lesson
 
 ARGUMENTS = ["--quick", "--size", "16x12"]
 
@@ -56,7 +57,7 @@ def test_data_says_the_same(folder: Path) -> None:
     rows = list(csv.DictReader((folder / "report.csv").open(encoding="utf-8")))
     document = json.loads((folder / "report.json").read_text("utf-8"))
     assert document["format"] == "raytree-report/1"
-    points = [p for s in document["sources"] for c in s["curves"] for p in c["points"]]
+    points = [p for scene in document["scenes"] for s in scene["sources"] for c in s["curves"] for p in c["points"]]
     assert len(rows) == len(points)
     for row, point in zip(rows, points, strict=True):
         assert row["setting"] == point["label"]
@@ -83,3 +84,55 @@ def test_faults_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert output == f"{tmp_path}/file: must be a folder, got a file"
     assert cli.main(["report", "plates", "-o", str(tmp_path / "none" / "there")]) == 2
     assert "folder not found" in capsys.readouterr().err
+
+
+def test_all_lessons_on_one_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of one lesson and three stiff trees, here: a chapter for each lesson, then one for these; files say whose."""
+    monkeypatch.setattr(lesson, "names", lambda: ["plates"])
+    monkeypatch.setattr("viewer.report.command.PROBLEMS", PROBLEMS[2:])
+    assert cli.main(["report", "--all", *ARGUMENTS, "-o", str(tmp_path / "all")]) == 0
+    page = (tmp_path / "all" / "report.html").read_text("utf-8")
+    assert re.findall(r'<h1 id="([^"]+)"', page) == ["plates", "stiff"]
+    links = re.findall(r'(?:src|href)="([^"]+)"', page)
+    names = re.findall(r'\bid="([^"]+)"', page)
+    assert all(link.startswith("#") for link in links)
+    assert len(names) == len(set(names))
+    assert {link[1:] for link in links} <= set(names)
+    assert "closed form: 10." in page
+    document = json.loads((tmp_path / "all" / "report.json").read_text("utf-8"))
+    assert [scene["name"] for scene in document["scenes"]] == ["plates", "stiff"]
+    assert {row["scene"] for row in csv.DictReader((tmp_path / "all" / "report.csv").open(encoding="utf-8"))} == {
+        "plates", "stiff",
+    }  # fmt: skip
+    assert (tmp_path / "all" / "plates-pixels-rmse-tests.pdf").exists()
+    assert (tmp_path / "all" / "stiff-shell-largest-seconds.svg").exists()
+
+
+@pytest.mark.parametrize("given", [[], ["plates", "--all"]])
+def test_a_scene_or_all_of_them(given: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["report", *given, "-o", str(tmp_path / "new")]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("raytree report: a SCENE, or --all for every lesson and the stiff trees")
+
+
+@pytest.mark.parametrize("kind", ["nff", "ply"])
+def test_other_people_s_files(kind: str, tmp_path: Path) -> None:
+    """A scene in Haines' format, and a bare mesh."""
+    path = tmp_path / f"given.{kind}"
+    if kind == "nff":
+        path.write_text(
+            "v\nfrom 0 1 6\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 64 64\nb 0.1 0.2 0.3\nl 4 6 5\n"
+            "f 1 0.9 0.7 0.5 0.5 30 0 1\ns 0 0 0 1\ns 1 1 0 0.5\n"
+        )
+    else:
+        path.write_text(
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+            "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+            "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
+        )
+    assert cli.main(["report", str(path), *ARGUMENTS, "-o", str(tmp_path / "report")]) == 0
+    document = json.loads((tmp_path / "report" / "report.json").read_text("utf-8"))
+    (scene,) = document["scenes"]
+    assert scene["name"] == "given"
+    assert [source["name"] for source in scene["sources"]][-1] == ("together" if kind == "nff" else "pixels")
+    assert all(point["tests"] > 0 for s in scene["sources"] for curve in s["curves"] for point in curve["points"])

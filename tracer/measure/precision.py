@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tracer.measure.case import U
 from tracer.measure.errors import Errors, errors
 from tracer.render import Image
 
@@ -48,9 +49,10 @@ class Reference:
 
 @dataclass(frozen=True)
 class Point:
-    """A setting as it was measured. `bound`: what the program itself says is missing at most, of any component.
+    """A setting as it was measured.
 
-    `tests` are of a ray against a surface.
+    `bound` is what the program itself says is missing at most, of any component, and what rounding may add. `tests` are
+    of a ray against a surface.
     """
 
     label: str
@@ -82,6 +84,7 @@ class Source:
     curves: tuple[Curve, ...]
     failures: tuple[str, ...] = ()
     bounded: bool = False  # whether the program's own bound is one on this error
+    exact: bool = False  # whether the reference is a closed form
 
     @property
     def size(self) -> tuple[int, int]:
@@ -119,7 +122,15 @@ def _point(setting: Setting, reference: Reference) -> Point:
     assert image
     off = errors(image.pixels, reference.pixels)
     estimate = image.reached.error if image.reached else math.nan
-    return Point(setting.label, setting.value, least, sum(image.rays.values()), image.tests, off, image.bound, estimate)
+    rays = sum(image.rays.values())
+    bound = image.bound + rounding(image, rays)
+    return Point(setting.label, setting.value, least, rays, image.tests, off, bound, estimate)
+
+
+def rounding(image: Image, rays: int) -> float:
+    """What rounding may add to a pixel at most, roughly: some units for every ray of its trees."""
+    width, height = image.size
+    return 4.0 * U * float(np.abs(image.pixels).max()) * rays / (width * height)
 
 
 def fitted(points: Sequence[Point], reference: Reference) -> float | None:

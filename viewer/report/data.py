@@ -10,39 +10,39 @@ from typing import Any
 
 from tracer.measure.errors import MEASURES
 from tracer.measure.precision import Source
+from viewer.report.chapter import Chapter
 
 FORMAT = "raytree-report/1"
-HEAD = ("source", "method", "setting", "value", "seconds", "rays", "tests", *MEASURES, "bound", "estimate")
+HEAD = ("scene", "source", "method", "setting", "value", "seconds", "rays", "tests", *MEASURES, "bound", "estimate")
 
 
-def as_csv(sources: Sequence[Source]) -> bytes:
+def as_csv(chapters: Sequence[Chapter]) -> bytes:
     """What is not known, or bounded by nothing, is empty."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(HEAD)
-    for source in sources:
-        for curve in source.curves:
-            for p in curve.points:
-                figures = (
-                    p.seconds,
-                    p.rays,
-                    p.tests,
-                    *(getattr(p.errors, name) for name in MEASURES),
-                    p.bound,
-                    p.estimate,
-                )
-                writer.writerow((source.name, curve.method, p.label, p.value, *map(_finite, figures)))
+    for chapter in chapters:
+        for source in chapter.sources:
+            for curve in source.curves:
+                for p in curve.points:
+                    off = [getattr(p.errors, name) for name in MEASURES]
+                    figures = (p.seconds, p.rays, p.tests, *off, p.bound, p.estimate)
+                    names = (chapter.name, source.name, curve.method, p.label, p.value)
+                    writer.writerow((*names, *map(_finite, figures)))
     return text.getvalue().encode("utf-8")
 
 
-def as_json(scene: str, sources: Sequence[Source], left_out: Sequence[str], about: Mapping[str, str]) -> bytes:
-    document = {
-        "format": FORMAT,
-        "scene": scene,
-        "sources": [_source(source) for source in sources],
-        "left_out": list(left_out),
-        "machine": dict(about),
-    }
+def as_json(chapters: Sequence[Chapter], about: Mapping[str, str]) -> bytes:
+    scenes = [
+        {
+            "name": chapter.name,
+            "title": chapter.title,
+            "sources": [_source(source) for source in chapter.sources],
+            "left_out": list(chapter.left_out),
+        }
+        for chapter in chapters
+    ]
+    document = {"format": FORMAT, "scenes": scenes, "machine": dict(about)}
     return (json.dumps(_plain(document), indent=1, allow_nan=False) + "\n").encode("utf-8")
 
 

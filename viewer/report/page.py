@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 
 from tracer.measure.precision import Curve, Point, Source
+from viewer.report.chapter import Chapter
 
 STYLE = """
 body { font: 16px/1.45 "DejaVu Sans", Verdana, sans-serif; color: #14181d; max-width: 66em; margin: 2em auto;
@@ -15,28 +16,22 @@ h1 { font-size: 1.6em } h2 { font-size: 1.25em; margin-top: 2em }
 table { border-collapse: collapse; font-size: 0.85em; margin: 1em 0; font-variant-numeric: tabular-nums }
 th, td { padding: 0.15em 0.7em; text-align: right; border-bottom: 1px solid #d6dbe1 }
 th:first-child, td:first-child, th:nth-child(2), td:nth-child(2) { text-align: left }
+.chapter { margin-top: 3em; padding-top: 0.5em; border-top: 3px solid #14181d }
 .small { color: #5a6572; font-size: 0.9em }
 @media print { body { max-width: none; font-size: 11px } section { break-inside: avoid-page } }
 """
 HEAD = ("method", "setting", "time", "rays", "tests", "RMSE", "estimated", "MRSE", "largest", "FLIP", "bound")
 
 
-def as_html(
-    title: str,
-    command: str,
-    sources: Sequence[Source],
-    plots: Mapping[str, Sequence[bytes]],
-    left_out: Sequence[str],
-    about: Mapping[str, str],
-) -> bytes:
-    """`plots`: of each source's name, its plots as SVG."""
+def as_html(title: str, command: str, chapters: Sequence[Chapter], about: Mapping[str, str]) -> bytes:
     body = [f"<h1>Error against run time: {escape(title)}</h1>", f'<p class="small">{escape(command)}</p>']
     body.append(f"<p>{escape(INTRODUCTION)}</p>")
-    for source in sources:
-        body += _section(source, plots[source.name])
-    failures = [line for source in sources for line in source.failures]
-    body += _list("What failed", failures or ["nothing"])
-    body += _list("Left out", left_out)
+    several = len(chapters) > 1
+    if several:
+        links = [f'<li><a href="#{c.name}">{escape(c.title)}</a></li>' for c in chapters]
+        body += ["<ul>", *links, "</ul>"]
+    for chapter in chapters:
+        body += _chapter(chapter, several)
     body += _list("Machine", [f"{name}: {value}" for name, value in about.items()])
     page = ["<!doctype html>", '<html lang="en">', "<head>", '<meta charset="utf-8">']
     page += [f"<title>Error against run time: {escape(title)}</title>", f"<style>{STYLE}</style>", "</head>", "<body>"]
@@ -50,18 +45,23 @@ INTRODUCTION = (
 )
 
 
-def _section(source: Source, plots: Sequence[bytes]) -> list[str]:
-    own = source.reference.own
-    judged = (
-        f"{source.size[0]}x{source.size[1]} pixels. Judged against: {source.reference.how}; the two differ by "
-        f"{own.rmse:.1e} (RMSE), {own.largest:.1e} at most."
-    )
-    drawings = [_inline(plot, f"{source.name}{k}") for k, plot in enumerate(plots)]
+def _chapter(chapter: Chapter, titled: bool) -> list[str]:
+    """`titled`: one of several."""
+    body = [f'<h1 id="{chapter.name}" class="chapter">{escape(chapter.title)}</h1>'] if titled else []
+    for source in chapter.sources:
+        body += _section(f"{chapter.name}-{source.name}", source, chapter.plots[source.name])
+    failures = [line for source in chapter.sources for line in source.failures]
+    body += _list("What failed", failures or ["nothing"])
+    return body + (_list("Left out", chapter.left_out) if chapter.left_out else [])
+
+
+def _section(name: str, source: Source, plots: Sequence[bytes]) -> list[str]:
+    drawings = [_inline(plot, f"{name}{k}") for k, plot in enumerate(plots)]
     return [
-        f'<section id="{source.name}">',
+        f'<section id="{name}">',
         f"<h2>{escape(source.title)}</h2>",
         f"<p>{escape(source.about)}</p>",
-        f'<p class="small">{escape(judged)}</p>',
+        f'<p class="small">{escape(_judged(source))}</p>',
         '<div class="plots">',
         *drawings,
         "</div>",
@@ -69,6 +69,17 @@ def _section(source: Source, plots: Sequence[bytes]) -> list[str]:
         *_table(source),
         "</section>",
     ]
+
+
+def _judged(source: Source) -> str:
+    """What the errors are relative to, and which settings have no place on the plots."""
+    own = source.reference.own
+    said = f"{source.size[0]}x{source.size[1]} pixels. Judged against: {source.reference.how}"
+    said += "." if source.exact else f"; the two differ by {own.rmse:.1e} (RMSE), {own.largest:.1e} at most."
+    exact = sum(p.errors.largest == 0.0 for curve in source.curves for p in curve.points)
+    if exact:
+        said += f" {exact} setting{'s are' if exact > 1 else ' is'} exact to the last bit, and on no logarithmic axis."
+    return said
 
 
 def _inline(plot: bytes, name: str) -> str:

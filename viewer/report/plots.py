@@ -7,6 +7,7 @@ the program itself says is missing at most is a hollow marker of the same form.
 import io
 import math
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Any
 
 from tracer.measure.errors import MEASURES
@@ -33,9 +34,12 @@ def plot(source: Source, work: str, measure: str) -> dict[str, bytes]:
     settings: Any = {"font.size": 11, "font.family": "DejaVu Sans", "svg.hashsalt": "raytree"}
     with mpl.rc_context(settings | {"svg.fonttype": "none", "pdf.fonttype": 42, "figure.dpi": 72}):
         canvas = Figure(figsize=(6.4, 4.6), layout="constrained", facecolor="white")
-        _draw(canvas.subplots(), source, work, measure)
+        axes = canvas.subplots()
+        ends = _draw(axes, source, work, measure)
         names = [name_of(curve) for curve in source.curves]
         canvas.legend(loc="outside lower center", ncols=1 if max(map(len, names)) > WORDY else 2, frameon=False)
+        canvas.draw_without_rendering()  # only then are the axes where they will be
+        _say(axes, ends)
         return {name: _saved(canvas, name) for name in FORMATS}
 
 
@@ -45,7 +49,8 @@ def _saved(canvas: Any, name: str) -> bytes:
     return content.getvalue()
 
 
-def _draw(axes: Any, source: Source, work: str, measure: str) -> None:
+def _draw(axes: Any, source: Source, work: str, measure: str) -> Sequence[tuple[str, float, float]]:
+    """The curves; names of each one's first and last marker, with their places."""
     from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
 
     label, cost = WORK[work]
@@ -70,7 +75,7 @@ def _draw(axes: Any, source: Source, work: str, measure: str) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel(label)
-    axes.set_ylabel(f"{MEASURES[measure]}" + ("" if measure == "flip" else " (linear light)"))
+    axes.set_ylabel(f"{MEASURES[measure]}" + ("" if measure == "flip" else " (linear)"))
     axes.grid(which="major", color=GRID)
     axes.spines[["top", "right"]].set_visible(False)
     axes.margins(0.14, 0.1)
@@ -79,30 +84,53 @@ def _draw(axes: Any, source: Source, work: str, measure: str) -> None:
         locator.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,), numticks=12))
         locator.set_major_formatter(LogFormatterSciNotation(labelOnlyBase=False))
         locator.set_minor_formatter(NullFormatter())
-    _say(axes, ends)
+    return ends
 
 
 def _say(axes: Any, ends: Sequence[tuple[str, float, float]]) -> None:
-    """What the first and the last marker of each curve are, each beside its marker and over none before it."""
-    taken: list[tuple[float, float, float, float]] = []
+    """Names beside their markers, over nothing else that is drawn, nor over each other."""
+    taken = [(x - 4.0, y - 4.0, x + 4.0, y + 4.0) for x, y in _inked(axes)]
+    taken.append((-math.inf, -math.inf, axes.bbox.x0, math.inf))  # the axis has its own numbers
     said: list[tuple[str, float, float]] = []
     for label, x, y in ends:
         at_x, at_y = axes.transData.transform((x, y))
         if any(label == name and math.dist((at_x, at_y), at) < SAME for name, *at in said):
             continue
         said.append((label, at_x, at_y))
-        wide, high = 6.0 * len(label), 12.0
-        for right, up in ((True, 6), (True, -15), (False, 6), (False, -15), (True, 19), (False, 19)):
-            left = at_x + 6.0 if right else at_x - 6.0 - wide
-            box = (left, at_y + up, left + wide, at_y + up + high)
-            if not any(box[0] < b[2] and b[0] < box[2] and box[1] < b[3] and b[1] < box[3] for b in taken):
-                taken.append(box)
-                side = "left" if right else "right"
-                axes.annotate(
-                    label, (x, y), textcoords="offset points", xytext=(6 if right else -6, up), ha=side, fontsize=9,
-                    color=INK,
-                )  # fmt: skip
-                break
+        wide, high = 5.8 * len(label), 10.0
+
+        def covers(place: tuple[bool, int], x: float = at_x, y: float = at_y, w: float = wide, h: float = high) -> Box:
+            left = x + 7.0 if place[0] else x - 7.0 - w
+            return (left, y + place[1], left + w, y + place[1] + h)
+
+        best = min(PLACES, key=lambda place: sum(_meet(covers(place), other) for other in taken))
+        taken.append(covers(best))
+        axes.annotate(
+            label, (x, y), textcoords="offset points", xytext=(7 if best[0] else -7, best[1]),
+            ha="left" if best[0] else "right", fontsize=9, color=INK,
+        )  # fmt: skip
+
+
+Box = tuple[float, float, float, float]  # left, bottom, right, top, in points
+PLACES = tuple((right, up) for up in (5, -14, 17, -26, 30, -39) for right in (True, False))  # of a name, the best first
+
+
+def _meet(a: Box, b: Box) -> bool:
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+
+
+def _inked(axes: Any) -> list[tuple[float, float]]:
+    """Places that curves and markers cover, a few points apart."""
+    found: list[tuple[float, float]] = []
+    for line in axes.lines:
+        places = line.get_transform().transform(line.get_xydata())
+        found += [tuple(place) for place in places]
+        if line.get_linestyle() == "None":
+            continue
+        for (x0, y0), (x1, y1) in pairwise(places):
+            count = int(math.dist((x0, y0), (x1, y1)) / 6.0)
+            found += [(x0 + k / count * (x1 - x0), y0 + k / count * (y1 - y0)) for k in range(1, count)]
+    return found
 
 
 def said_of(source: Source, measure: str) -> tuple[Callable[[Point], float], str]:

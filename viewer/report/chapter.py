@@ -1,0 +1,15 @@
+"""What a report is made of: a chapter a scene, in it a section a source of error."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from tracer.measure.precision import Source
+
+
+@dataclass
+class Chapter:
+    name: str  # for files
+    title: str
+    sources: Sequence[Source]
+    left_out: Sequence[str] = ()
+    plots: dict[str, list[bytes]] = field(default_factory=dict)  # SVG, by a source's name
