@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import MATTE, OPEN, disc, world_of
-from tests.tracer.test_precision import DISTANCE, EXACT, FOV, HEIGHT, RISE
+from tests.scenes import DARK, MATTE, OPEN, disc, world_of
+from tests.tracer.test_precision import ACROSS, DISTANCE, EXACT, FOV, HEIGHT, RISE, edge_image
 from tracer.measure.case import U
 from tracer.measure.errors import errors
 from tracer.measure.precision import Curve, Method, Reference, Setting, Source, measured
