@@ -7,85 +7,20 @@ directions by a root and three divisions. It is compiled in a process of its own
 """
 
 import json
-import math
 import os
 import statistics
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from typing import Any
 
 import tracer
-from tracer import branch, digits, hits, interface, kernel, shapes
-from tracer.jit import compiled
-from tracer.rays import Ray
+from tracer.measure.plain import use
 from tracer.render import warm
-from tracer.shapes import planar, polygon, sphere, triangle
-from tracer.shapes import plane as plane_shape
-from tracer.vector import Vector, add, dot, scale, subtract, unit, vector
 from viewer import lesson
 
 SIZE = (640, 480)
 RUNS = 9
-
-
-@compiled
-def plain_sphere(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
-    f = subtract(ray.origin, vector(surface.a))
-    a, b, c = dot(ray.direction, ray.direction), dot(f, ray.direction), dot(f, f) - surface.r * surface.r
-    discriminant = b * b - a * c
-    if discriminant < 0.0:
-        return math.inf
-    near, far = (-b - math.sqrt(discriminant)) / a, (-b + math.sqrt(discriminant)) / a
-    if near > 0.0 and near >= floor:
-        return near
-    return far if far > 0.0 and far >= floor else math.inf
-
-
-@compiled
-def plain_on_sphere(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-    p = add(ray.origin, scale(t, ray.direction))
-    n = scale(1.0 / surface.r, subtract(p, vector(surface.a)))
-    return (p, n, n)
-
-
-@compiled
-def plain_plane(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
-    n = vector(surface.normal)
-    t = dot(n, subtract(vector(surface.a), ray.origin)) / dot(n, ray.direction)
-    return t if t > 0.0 and floor <= t <= ceiling else math.inf
-
-
-@compiled
-def plain_on_plane(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-    n = vector(surface.normal)
-    return (add(ray.origin, scale(t, ray.direction)), n, n)
-
-
-@compiled
-def plain_mirrored(v: Vector, n: Vector) -> Vector:
-    return unit(subtract(v, scale(2.0 * dot(n, v), n)))
-
-
-@compiled
-def plain_sine(v: Vector, n: Vector) -> float:
-    c1 = dot(v, n)
-    return math.sqrt(max(0.0, 1.0 - c1 * c1))
-
-
-def make_plain() -> None:
-    """Put the textbook's formulas where kernels will look them up; nothing is compiled yet."""
-    sphere.intersect, sphere.locate = plain_sphere, plain_on_sphere
-    for flat in (plane_shape, polygon, triangle):
-        vars(flat)["plane_distance"] = plain_plane
-    plane_shape.locate = polygon.locate = planar.locate = plain_on_plane
-    intersect = shapes._fold("intersect", shapes._no_intersect, shapes._link_intersect)
-    locate = shapes._fold("locate", shapes._no_locate, shapes._link_locate)
-    hits.intersect = intersect
-    interface.locate = kernel.locate = digits.locate = locate
-    branch.mirrored = kernel.mirrored = plain_mirrored
-    branch.sine = kernel.sine = plain_sine
 
 
 def times() -> dict[str, float]:
@@ -100,7 +35,7 @@ def times() -> dict[str, float]:
 
 def main() -> int:
     if sys.argv[1:] == ["--plain"]:
-        make_plain()
+        use("double")
     if sys.argv[1:]:
         print(json.dumps(times()))
         return 0

@@ -96,13 +96,20 @@ class Kept(FunctionCache):
 
 def kernel(function: Callable[P, R]) -> Callable[P, R]:
     """Mark an entry point: compiled at its first call with these types, then loaded from `cache_folder`."""
+    entry: Any = numba.njit(**OPTIONS)(function)
+    keep_in(entry, cache_folder())
+    return entry
+
+
+def keep_in(entry: Any, folder: Path) -> None:
+    """Where an entry point's machine code is loaded from and left."""
+    if not hasattr(entry, "py_func"):
+        return  # compiling is switched off
     before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
-    numba.config.CACHE_DIR = str(cache_folder())  # type: ignore[attr-defined]
+    numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]
     try:
-        entry: Any = numba.njit(**OPTIONS)(function)
-        if hasattr(entry, "py_func"):  # and compiling is not switched off
-            entry._cache = Kept(function)
-        return entry
+        folder.mkdir(parents=True, exist_ok=True)
+        entry._cache = Kept(entry.py_func)
     finally:
         numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
 
@@ -116,7 +123,7 @@ def is_cached(entry: Any) -> bool:
     """Whether an entry point's machine code is on disk, from an earlier start."""
     function = getattr(entry, "py_func", entry)
     name = f"{function.__module__.rpartition('.')[2]}.{function.__name__}-*.nbi"
-    return any(cache_folder().rglob(name))
+    return any(cache_folder().glob(f"*/{name}"))
 
 
 @cache

@@ -8,15 +8,19 @@ more rays: what those may be worth at most stands beside, as the error that no f
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from tracer.bound import brightest
 from tracer.converge import Converging, Reached
 from tracer.limits import Limits
 from tracer.sampler import JITTERED, RANDOM, SOBOL
 from tracer.world import World
 from viewer.progressive import Picture
+
+if TYPE_CHECKING:
+    from viewer.session import Session
 
 LATELY = 6.0  # of the seconds so far, the part that has passed before what a forecast goes by
 KEPT = 6  # images that can be gone on with: each takes some 60 bytes a pixel
@@ -90,6 +94,45 @@ class Convergence:
     def clear(self) -> None:
         """Drop all curves but the one in the making."""
         self.runs = [run for run in self.runs if run is self.current]
+
+    def toggle(self, session: "Session") -> None:
+        """Give pixels more rays, or pause; what there is stays."""
+        self.goes_on = not self.goes_on
+        session.wants_error = self.goes_on
+        if not self.goes_on:
+            session.image.pause()
+
+    def set_way(self, session: "Session", way: Way) -> None:
+        """Spread samples in this way; what the others have come to stays to be compared."""
+        changed, self.way = way != self.way, way
+        if changed and self.goes_on and session.world:
+            session.render()
+
+    def go_on(self, session: "Session") -> None:
+        """Once the image of one ray a pixel is there, or where it was paused; asked every frame."""
+        picture = session.image.picture
+        if not (session.world and self.goes_on and picture and picture.finished):
+            return
+        if self.current is None or not picture.endless:
+            run = self.run(session.world, session.limits, session.size, session.model, picture)
+        elif self.current.way != self.way:
+            session.render()
+            return
+        else:
+            run = self.current
+        if run.ended:
+            session.image.picture = run.picture
+            self.goes_on = False
+        elif run.made and run.picture:
+            light = brightest(session.world.scene)
+
+            def noted(reached: Reached | None) -> None:
+                if reached:
+                    run.note(reached, light)
+                else:
+                    run.ended = True
+
+            session.image.refine(run.made, run.picture, noted)
 
     def run(self, world: World, limits: Limits, size: tuple[int, int], model: str, first: Picture) -> Run:
         """This setting's, gone on with or begun; `first` is its image of one ray a pixel."""

@@ -113,7 +113,7 @@ def _typed(session: Session) -> None:
             case "m":
                 session.toggle_model()
             case "r":
-                session.toggle_refining()
+                session.convergence.toggle(session)
             case "t":
                 session.toggle_theme()
             case "h" | "?":

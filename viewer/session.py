@@ -8,12 +8,10 @@ from pathlib import Path
 import numpy as np
 
 import tracer
-from tracer.bound import brightest
-from tracer.converge import Reached
 from tracer.limits import MODELS, Limits, make_limits
 from tracer.tree import RayTree
 from tracer.world import World
-from viewer.convergence import Convergence, Run, Way
+from viewer.convergence import Convergence
 from viewer.lesson import Lesson
 from viewer.looks import Look, Notice, Shown
 from viewer.orbit import Frame, Orbit, home
@@ -126,9 +124,9 @@ class Session:
             self._trace()
             news = True
         if self.world and self.warmup.ready and not self.image.picture:
-            self._render()
+            self.render()
             news = True
-        self._go_on_refining()
+        self.convergence.go_on(self)
         picture = self.image.picture
         finished = picture if picture and picture.finished else None
         if finished is not self.seen_finished:
@@ -184,6 +182,12 @@ class Session:
         """Of the image, in pixels."""
         assert self.world
         return (self.world.scene.image.width, self.world.scene.image.height)
+
+    @property
+    def limits(self) -> Limits:
+        """Of the image's trees."""
+        assert self.world
+        return make_limits(self.world, self.depth, model=self.model, records=False)
 
     def pick(self, x: int, y: int) -> None:
         """Show the tree behind this pixel; outside the image the nearest one counts."""
@@ -246,7 +250,7 @@ class Session:
             self._trace()
         if self.selected is not None and self.tree and self.selected >= len(self.tree):
             self.selected = None
-        self._render()
+        self.render()
 
     def _trace(self) -> None:
         assert self.world and self.pixel
@@ -255,63 +259,11 @@ class Session:
         deeper = max(self.depth, STEP_DEPTH)
         self.full_tree = self.tree if deeper == self.depth else tracer.trace(self.world, depth=deeper, **options)
 
-    def _render(self) -> None:
+    def render(self) -> None:
+        """The image of one ray a pixel, as it is now to be seen."""
         assert self.world
         self.convergence.current = None
-        self.image.show(self.world, self._limits(), self.size)
-
-    def _limits(self) -> Limits:
-        assert self.world
-        return make_limits(self.world, self.depth, model=self.model, records=False)
-
-    # --- more rays a pixel --------------------------------------------------------------------------------------------
-
-    def toggle_refining(self) -> None:
-        """Give pixels more rays, or pause; what there is stays."""
-        state = self.convergence
-        state.goes_on = not state.goes_on
-        self.wants_error = state.goes_on
-        if not state.goes_on:
-            self.image.pause()
-
-    def set_way(self, way: Way) -> None:
-        """Spread samples in this way; what the others have come to stays to be compared."""
-        if way != self.convergence.way:
-            self.convergence.way = way
-            if self.convergence.goes_on:
-                self._render()
-
-    def _go_on_refining(self) -> None:
-        """Once the image of one ray a pixel is there, or where it was paused."""
-        state, picture = self.convergence, self.image.picture
-        if not (self.world and state.goes_on and picture and picture.finished):
-            return
-        if state.current is None or not picture.endless:
-            run = state.run(self.world, self._limits(), self.size, self.model, picture)
-        elif state.current.way != state.way:
-            self._render()
-            return
-        else:
-            run = state.current
-        if run.ended:
-            self.image.picture = run.picture
-            state.goes_on = False
-        else:
-            self._refine(run)
-
-    def _refine(self, run: Run) -> None:
-        assert self.world
-        made, picture, light = run.made, run.picture, brightest(self.world.scene)
-        if made is None or picture is None:
-            return
-
-        def noted(reached: Reached | None) -> None:
-            if reached:
-                run.note(reached, light)
-            else:
-                run.ended = True
-
-        self.image.refine(made, picture, noted)
+        self.image.show(self.world, self.limits, self.size)
 
     # --- how it is looked at ------------------------------------------------------------------------------------------
 

@@ -147,7 +147,7 @@ def test_a_scene_that_branches_nowhere_has_no_trees_to_cut() -> None:
     steps: list[float] = []
     (pixels,) = sources(world, SIZE, TINY, steps.append)
     assert pixels.name == "pixels"
-    assert any("no surface reflects or transmits" in line for line in left_out(world.scene))
+    assert any("no surface reflects or transmits" in line for line in left_out(world.scene, TINY))
     assert steps == sorted(steps)
     assert steps[-1] == 1.0
 

@@ -108,16 +108,16 @@ def test_every_setting_keeps_its_curve(room: Driver) -> None:
     assert session.convergence.current is None
     shallow = refine(room, 3.0)
     assert (deep.depth, shallow.depth) == (3, 2)
-    session.set_way(RANDOM)
+    session.convergence.set_way(session, RANDOM)
     random = refine(room, 8.0)
-    session.set_way(JITTERED)
+    session.convergence.set_way(session, JITTERED)
     jittered = refine(room, 16.0)
     assert session.convergence.runs == [deep, shallow, random, jittered]
     assert [p.samples for p in random.points] == [2.0, 4.0, 8.0]
     assert [p.samples for p in jittered.points] == [4.0, 16.0]
     assert [run.name([]) for run in session.convergence.runs][1:] == ["depth 2, adaptive", "depth 2, random",
                                                                       "depth 2, jittered"]  # fmt: skip
-    session.set_way(ADAPTIVE)
+    session.convergence.set_way(session, ADAPTIVE)
     room.type("3")
     before = len(deep.points)
     assert refine(room, deep.points[-1].samples + 0.1) is deep

@@ -29,6 +29,9 @@ class Errors:
     flip: float
 
 
+NOTHING = Errors(0.0, 0.0, 0.0, 0.0)
+
+
 def errors(pixels: np.ndarray, reference: np.ndarray) -> Errors:
     """Of linear pixels (height, width, 3) against others of the same size."""
     off = pixels - reference

@@ -97,7 +97,8 @@ def measured(method: Method, reference: Reference, done: Callable[[], None]) -> 
     points, failures = [], []
     for setting in method.settings:
         try:
-            points.append(_point(setting, reference))
+            image, least = repeated(setting.make)
+            points.append(point_of(setting.label, setting.value, image, least, reference.pixels))
         except (ValueError, MemoryError) as error:
             failures.append(f"{method.name}, {setting.label}: {error}")
         done()
@@ -109,22 +110,27 @@ def measured(method: Method, reference: Reference, done: Callable[[], None]) -> 
     ), failures
 
 
-def _point(setting: Setting, reference: Reference) -> Point:
-    setting.make()  # warm
+def repeated(make: Callable[[], Image]) -> tuple[Image, float]:
+    """An image, and the least seconds that it took."""
+    make()  # warm
     least, spent, image = math.inf, 0.0, None
     for _ in range(RUNS):
         began = time.perf_counter()
-        image = setting.make()
+        image = make()
         took = time.perf_counter() - began
         least, spent = min(least, took), spent + took
         if spent > ENOUGH:
             break
     assert image
-    off = errors(image.pixels, reference.pixels)
+    return image, least
+
+
+def point_of(label: str, value: float, image: Image, least: float, reference: np.ndarray) -> Point:
+    off = errors(image.pixels, reference)
     estimate = image.reached.error if image.reached else math.nan
     rays = sum(image.rays.values())
     bound = image.bound + rounding(image, rays)
-    return Point(setting.label, setting.value, least, rays, image.tests, off, bound, estimate)
+    return Point(label, value, least, rays, image.tests, off, bound, estimate)
 
 
 def rounding(image: Image, rays: int) -> float:

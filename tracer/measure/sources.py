@@ -12,8 +12,10 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from tracer.measure.errors import errors
-from tracer.measure.precision import Method, Reference, Setting, Source, measured
+from tracer.measure.errors import NOTHING, errors
+from tracer.measure.otherkernel import images
+from tracer.measure.plain import KINDS
+from tracer.measure.precision import Curve, Method, Reference, Setting, Source, measured, point_of
 from tracer.render import Image, render
 from tracer.scene import Scene
 from tracer.world import World
@@ -40,19 +42,22 @@ class Effort:
     samples: Sequence[int]
     true_samples: int  # a square
     errors: Sequence[float]  # to be reached by samples where the error is
+    kernels: bool = False  # whether others are compiled: the first time that takes a minute
 
 
 FULL = Effort(tuple(range(9)), tuple(10.0**-k for k in range(1, 7)), tuple(10.0**-k for k in range(1, 7)),
-              (1, 4, 16, 64, 256), 4096, (0.03, 0.01, 0.003, 0.001, 0.0005))  # fmt: skip
+              (1, 4, 16, 64, 256), 4096, (0.03, 0.01, 0.003, 0.001, 0.0005), True)  # fmt: skip
 QUICK = Effort(
     tuple(range(6)), (1e-1, 1e-2, 1e-3, 1e-4), (1e-1, 1e-2, 1e-3, 1e-4), (1, 4, 16, 64), 576, (0.03, 0.01, 0.003)
 )
 
 
-def left_out(scene: Scene) -> list[str]:
+def left_out(scene: Scene, effort: Effort) -> list[str]:
     """Sources of error that this scene has not, and those that the tracer has not, with the reason."""
     found = ["soft lights, glossy mirrors, lens: every light is a point, every mirror is smooth, the eye is a pinhole"]
     found.append("wavelengths: every index is one number")
+    if not effort.kernels:
+        found.append("kernels in other precision: they would have to be compiled; a report without --quick has them")
     if not _branches(scene):
         found.append("trees that are cut: no surface reflects or transmits, every tree is its camera ray")
     return found
@@ -114,7 +119,7 @@ def sources(
     """
     kinds = [trees_cut, pixels_sampled, both_together] if _branches(world.scene) else [pixels_sampled]
     studies = [kind(effort) for kind in kinds]
-    total = sum(study.steps(world) for study in studies)
+    total = sum(study.steps(world) for study in studies) + (len(KINDS) if effort.kernels else 0)
     done = 0
 
     def step() -> None:
@@ -122,7 +127,40 @@ def sources(
         done += 1
         progress(done / total)
 
-    return [study.run(world, affordable(world, size, study.true) if smaller else size, step) for study in studies]
+    found = [study.run(world, affordable(world, size, study.true) if smaller else size, step) for study in studies]
+    return [*found, kernels(world, size, step)] if effort.kernels else found
+
+
+def kernels(world: World, size: Size, step: Callable[[], None]) -> Source:
+    """The textbook's formulas in double and in single precision, depth by depth, each judged by this kernel's image."""
+    depths = range(max(world.scene.tracing.depth, 3) + 1)
+    ours = [render(world, size, depth=depth).pixels for depth in depths]
+    curves, failures, own = [], [], NOTHING
+    for kind in KINDS:
+        name = f"textbook, {kind} precision"
+        try:
+            found = images(kind, world.scene, size, depths)
+        except RuntimeError as error:
+            failures.append(f"{name}: {error}")
+            continue
+        finally:
+            step()
+        points = [
+            point_of(f"depth {depth}", depth, image, least, true)
+            for depth, (image, least), true in zip(depths, found, ours, strict=True)
+        ]
+        curves.append(Curve(name, tuple(points), None, None))
+        own = points[-1].errors if kind == "double" else own
+    how = "this program's own kernel at each depth, stable formulas in double precision. The second way: the textbook's"
+    return Source(
+        "kernels",
+        "Kernels in single and double precision",
+        "What rounding does to the whole image: the same trees by the textbook's formulas, with 53 and with 24 bits. "
+        "Edges move by less than a pixel, so what is off is mostly a few samples at edges, and all that is close.",
+        Reference(ours[-1], how, own),
+        tuple(curves),
+        tuple(failures),
+    )
 
 
 def trees_cut(effort: Effort) -> Study:

@@ -15,7 +15,7 @@ import numpy as np
 
 from tracer.measure.bending import bent
 from tracer.measure.case import DIGITS
-from tracer.measure.errors import Errors
+from tracer.measure.errors import NOTHING
 from tracer.measure.plates import pile, under_dark
 from tracer.measure.precision import Method, Reference, Setting, Source, measured
 from tracer.measure.stages import ball, glass, world
@@ -28,7 +28,6 @@ from tracer.world import World, prepare
 
 SIZE = (16, 16)  # so many times the one ray
 ANGLE = 1e-15  # degrees, of the whole image: all pixels have the same direction but for its last bit
-EXACT = Errors(0.0, 0.0, 0.0, 0.0)
 ANY_DEPTH = 10_000
 MOST = 100_000  # rays of a tree, where its weights hardly fall
 WHITE: Vector = (1.0, 1.0, 1.0)
@@ -61,7 +60,7 @@ def solved(problem: Problem, step: Callable[[], None]) -> Source:
     """How far each way to cut is from the exact answer; `step` is told of every setting."""
     stage = aimed(problem)
     exact = problem.exact(stage)
-    reference = Reference(np.full((SIZE[1], SIZE[0], 3), exact), f"closed form: {exact:.15g}", EXACT)
+    reference = Reference(np.full((SIZE[1], SIZE[0], 3), exact), f"closed form: {exact:.15g}", NOTHING)
 
     made = partial(partial, render, stage, SIZE, threads=1, max_nodes=MOST)
     depths = [Setting(f"depth {d}", d, made(depth=d)) for d in problem.depths]

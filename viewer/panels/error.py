@@ -45,14 +45,14 @@ EMPTY = (
 def _controls(session: Session) -> None:
     state, unit = session.convergence, d.unit()
     if imgui.button("Pause" if state.goes_on else "Refine", (66 * unit, 0)):
-        session.toggle_refining()
+        session.convergence.toggle(session)
     d.hint("more rays for each pixel, until it is paused (key R)")
     imgui.same_line()
     imgui.set_next_item_width(152 * unit)
     if imgui.begin_combo("##way", state.way.name):
         for way in WAYS:
             if imgui.selectable(way.name, way == state.way)[0]:
-                session.set_way(way)
+                state.set_way(session, way)
             d.hint(way.hint)
         imgui.end_combo()
     d.hint("where the rays of a pixel go")

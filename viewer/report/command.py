@@ -72,9 +72,10 @@ def of_scene(place: tuple[Path, lessons.Lesson | None], options: Namespace, shar
     path, lesson = place
     world = prepared(path)
     size = options.size or own_size(world, QUICK_ACROSS if options.quick else ACROSS)
-    found = sources(world, size, QUICK if options.quick else FULL, share, smaller=options.size is None)
+    effort = QUICK if options.quick else FULL
+    found = sources(world, size, effort, share, smaller=options.size is None)
     name = lesson.name if lesson else path.stem
-    return Chapter(name, world.scene.title or name, found, left_out(world.scene))
+    return Chapter(name, world.scene.title or name, found, left_out(world.scene, effort))
 
 
 def stiff(share: Callable[[float], None]) -> Chapter:

@@ -1,0 +1,46 @@
+"""The kernel with other formulas, in processes of their own: what single precision is worth, what double is."""
+
+import pytest
+
+import tracer
+from tracer.jit import cache_folder
+from tracer.measure.errors import errors
+from tracer.measure.otherkernel import images
+from tracer.measure.plain import double_of, single_of
+from tracer.render import render
+
+SIZE = (80, 60)
+SINGLE = 2.0**-24
+
+
+def test_numbers_of_both_precisions() -> None:
+    third = 1.0 / 3.0
+    assert double_of(third) == third
+    assert 0.0 < abs(float(single_of(third)) - third) <= SINGLE * third
+
+
+@pytest.mark.slow  # two kernels are compiled
+@pytest.mark.parametrize("kind", ["double", "single"])
+def test_ordinary_scenes_and_one_with_a_gap_of_1e_9(kind: str, worlds: dict[str, tracer.World]) -> None:
+    """Directions of 24 bits move an edge by 1e-7 of the way, so one pixel in thousands; the gap is then not there."""
+    ours = set(cache_folder().glob("*/*.nbi"))
+    for name, ordinary in (("two-lights", True), ("plates", True), ("panes", False)):
+        world = worlds[name]
+        depths = (0, 2)
+        for depth, (image, seconds) in zip(depths, images(kind, world.scene, SIZE, depths), strict=True):
+            assert seconds > 0.0
+            off = errors(image.pixels, render(world, SIZE, depth=depth).pixels)
+            if kind == "double":
+                assert off.rmse < 1e-9
+            elif ordinary:
+                assert (off.rmse > 1e-10 or depth == 0) and off.rmse < 1e-2
+            elif depth:
+                assert off.rmse > 0.05
+    assert set(cache_folder().glob("*/*.nbi")) == ours  # nothing of theirs is among ours
+    assert list((cache_folder() / kind).rglob("*.nbi"))
+
+
+@pytest.mark.slow
+def test_what_a_process_says_when_it_fails(worlds: dict[str, tracer.World]) -> None:
+    with pytest.raises(RuntimeError, match="triple"):
+        images("triple", worlds["plates"].scene, SIZE, (0,))
