@@ -27,7 +27,7 @@ test: .venv/installed-dev
 	$(BIN)/python -c 'from tracer.render import fill_cache; fill_cache()'
 	$(BIN)/python -m pytest -q $(SIDE_BY_SIDE)
 
-# With the tests that need an office program and TeX, which take hundreds of megabytes.
+# With the tests that need an office program and TeX, which take hundreds of megabytes, and those that compile more kernels.
 test-all: .venv/installed-dev
 	@sh .ci/system-packages '$(PROGRAMS) $(OFFICE)' '$(LIBRARIES)'
 	$(BIN)/python -m pytest -q $(SIDE_BY_SIDE) -m ''

@@ -19,11 +19,17 @@ def test_numbers_of_both_precisions() -> None:
     assert 0.0 < abs(float(single_of(third)) - third) <= SINGLE * third
 
 
+def kept() -> dict[str, float]:
+    """This program's own machine code that formulas of the textbook's would change, and when it was written."""
+    found = [path for entry in ("tile", "digits") for path in cache_folder().glob(f"*/{entry}.*")]
+    return {path.name: path.stat().st_mtime for path in found}
+
+
 @pytest.mark.slow  # two kernels are compiled
 @pytest.mark.parametrize("kind", ["double", "single"])
 def test_ordinary_scenes_and_one_with_a_gap_of_1e_9(kind: str, worlds: dict[str, tracer.World]) -> None:
     """Directions of 24 bits move an edge by 1e-7 of the way, so one pixel in thousands; the gap is then not there."""
-    ours = set(cache_folder().glob("*/*.nbi"))
+    ours = kept()
     for name, ordinary in (("two-lights", True), ("plates", True), ("panes", False)):
         world = worlds[name]
         depths = (0, 2)
@@ -33,11 +39,12 @@ def test_ordinary_scenes_and_one_with_a_gap_of_1e_9(kind: str, worlds: dict[str,
             if kind == "double":
                 assert off.rmse < 1e-9
             elif ordinary:
-                assert (off.rmse > 1e-10 or depth == 0) and off.rmse < 1e-2
+                assert off.rmse < 1e-2
+                assert off.rmse > 1e-13 or depth == 0  # a flat image stays one
             elif depth:
                 assert off.rmse > 0.05
-    assert set(cache_folder().glob("*/*.nbi")) == ours  # nothing of theirs is among ours
-    assert list((cache_folder() / kind).rglob("*.nbi"))
+    assert kept() == ours  # nothing of theirs is among ours
+    assert len(list((cache_folder() / kind).rglob("*.nbi"))) == 2
 
 
 @pytest.mark.slow
