@@ -51,9 +51,14 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: Namespace, targe
         with (
             Progress(COMPILING, at_once=True) if app.session.warmup.compiles else Progress("load the scene") as progress
         ):
-            app.settle(say=progress.say, progress=progress)
-            if app.session.faults:
-                raise Unusable(*app.session.faults)
+
+            def say(doing: str) -> None:
+                """Nothing more is begun for what cannot be shown."""
+                if app.session.faults:
+                    raise Unusable(*app.session.faults)
+                progress.say(doing)
+
+            app.settle(say=say, progress=progress)
             write_picture(target, app.surface.grab())
     finally:
         app.close()
