@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from tracer.jit import compiled, kernel
-from tracer.sampler import JITTERED
+from tracer.sampler import JITTERED, RANDOM
 from tracer.tile import Area, Begun
 from tracer.vector import Vector, scale, vector
 
@@ -37,7 +37,8 @@ class Sampled:
         self.sums = np.zeros((height, width, 4))  # over the samples: red, green, blue, the weight that was cut
         self.counts = np.zeros((height, width), np.int32)
         self.moved = np.full((height, width), np.nan)  # the square error as the last doubling has it
-        self.spread = np.zeros((height, width, 2))  # that times N^3/2, summed over doublings; and how many these are
+        self.spread = np.zeros((height, width, 2))  # that times N^power, summed over doublings; and how many these are
+        self.power = 1.0 if sampler == RANDOM else 1.5
         self.adaptive = adaptive
         self.renews = sampler == JITTERED  # points on a finer grid are all new ones
         self.nothing = np.zeros_like(self.sums) if self.renews else self.sums
@@ -48,13 +49,18 @@ class Sampled:
 
     @property
     def error(self) -> float:
-        """Root mean square over pixels and components; NaN where some pixel has not been doubled yet."""
+        """Root mean square over pixels and components; NaN where some pixel has not been doubled yet.
+
+        Random samples leave no margin for stopping where the last draw was small by chance: all draws count then.
+        """
+        if self.adaptive and self.power == 1.0 and self.counts.min() > 1:
+            return math.sqrt(float((self.errors() ** 2).mean()))
         return math.sqrt(float(self.moved.mean()))
 
     def errors(self) -> np.ndarray:
         """Each pixel's, estimated from all its doublings; NaN before the first."""
         with np.errstate(invalid="ignore"):
-            return np.sqrt(self.spread[..., 0] / self.spread[..., 1] / self.counts.astype(float) ** 1.5)
+            return np.sqrt(self.spread[..., 0] / self.spread[..., 1] / self.counts.astype(float) ** self.power)
 
     def next(self, most: int) -> Begun | None:
         """What each pixel is to have after another round, no more than `most`; None where nothing is to be gained."""
@@ -74,22 +80,24 @@ class Sampled:
     def take_in(self, area: Area, plan: np.ndarray, sums: np.ndarray) -> None:
         """The new sums of an area whose samples went by this plan."""
         again = AGAIN if self.renews else 1.0
-        take_in(area, plan, sums, again, self.sums, self.counts, self.moved, self.spread)
+        take_in(area, plan, sums, again, self.power, self.sums, self.counts, self.moved, self.spread)
 
     def _worthwhile(self, most: int) -> np.ndarray:
         """Pixels that gain most by a sample, as many as add GROWTH to the samples so far."""
         if self.spread[..., 1].max() == 1.0:
-            add_contrast(self.sums, self.counts, self.spread)
+            add_contrast(self.sums, self.counts, self.power, self.spread)
         ranks = np.zeros(self.counts.shape, np.int32)
         spent = np.zeros(RANKS, np.int64)
-        rank_gains(self.counts, self.spread, most, ranks, spent)
+        rank_gains(self.counts, self.spread, self.power, most, ranks, spent)
         adds = spent[::-1].cumsum()
         last = int(np.searchsorted(adds, min(GROWTH * self.counts.sum(), adds[-1])))
         return ranks >= max(RANKS - 1 - last, 1)
 
 
 @kernel
-def take_in(area: Area, plan: Any, new: Any, again: float, sums: Any, counts: Any, moved: Any, spread: Any) -> None:
+def take_in(
+    area: Area, plan: Any, new: Any, again: float, power: float, sums: Any, counts: Any, moved: Any, spread: Any
+) -> None:
     """`Sampled.take_in`: each pixel's sums and how far its mean has moved."""
     for y in range(area.top, area.bottom):
         for x in range(area.left, area.right):
@@ -99,7 +107,7 @@ def take_in(area: Area, plan: Any, new: Any, again: float, sums: Any, counts: An
             if have > 0:
                 square = apart(mean(new[y, x], want), mean(sums[y, x], have)) / again
                 moved[y, x] = square
-                spread[y, x, 0] += square * want * math.sqrt(want)
+                spread[y, x, 0] += square * raised(want, power)
                 spread[y, x, 1] += 1.0
             for k in range(4):
                 sums[y, x, k] = new[y, x, k]
@@ -107,7 +115,7 @@ def take_in(area: Area, plan: Any, new: Any, again: float, sums: Any, counts: An
 
 
 @kernel
-def add_contrast(sums: Any, counts: Any, spread: Any) -> None:
+def add_contrast(sums: Any, counts: Any, power: float, spread: Any) -> None:
     """Half the mean square difference from the eight neighbours: their variance, were all alike."""
     height, width = counts.shape
     for y in range(height):
@@ -116,13 +124,12 @@ def add_contrast(sums: Any, counts: Any, spread: Any) -> None:
             for j in range(max(y - 1, 0), min(y + 2, height)):
                 for i in range(max(x - 1, 0), min(x + 2, width)):
                     total += apart(mean(sums[j, i], counts[j, i]), here)
-            count = counts[y, x]
-            spread[y, x, 0] += FIRST * (total / 16.0) * count * math.sqrt(count)
+            spread[y, x, 0] += FIRST * (total / 16.0) * raised(counts[y, x], power)
             spread[y, x, 1] += FIRST
 
 
 @kernel
-def rank_gains(counts: Any, spread: Any, most: int, ranks: Any, spent: Any) -> None:
+def rank_gains(counts: Any, spread: Any, power: float, most: int, ranks: Any, spent: Any) -> None:
     """Each pixel's gain by a sample on a scale of octaves, 0 for none; of each rank, the samples to double its pixels.
 
     Square error over N, where the error is the pixel's own and its neighbours'.
@@ -139,12 +146,18 @@ def rank_gains(counts: Any, spread: Any, most: int, ranks: Any, spent: Any) -> N
                     around += spread[j, i, 0] / spread[j, i, 1]
                     some += 1
             around = (around - own) / some if some > 0 else own
-            gain = (OWN * own + (1.0 - OWN) * max(around, 0.0)) / (math.sqrt(count) * count * count)
+            gain = (OWN * own + (1.0 - OWN) * max(around, 0.0)) / (raised(count, power) * count)
             if 0.0 < gain < math.inf:
                 part, octave = math.frexp(gain)
                 step = (1 if part >= FLAT else 0) + (1 if part >= MIDDLE else 0) + (1 if part >= STEEP else 0)
                 ranks[y, x] = 4 * (octave + 1200) + step
                 spent[ranks[y, x]] += count
+
+
+@compiled
+def raised(count: int, power: float) -> float:
+    """N or N^3/2: what square errors fall with."""
+    return count * math.sqrt(count) if power > 1.0 else 1.0 * count
 
 
 @compiled

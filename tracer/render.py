@@ -111,14 +111,16 @@ def render(
     One sample, the default, is the pixel's centre; more are the mean of the sampler's first points: Sobol's, or at
     random, or jittered, whose number must be a square. `until_error` and `until_seconds` give each pixel as many as its
     error asks for (`tracer.adaptive`), until that error is estimated for the image or so much time has passed, but
-    `samples` of a pixel at most and one at least. With a `tolerance` the rays that a pixel lacks weigh no more than
+    `samples` of a pixel at most and two at least. With a `tolerance` the rays that a pixel lacks weigh no more than
     that in sum; the depth counts only if it is given. `progress` gets the finished share, and where `cancelled` turns
     true, Stopped is raised within a tile's time. ValueError for what can be none of these.
     """
     goal = Goal(until_error, until_seconds)
     points = make_samples(1 if goal else samples or 1, sampler)
     if goal and points.sampler == JITTERED:
-        raise ValueError("jittered samples cannot be added to: until_error and until_seconds need sobol or random ones")
+        raise ValueError("jittered samples cannot be added to: an image that converges needs sobol or random ones")
+    if goal and samples is not None and samples < 2:
+        raise ValueError(f"samples must be >= 2 in an image that converges, got {samples}")
     elsewhere = isinstance(executor, Remote)
     threads = threads or (executor.threads if elsewhere else processors())
     compiling = 0.0 if elsewhere else warm()
@@ -157,10 +159,10 @@ def render(
 def _converge(
     made: Converging, goal: Goal, executor: Executor, threads: int, progress: Progress, cancelled: Cancelled
 ) -> str:
-    """Round after round up to the goal; by what it ended. Time is up when it is, but every pixel has a sample."""
+    """Round after round up to the goal; by what it ended. Time is up when it is, but every pixel has two samples."""
 
     def stops() -> bool:
-        return cancelled() or (goal.is_late and made.sampled.counts.min() > 0)
+        return cancelled() or (goal.is_late and made.sampled.counts.min() > 1)
 
     error = math.nan
 
@@ -172,7 +174,7 @@ def _converge(
             error = reached.error
             if goal.error is not None and reached.error <= goal.error:
                 return "error"
-            if goal.is_late:
+            if goal.is_late and reached.least > 1:
                 return "seconds"
     except Stopped:
         if cancelled():

@@ -125,7 +125,10 @@ def make_parser() -> Parser:
     _add_limits(render)
     render.add_argument("--size", type=pair("x"), metavar="WxH", help="of the image, the scene's own by default")
     render.add_argument(
-        "--samples", type=at_least(1), metavar="N", help="a pixel; 1, its centre, by default; with --until at most"
+        "--samples",
+        type=at_least(1),
+        metavar="N",
+        help="a pixel; 1, its centre, by default; at most, with one of these:",
     )
     render.add_argument(
         "--sampler",

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     from viewer.session import Session
 
 LATELY = 6.0  # of the seconds so far, the part that has passed before what a forecast goes by
-KEPT = 6  # images that can be gone on with: each takes some 60 bytes a pixel
+KEPT = 500e6  # bytes of images that can be gone on with
+EACH = 60  # bytes a pixel that one takes
 
 
 class Way(NamedTuple):
@@ -56,6 +57,7 @@ class Run:
     depth: int
     model: str
     way: Way
+    number: int  # of its colour and marker
     made: Converging | None  # None: too long ago to be gone on with
     picture: Picture | None
     points: list[Reached] = field(default_factory=list)  # of every round that has an estimate
@@ -65,7 +67,7 @@ class Run:
     def name(self, models: Sequence[str]) -> str:
         """`models`: those of all runs, named where there are two."""
         model = f" {self.model}" if len(set(models)) > 1 else ""
-        return f"depth {self.depth}{model}, {self.way.short}"
+        return f"depth {self.depth}{model}, {self.way.short}" + (" *" if math.isinf(self.floor) else "")
 
     def note(self, reached: Reached, light: float) -> None:
         """After a round; `light` is what a cut ray of weight 1 is worth at most."""
@@ -143,13 +145,19 @@ class Convergence:
         if not found:
             made = Converging(world, world.view(size), limits, self.way.sampler, self.way.adaptive)
             picture = Picture(made.job, first.shown.copy(), share=1.0, endless=True)
-            found = Run(limits.depth, model, self.way, made, picture)
+            found = Run(limits.depth, model, self.way, self._free(), made, picture)
             self.runs.append(found)
         kept = [run for run in self.runs if run.made and run is not found]
-        for old in kept[: max(0, len(kept) + 1 - KEPT)]:
+        room = max(2, int(KEPT / (EACH * size[0] * size[1])))
+        for old in kept[: max(0, len(kept) + 1 - room)]:
             old.made = old.picture = None
         self.current = found
         return found
+
+    def _free(self) -> int:
+        """The first number that no run has."""
+        taken = {run.number for run in self.runs}
+        return next(k for k in range(len(taken) + 1) if k not in taken)
 
     @property
     def map(self) -> np.ndarray | None:

@@ -124,13 +124,13 @@ def render_one(
     share.say(f"write {order.target.name}")
     order.target.parent.mkdir(exist_ok=True)
     write_picture(order.target, image.pixels)
-    if options.tolerance is not None:
-        most = number(image.residual["max"])
-        progress.put(
-            f"a pixel's rays that were cut carry at most {most} of the weight{light_missing(image.bound)}", sys.stdout
-        )
+    name = f"{order.name}: " if share.count > 1 else ""
     if image.reached:
-        progress.put(how_far(image, image.reached, options), sys.stdout)
+        progress.put(name + how_far(image, image.reached, options), sys.stdout)
+    if options.tolerance is not None or (image.reached and image.residual["max"] > 0.0):
+        most = number(image.residual["max"])
+        missing = f"a pixel's rays that were cut carry at most {most} of the weight{light_missing(image.bound)}"
+        progress.put(name + missing, sys.stdout)
     return {
         "scene": str(order.scene),
         "image": str(order.target),
@@ -151,20 +151,23 @@ def render_one(
 
 def how_far(image: Image, far: Reached, options: Namespace) -> str:
     """What an image that converges has come to, in a line."""
-    error = "is not known yet" if math.isnan(far.error) else f"is {far.error:.2g} (RMSE, linear light)"
-    spread = f"{far.samples:.3g} samples a pixel" + (f", {far.least} to {far.most}" if far.most > far.least else "")
-    ends = {
-        "error": f"{options.until_error:g} was asked for" if options.until_error else "",
-        "seconds": "time is up",
-        "samples": f"no pixel may have more than {options.samples or MOST}",
-    }
-    return f"estimated error {error} after {far.seconds:.2f} s and {far.rays:,} rays: {spread}; {ends[image.ended]}"
+    mean = f"{far.samples:,.0f}" if far.samples >= 100 else f"{far.samples:.3g}"
+    spread = f"{mean} samples a pixel" + (f", {far.least} to {far.most}" if far.most > far.least else "")
+    if far.error == 0.0:
+        end = "nothing is left to gain"
+    elif image.ended == "error":
+        end = f"{options.until_error:g} was asked for"
+    elif image.ended == "seconds":
+        end = "time is up"
+    else:
+        end = f"at most {options.samples or MOST} of a pixel, and they double"
+    reach = f"{far.error:.2g} (RMSE, linear light) after {far.seconds:.2f} s and {far.rays:,} rays"
+    return f"estimated sampling error {reach}: {spread}; {end}"
 
 
 def reached(image: Image, far: Reached) -> dict[str, Any]:
     """The same for programs."""
-    error = None if math.isnan(far.error) else far.error
-    return {"error": error, "samples_least": far.least, "samples_most": far.most, "ended": image.ended}
+    return {"error": far.error, "samples_least": far.least, "samples_most": far.most, "ended": image.ended}
 
 
 def ordered(options: Namespace) -> list[Order]:

@@ -157,6 +157,7 @@ class Session:
             self.depth = scene.tracing.depth if self.wanted_depth is None else self.wanted_depth
             self.pixel = self.wanted_pixel
             self.selected = None
+            self.image_view = Look()
             self.home()
         self._check_pixel(again)
         for note in notes[:1]:

@@ -74,8 +74,8 @@ EDGE_WIDTH = 1.0  # edges of cut glass: less than any ray
 EDGE_OPACITY = 0.5
 
 # Curves in a plot, one after the other: they differ by marker, too.
-CURVES = (("#F2C14E", "#B0127B"), ("#56B4E9", "#0072B2"), ("#7FD6A2", "#11723F"), ("#E69F00", "#B35C00"),
-          ("#C7A6F0", "#5B3A9C"), ("#ECEFF3", "#14181D"))  # fmt: skip
+CURVES = (("#F2C14E", "#B0127B"), ("#56B4E9", "#0072B2"), ("#7FD6A2", "#11723F"), ("#FF8A80", "#B35C00"),
+          ("#C7A6F0", "#5B3A9C"), ("#ECEFF3", "#14181D"), ("#B8C94A", "#7A6A00"), ("#5FD0C8", "#007A75"))  # fmt: skip
 
 # Numbers as colours, from little to much: each stop is lighter than the one before, in grey as well.
 MAP = (rgb("#0B1026"), rgb("#2F2A7A"), rgb("#8C2F7F"), rgb("#DD5A4F"), rgb("#F7A93B"), rgb("#FCF3B8"))

@@ -54,6 +54,17 @@ def test_what_is_cut_is_counted_as_in_plain_images(worlds: dict[str, tracer.Worl
     assert image.bound == plain.bound
 
 
+@pytest.mark.parametrize("sampler", ("sobol", "random"))
+def test_the_estimate_of_a_lesson_is_no_lower_than_its_error(worlds: dict[str, tracer.World], sampler: str) -> None:
+    """Some thousand pixels with edges: one that stops for a lucky draw must not make the whole look better."""
+    world, size = worlds["mirror-balls"], (200, 150)
+    true = tracer.render(world, size, samples=1024).pixels
+    for goal in (0.01, 0.005):
+        image = tracer.render(world, size, until_error=goal, sampler=sampler)
+        assert image.reached
+        assert rmse(image.pixels, true) <= 1.05 * image.reached.error <= 1.05 * goal
+
+
 def test_an_edge_in_closed_form_with_a_quarter_of_the_rays() -> None:
     """Where one pixel in some hundred has an edge in it, the others need no more than the two that show that."""
     world, true = edge_scene(), edge_image()
@@ -95,12 +106,12 @@ def test_the_estimate_is_theory_s(sampler: str, law: float) -> None:
 
 
 def test_time_ends_it(worlds: dict[str, tracer.World]) -> None:
-    """However short the time, every pixel has a sample; an error that is not known yet is no number."""
+    """However short the time, every pixel has two samples: fewer say nothing of their error."""
     image = tracer.render(worlds["mirror-balls"], SIZE, until_seconds=1e-9)
     assert image.ended == "seconds"
     assert image.reached
-    assert (image.reached.least, image.reached.most) == (1, 1)
-    assert math.isnan(image.reached.error)
+    assert (image.reached.least, image.reached.most) == (2, 2)
+    assert image.reached.error > 0.0
     later = tracer.render(worlds["mirror-balls"], SIZE, until_seconds=0.2)
     assert later.ended == "seconds"
     assert later.reached
@@ -168,6 +179,7 @@ def test_gains_by_hand() -> None:
     (
         ({"until_error": 0.0}, "until_error must be a number > 0, got 0.0"),
         ({"until_seconds": math.inf}, "until_seconds must be a number > 0, got inf"),
+        ({"until_error": 1.0, "samples": 1}, "samples must be >= 2 in an image that converges, got 1"),
         ({"until_error": 1.0, "sampler": "jittered"}, "jittered samples cannot be added to"),
     ),
 )

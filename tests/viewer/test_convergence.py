@@ -13,7 +13,7 @@ from tests.viewer.driver import Driver, viewer
 from tests.viewer.test_panels import window
 from tracer.converge import Reached
 from viewer.colormap import RANGES, colored, strip
-from viewer.convergence import KEPT, WAYS, Run, forecast
+from viewer.convergence import EACH, WAYS, Run, forecast
 from viewer.panels import error, menu
 from viewer.picture import srgb
 
@@ -126,12 +126,14 @@ def test_every_setting_keeps_its_curve(room: Driver) -> None:
     assert session.convergence.runs == [deep]
 
 
-def test_an_image_that_was_dropped_is_begun_anew(room: Driver) -> None:
+def test_an_image_that_was_dropped_is_begun_anew(room: Driver, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("viewer.convergence.KEPT", 3 * EACH * 64 * 48)
     runs = []
-    for depth in range(KEPT + 1):
+    for depth in range(4):
         room.type(str(depth))
         runs.append(refine(room, 2.0))
-    assert [run.made is None for run in runs] == [True] + KEPT * [False]
+    assert [run.made is None for run in runs] == [True, False, False, False]
+    assert [run.number for run in runs] == [0, 1, 2, 3]
     assert runs[0].points
     room.type("0")
     assert refine(room, 2.0) is not runs[0]
@@ -227,3 +229,8 @@ def test_forecast_of_a_power() -> None:
     assert math.isnan(forecast([], 1.0))
     risen = [Reached(t, 1, 1.0, 1, 1, 0.1 * t) for t in (1.0, 2.0)]
     assert forecast(risen, 1.0) == 0.2  # nothing says that it will rise on
+
+
+def test_ticks_are_round_numbers() -> None:
+    assert error.ticks(0.9, 6.0) == [1.0, 2.0, 5.0]
+    assert error.ticks(0.0009, 0.2) == pytest.approx([0.001, 0.01, 0.1])

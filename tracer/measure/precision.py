@@ -16,8 +16,8 @@ from tracer.measure.case import U
 from tracer.measure.errors import Errors, errors
 from tracer.render import Image
 
-ENOUGH = 2.0  # seconds: a run so long is taken once
-RUNS = 5  # else so many, or as many as there is time for
+ENOUGH = 0.3  # seconds: a run so long is taken once
+RUNS = 20  # else so many, or as many as there is time for
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ PATIENCE = 6.0  # seconds that an image taken for true may take
 PROBE = 12  # pixels across, of the image that tells how long others take
 DEEP = 1000  # levels: where it is a weight that cuts, no depth does
 TRUE = 1e-9  # of the weight, that the trees taken for true lack at most
+FAINT = 1e-4  # the same of a ray, where samples blur what is lost by more
 MOST_NODES = 20_000  # rays of them, where weights hardly fall
 
 Size = tuple[int, int]
@@ -225,8 +226,6 @@ def pixels_sampled(effort: Effort) -> Study:
 
 
 def both_together(effort: Effort) -> Study:
-    deep = max(effort.depths)
-
     def methods(made: Maker) -> Sequence[Method]:
         settings = [
             Setting(f"depth {d}, {_many(n)}", n, made(samples=n, depth=d))
@@ -234,8 +233,11 @@ def both_together(effort: Effort) -> Study:
         ]
         return [Method("depth and samples", settings)]
 
-    how = f"{effort.true_samples} samples a pixel (Sobol's) at depth {deep}. The second way is as many, jittered"
-    true = {"samples": effort.true_samples, "depth": deep}
+    how = (
+        f"{effort.true_samples} samples a pixel (Sobol's), every ray followed that weighs {FAINT:g}. The second way is "
+        "as many samples, jittered"
+    )
+    true = {"samples": effort.true_samples, "depth": DEEP, "min_weight": FAINT, "max_nodes": MOST_NODES}
     return Study(
         "together",
         "Both together",

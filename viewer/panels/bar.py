@@ -160,7 +160,7 @@ def _status_text(session: Session) -> str:
     count = len(session.tree) if session.tree else 0
     rays = f"{count} ray{'s' if count > 1 else ''}" if count else "no pixel picked"
     if picture.endless:
-        return f"{rays}  ·  image refined for {picture.seconds:.1f} s"
+        return f"{rays}  ·  image {'refined' if picture.finished else 'being refined'}"
     if picture.finished:
         return f"{rays}  ·  image in {picture.seconds:.2f} s"
     return f"{rays}  ·  image {100 * picture.share:.0f} %"

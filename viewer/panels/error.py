@@ -13,8 +13,9 @@ from viewer.session import Session
 from viewer.theme import SMALL, curve_color
 
 TITLE = "Error"
-MAP_WIDTH = 92  # logical pixels
+MAP_WIDTH = 116  # logical pixels
 PLOT_HEIGHT = 96
+FEW = 60.0  # how far an axis reaches that has numbers at 2 and 5, too
 LEGEND_FROM = 290  # of the panel's width
 MARKERS = (
     implot.Marker_.circle, implot.Marker_.square, implot.Marker_.diamond, implot.Marker_.up, implot.Marker_.down,
@@ -31,10 +32,11 @@ def draw(session: Session, canvas: Canvas) -> None:
         _plot(session)
     else:
         imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(session.theme.muted, EMPTY)
+        imgui.text_colored(session.theme.muted, BEGUN if session.convergence.goes_on else EMPTY)
         imgui.pop_text_wrap_pos()
 
 
+BEGUN = "The first rays are on their way: each pixel gets one, then one more."
 EMPTY = (
     "The image has one ray a pixel, through its centre. Refine it: pixels get more rays, twice as many each time, and "
     "how far their mean moves then says how far off it is. Try another depth or another way to place the rays: every "
@@ -48,7 +50,7 @@ def _controls(session: Session) -> None:
         session.convergence.toggle(session)
     d.hint("more rays for each pixel, until it is paused (key R)")
     imgui.same_line()
-    imgui.set_next_item_width(152 * unit)
+    imgui.set_next_item_width(148 * unit)
     if imgui.begin_combo("##way", state.way.name):
         for way in WAYS:
             if imgui.selectable(way.name, way == state.way)[0]:
@@ -77,10 +79,11 @@ def _numbers(session: Session) -> None:
     imgui.push_text_wrap_pos(0.0)
     imgui.text(f"error {last.error:.2g} after {last.seconds:.1f} s  ·  {_outlook(run)}")
     spread = f", {last.least} to {last.most}" if last.most > last.least else ""
-    lines = [(f"{last.samples:.3g} samples a pixel{spread}", "in the mean, and where they are fewest and most")]
-    if run.floor > 0.0:
-        cut = f"at most {run.floor:.2g} more" if math.isfinite(run.floor) else "bounded by nothing"
-        lines.append((f"rays cut at depth {run.depth}: {cut}", FLOOR))
+    lines = [(f"{last.samples:.3g} samples a pixel{spread}{_picked(session, run)}", MEAN)]
+    if math.isinf(run.floor):
+        lines.append((f"* rays cut at depth {run.depth}: what they are worth is bounded by nothing", FLOOR))
+    elif run.floor > 0.0:
+        lines.append((f"rays cut at depth {run.depth}: at most {run.floor:.2g} more", FLOOR))
     for content, meaning in lines:
         if imgui.get_content_region_avail().y > (PLOT_HEIGHT + 40) * d.unit():
             imgui.text_colored(theme.muted, content)
@@ -88,6 +91,16 @@ def _numbers(session: Session) -> None:
     imgui.pop_text_wrap_pos()
 
 
+def _picked(session: Session, run: Run) -> str:
+    """The picked pixel's own."""
+    if not (session.pixel and run.made):
+        return ""
+    x, y = session.pixel
+    count, error = run.made.sampled.counts[y, x], run.made.sampled.errors()[y, x]
+    return "" if math.isnan(error) else f"; the picked one {count}, {error:.2g} off"
+
+
+MEAN = "in the mean, and where they are fewest and most; of the picked pixel how many, and its own estimated error"
 FLOOR = "the error that no further sample takes away: what the rays that were not followed may be worth"
 
 
@@ -104,7 +117,10 @@ def _plot(session: Session) -> None:
     unit, theme, state = d.unit(), session.theme, session.convergence
     size = SMALL * imgui.get_font_size()
     at = imgui.get_cursor_screen_pos()
-    d.text(imgui.get_window_draw_list(), (at.x, at.y), theme.muted, "estimated RMSE over seconds", size)
+    caption = d.shortened(
+        "estimated sampling error (RMSE) over seconds", size, imgui.get_content_region_avail().x - 60 * unit
+    )
+    d.text(imgui.get_window_draw_list(), (at.x, at.y), theme.muted, caption, size)
     imgui.dummy((0.0, 1.2 * size))
     if len(state.runs) > 1:
         width = d.text_size("clear", imgui.get_font_size())[0] + 14 * unit
@@ -130,8 +146,11 @@ def _plot(session: Session) -> None:
         errors += [run.floor for run in state.runs if 0.0 < run.floor < math.inf]
         (left, right), (low, high) = _around(times), _around(errors)
         implot.setup_axes_limits(left, right, low, high, implot.Cond_.always)
-        for k, run in enumerate(state.runs):
-            _curve(session, k, run, (left, right))
+        for which, (first, last) in ((implot.ImAxis_.x1, (left, right)), (implot.ImAxis_.y1, (low, high))):
+            values = ticks(first, last)
+            implot.setup_axis_ticks(which, values, [f"{value:g}" for value in values], False)
+        for run in state.runs:
+            _curve(session, run.number, run, (left, right))
         implot.end_plot()
     implot.pop_style_color()
     implot.pop_style_var()
@@ -142,6 +161,14 @@ def _around(values: Sequence[float]) -> tuple[float, float]:
     low, high = min(values, default=1.0), max(values, default=1.0)
     room = max((high / low) ** 0.06, 1.15)
     return low / room, high * room
+
+
+def ticks(low: float, high: float) -> list[float]:
+    """Round numbers on a logarithmic axis: 1, 2, 5 in each decade, or decades alone where there are many."""
+    steps = (1.0, 2.0, 5.0) if high / low < FEW else (1.0,)
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    found = [step * 10.0**k for k in decades for step in steps]
+    return [value for value in found if low <= value <= high]
 
 
 def _curve(session: Session, k: int, run: Run, reach: tuple[float, float]) -> None:

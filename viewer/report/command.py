@@ -56,7 +56,7 @@ def report(options: Namespace) -> int:
     }
     for name, content in pages.items():
         write_atomically(folder / name, content)
-    put("".join(f"{file}\n" for file in [*(folder / name for name in pages), *files]))
+    put(f"{len(files)} plots as SVG and PDF, report.csv, report.json and\n{folder / 'report.html'}\n")
     return 0
 
 

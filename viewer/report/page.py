@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from html import escape
 
 from tracer.measure.precision import Curve, Point, Source
@@ -20,7 +20,6 @@ th:first-child, td:first-child, th:nth-child(2), td:nth-child(2) { text-align: l
 .small { color: #5a6572; font-size: 0.9em }
 @media print { body { max-width: none; font-size: 11px } section { break-inside: avoid-page } }
 """
-HEAD = ("method", "setting", "time", "rays", "tests", "RMSE", "estimated", "MRSE", "largest", "FLIP", "bound")
 
 
 def as_html(title: str, command: str, chapters: Sequence[Chapter], about: Mapping[str, str]) -> bytes:
@@ -40,8 +39,10 @@ def as_html(title: str, command: str, chapters: Sequence[Chapter], about: Mappin
 
 INTRODUCTION = (
     "Each curve is a method, each marker a setting of it; lower left is better. Time is the least of several runs once "
-    "everything is warm; working out an error is not timed. RMSE is in linear light, 1 is white; MRSE is relative to "
-    "the pixel (pbrt's definition); FLIP is the difference a person sees who flips between the two images."
+    "everything is warm; working out an error is not timed. Images are as large as the one taken for true can be had "
+    "in seconds, so sizes differ. What lies below the dotted line is no better than that image. RMSE is in linear "
+    "light, 1 is white; MRSE is relative to the pixel (pbrt's definition); FLIP is the difference a person sees who "
+    "flips between the two images."
 )
 
 
@@ -75,7 +76,10 @@ def _judged(source: Source) -> str:
     """What the errors are relative to, and which settings have no place on the plots."""
     own = source.reference.own
     said = f"{source.size[0]}x{source.size[1]} pixels. Judged against: {source.reference.how}"
-    said += "." if source.exact else f"; the two differ by {own.rmse:.1e} (RMSE), {own.largest:.1e} at most."
+    apart = (
+        f"differ by {own.rmse:.1e} (RMSE), {own.largest:.1e} at most" if own.largest else "are the same to the last bit"
+    )
+    said += "." if source.exact else f"; the two {apart}."
     exact = sum(p.errors.largest == 0.0 for curve in source.curves for p in curve.points)
     if exact:
         said += f" {exact} setting{'s are' if exact > 1 else ' is'} exact to the last bit, and on no logarithmic axis."
@@ -99,22 +103,35 @@ def _slopes(curves: Sequence[Curve]) -> list[str]:
 
 
 def _table(source: Source) -> list[str]:
-    rows = [f"<tr><td>{escape(curve.method)}</td>{_cells(p)}</tr>" for curve in source.curves for p in curve.points]
-    head = "".join(f"<th>{name}</th>" for name in HEAD)
+    """A row a marker; columns that would be empty are left out."""
+    points = [(curve, p) for curve in source.curves for p in curve.points]
+    columns = {name: [figure(p) for _, p in points] for name, figure in COLUMNS.items()}
+    shown = {name: cells for name, cells in columns.items() if any(cell not in ("–", "none") for cell in cells)}
+    rows = []
+    for k, (curve, p) in enumerate(points):
+        cells = (curve.method, p.label, *(column[k] for column in shown.values()))
+        rows.append(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in cells)}</tr>")
+    head = "".join(f"<th>{name}</th>" for name in ("method", "setting", *shown))
     return ["<table>", f"<thead><tr>{head}</tr></thead>", "<tbody>", *rows, "</tbody>", "</table>"]
-
-
-def _cells(p: Point) -> str:
-    e = p.errors
-    figures = (e.rmse, p.estimate, e.mrse, e.largest, e.flip, p.bound)
-    cells = (escape(p.label), f"{1e3 * p.seconds:.3g} ms", f"{p.rays}", f"{p.tests}", *map(_figure, figures))
-    return "".join(f"<td>{cell}</td>" for cell in cells)
 
 
 def _figure(number: float) -> str:
     if math.isnan(number):
         return "–"
     return "none" if math.isinf(number) else f"{number:.2e}" if number else "0"
+
+
+COLUMNS: dict[str, Callable[[Point], str]] = {
+    "time": lambda p: f"{1e3 * p.seconds:.3g} ms",
+    "rays": lambda p: f"{p.rays}",
+    "tests": lambda p: f"{p.tests}",
+    "RMSE": lambda p: _figure(p.errors.rmse),
+    "estimated": lambda p: _figure(p.estimate),
+    "MRSE": lambda p: _figure(p.errors.mrse),
+    "largest": lambda p: _figure(p.errors.largest),
+    "FLIP": lambda p: _figure(p.errors.flip),
+    "bound": lambda p: _figure(p.bound),
+}
 
 
 def _list(title: str, lines: Sequence[str]) -> list[str]:

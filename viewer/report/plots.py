@@ -49,19 +49,19 @@ def _saved(canvas: Any, name: str) -> bytes:
     return content.getvalue()
 
 
-def _draw(axes: Any, source: Source, work: str, measure: str) -> Sequence[tuple[str, float, float]]:
+def _draw(axes: Any, source: Source, work: str, measure: str) -> "Sequence[End]":
     """The curves; names of each one's first and last marker, with their places."""
     from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
 
     label, cost = WORK[work]
-    ends: list[tuple[str, float, float]] = []
+    ends: list[End] = []
     for curve, (color, marker, dash) in zip(source.curves, LOOKS, strict=False):
         points = drawable(curve, measure)
         if not points:
             continue
         x, y = [cost(p) for p in points], [error_of(p, measure) for p in points]
         axes.plot(x, y, color=color, marker=marker, linestyle=dash, linewidth=1.8, markersize=6, label=name_of(curve))
-        ends += [(points[k].label, x[k], y[k]) for k in sorted({0, len(points) - 1})]
+        ends += [(points[k].label, color, x[k], y[k]) for k in sorted({0, len(points) - 1})]
         by_itself, word = said_of(source, measure)
         said = [(cost(p), by_itself(p)) for p in points if 0.0 < by_itself(p) < math.inf]
         if said:
@@ -87,12 +87,12 @@ def _draw(axes: Any, source: Source, work: str, measure: str) -> Sequence[tuple[
     return ends
 
 
-def _say(axes: Any, ends: Sequence[tuple[str, float, float]]) -> None:
-    """Names beside their markers, over nothing else that is drawn, nor over each other."""
+def _say(axes: Any, ends: "Sequence[End]") -> None:
+    """Names in the colour of their curve beside their markers, over nothing else that is drawn, nor over each other."""
     taken = [(x - 4.0, y - 4.0, x + 4.0, y + 4.0) for x, y in _inked(axes)]
     taken.append((-math.inf, -math.inf, axes.bbox.x0, math.inf))  # the axis has its own numbers
     said: list[tuple[str, float, float]] = []
-    for label, x, y in ends:
+    for label, ink, x, y in ends:
         at_x, at_y = axes.transData.transform((x, y))
         if any(label == name and math.dist((at_x, at_y), at) < SAME for name, *at in said):
             continue
@@ -107,10 +107,11 @@ def _say(axes: Any, ends: Sequence[tuple[str, float, float]]) -> None:
         taken.append(covers(best))
         axes.annotate(
             label, (x, y), textcoords="offset points", xytext=(7 if best[0] else -7, best[1]),
-            ha="left" if best[0] else "right", fontsize=9, color=INK,
+            ha="left" if best[0] else "right", fontsize=9, color=ink,
         )  # fmt: skip
 
 
+End = tuple[str, str, float, float]  # a marker's name, its colour, and its place
 Box = tuple[float, float, float, float]  # left, bottom, right, top, in points
 PLACES = tuple((right, up) for up in (5, -14, 17, -26, 30, -39) for right in (True, False))  # of a name, the best first
 
