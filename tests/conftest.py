@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import tracer
+from tracer.measure import precision
 from viewer import lesson
 
 LESSONS = lesson.names()
@@ -42,6 +43,14 @@ def scene_file(tmp_path: Path):
         return path
 
     return write
+
+
+@pytest.fixture(autouse=True, scope="session")
+def taken_once() -> Iterator[None]:
+    """No test is of how long something takes: what is measured is measured once."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(precision, "RUNS", 1)
+        yield
 
 
 @pytest.fixture(autouse=True, scope="session")

@@ -21,6 +21,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return found
 
 
+@pytest.fixture
+def one_plot(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of each source, for plots take longest."""
+    monkeypatch.setattr("viewer.report.command.PLOTS", (("rays", "rmse"),))
+    monkeypatch.setattr("viewer.report.command.EXACT_PLOTS", (("rays", "largest"),))
+
+
 def test_files(folder: Path) -> None:
     plots = {
         f"{source}-{what}.{kind}"
@@ -65,7 +72,7 @@ def test_data_says_the_same(folder: Path) -> None:
         assert int(row["rays"]) == point["rays"]
 
 
-def test_the_same_again_but_for_the_times(folder: Path, tmp_path: Path) -> None:
+def test_the_same_again_but_for_the_times(folder: Path, tmp_path: Path, one_plot: None) -> None:
     assert cli.main(["report", "plates", *ARGUMENTS, "-o", str(tmp_path)]) == 0
 
     def timeless(path: Path) -> str:
@@ -86,7 +93,7 @@ def test_faults_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert "folder not found" in capsys.readouterr().err
 
 
-def test_all_lessons_on_one_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_all_lessons_on_one_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, one_plot: None) -> None:
     """Of one lesson and three stiff trees, here: a chapter for each lesson, then one for these; files say whose."""
     monkeypatch.setattr(lesson, "names", lambda: ["plates"])
     monkeypatch.setattr("viewer.report.command.PROBLEMS", PROBLEMS[2:])
@@ -104,8 +111,8 @@ def test_all_lessons_on_one_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert {row["scene"] for row in csv.DictReader((tmp_path / "all" / "report.csv").open(encoding="utf-8"))} == {
         "plates", "stiff",
     }  # fmt: skip
-    assert (tmp_path / "all" / "plates-pixels-rmse-tests.pdf").exists()
-    assert (tmp_path / "all" / "stiff-shell-largest-seconds.svg").exists()
+    assert (tmp_path / "all" / "plates-pixels-rmse-rays.pdf").exists()
+    assert (tmp_path / "all" / "stiff-shell-largest-rays.svg").exists()
 
 
 @pytest.mark.parametrize("given", [[], ["plates", "--all"]])
@@ -116,7 +123,7 @@ def test_a_scene_or_all_of_them(given: list[str], tmp_path: Path, capsys: pytest
 
 
 @pytest.mark.parametrize("kind", ["nff", "ply"])
-def test_other_people_s_files(kind: str, tmp_path: Path) -> None:
+def test_other_people_s_files(kind: str, tmp_path: Path, one_plot: None) -> None:
     """A scene in Haines' format, and a bare mesh."""
     path = tmp_path / f"given.{kind}"
     if kind == "nff":
