@@ -87,6 +87,19 @@ def test_cluster_traces_the_same_bits(cluster: Any, world: tracer.World, options
     assert shares[-1] == 1.0
 
 
+def test_an_image_that_converges_has_the_same_bits_there(cluster: Any, world: tracer.World) -> None:
+    """Each tile's sums travel there and back, round by round."""
+    size = (96, 72)
+    here = tracer.render(world, size, until_error=0.006)
+    with connect(cluster.scheduler_address) as workers:
+        there = tracer.render(world, size, until_error=0.006, executor=workers)
+    assert here.counts is not None and there.counts is not None
+    assert here.counts.max() > 4
+    assert there.counts.tobytes() == here.counts.tobytes()
+    assert there.pixels.tobytes() == here.pixels.tobytes()
+    assert there.rays == here.rays
+
+
 def test_what_came_over_a_wire_is_traced_as_it_is(world: tracer.World) -> None:
     """Arrays may then be read-only and lie at odd addresses: aligned they must be, and nothing is compiled for it."""
     job = Job(world, world.view(), make_limits(world, records=False))
