@@ -231,7 +231,11 @@ def both_together(effort: Effort) -> Study:
             Setting(f"depth {d}, {_many(n)}", n, made(samples=n, depth=d))
             for d, n in zip((1, 2, 3, 4, 6), effort.samples, strict=False)
         ]
-        return [Method("depth and samples", settings)]
+        both = [
+            Setting(f"error {e:g}", e, made(until_error=e, tolerance=0.1 * e, max_nodes=MOST_NODES))
+            for e in effort.errors
+        ]
+        return [Method("depth and samples", settings), Method("samples and rays where they count", both)]
 
     how = (
         f"{effort.true_samples} samples a pixel (Sobol's), every ray followed that weighs {FAINT:g}. The second way is "
@@ -241,7 +245,8 @@ def both_together(effort: Effort) -> Study:
     return Study(
         "together",
         "Both together",
-        "What an image is off that is cut and sampled: finer in both from marker to marker.",
+        "What an image is off that is cut and sampled: a larger depth and more samples from marker to marker; or "
+        "samples where the error is, of trees cut at a tenth of that error in the sum of weights.",
         true,
         {**true, "sampler": "jittered"},
         lambda _: how,
