@@ -125,7 +125,7 @@ def test_a_scene_or_all_of_them(given: list[str], tmp_path: Path, capsys: pytest
 @pytest.mark.parametrize("kind", ["nff", "ply"])
 def test_other_people_s_files(kind: str, tmp_path: Path, one_plot: None) -> None:
     """A scene in Haines' format, and a bare mesh."""
-    path = tmp_path / f"given.{kind}"
+    path = tmp_path / f"'given' & so.{kind}"
     if kind == "nff":
         path.write_text(
             "v\nfrom 0 1 6\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 64 64\nb 0.1 0.2 0.3\nl 4 6 5\n"
@@ -140,6 +140,9 @@ def test_other_people_s_files(kind: str, tmp_path: Path, one_plot: None) -> None
     assert cli.main(["report", str(path), *ARGUMENTS, "-o", str(tmp_path / "report")]) == 0
     document = json.loads((tmp_path / "report" / "report.json").read_text("utf-8"))
     (scene,) = document["scenes"]
-    assert scene["name"] == "given"
+    assert scene["name"] == "'given' & so"
+    page = (tmp_path / "report" / "report.html").read_text("utf-8")
+    assert set(re.findall(r'<section id="([^"]*)"', page)) == {f"-given----so-{s['name']}" for s in scene["sources"]}
+    assert all(re.fullmatch(r"#[\w-]+", link) for link in re.findall(r"url\(([^)]*)\)", page))
     assert [source["name"] for source in scene["sources"]][-1] == ("together" if kind == "nff" else "pixels")
     assert all(point["tests"] > 0 for s in scene["sources"] for curve in s["curves"] for point in curve["points"])

@@ -27,7 +27,7 @@ def as_html(title: str, command: str, chapters: Sequence[Chapter], about: Mappin
     body.append(f"<p>{escape(INTRODUCTION)}</p>")
     several = len(chapters) > 1
     if several:
-        links = [f'<li><a href="#{c.name}">{escape(c.title)}</a></li>' for c in chapters]
+        links = [f'<li><a href="#{c.anchor}">{escape(c.title)}</a></li>' for c in chapters]
         body += ["<ul>", *links, "</ul>"]
     for chapter in chapters:
         body += _chapter(chapter, several)
@@ -48,9 +48,9 @@ INTRODUCTION = (
 
 def _chapter(chapter: Chapter, titled: bool) -> list[str]:
     """`titled`: one of several."""
-    body = [f'<h1 id="{chapter.name}" class="chapter">{escape(chapter.title)}</h1>'] if titled else []
+    body = [f'<h1 id="{chapter.anchor}" class="chapter">{escape(chapter.title)}</h1>'] if titled else []
     for source in chapter.sources:
-        body += _section(f"{chapter.name}-{source.name}", source, chapter.plots[source.name])
+        body += _section(f"{chapter.anchor}-{source.name}", source, chapter.plots[source.name])
     failures = [line for source in chapter.sources for line in source.failures]
     body += _list("What failed", failures or ["nothing"])
     return body + (_list("Left out", chapter.left_out) if chapter.left_out else [])
