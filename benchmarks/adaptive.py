@@ -16,6 +16,7 @@ from benchmarks.figure import Figure, Spread
 from benchmarks.task import Options, Task
 from tracer.converge import Converging
 from tracer.limits import make_limits
+from tracer.measure.errors import rmse
 from tracer.render import processors
 from tracer.sampler import SOBOL
 from viewer import lesson
@@ -45,10 +46,6 @@ def measure(name: str) -> list[Figure]:
                 Figure("adaptive", f"{what}, {unit}", unit, pair[0], "everywhere", pair[1], pair[2], wanted, False)
             )
     return figures
-
-
-def rmse(pixels: np.ndarray, true: np.ndarray) -> float:
-    return math.sqrt(float(np.mean((pixels - true) ** 2)))
 
 
 def to_each(world: tracer.World, goals: Sequence[float], true: np.ndarray) -> list[tuple[float, float]]:

@@ -57,10 +57,11 @@ class Sampled:
             return math.sqrt(float((self.errors() ** 2).mean()))
         return math.sqrt(float(self.moved.mean()))
 
-    def errors(self) -> np.ndarray:
-        """Each pixel's, estimated from all its doublings; NaN before the first."""
+    def errors(self, part: Any = ...) -> Any:
+        """Each pixel's, or those of a part, estimated from all its doublings; NaN before the first."""
+        spread, counts = self.spread[part], self.counts[part].astype(float)
         with np.errstate(invalid="ignore"):
-            return np.sqrt(self.spread[..., 0] / self.spread[..., 1] / self.counts.astype(float) ** self.power)
+            return np.sqrt(spread[..., 0] / spread[..., 1] / counts**self.power)
 
     def next(self, most: int) -> Begun | None:
         """What each pixel is to have after another round, no more than `most`; None where nothing is to be gained."""

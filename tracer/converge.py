@@ -16,8 +16,8 @@ from tracer.camera import View
 from tracer.job import SMALL_TILE, Cancelled, Job, never, tiles
 from tracer.limits import Limits
 from tracer.passes import Finished, trace_passes
-from tracer.sampler import JITTERED
-from tracer.tile import Area, Samples
+from tracer.sampler import Samples
+from tracer.tile import Area
 from tracer.world import World
 
 MOST = 4096  # samples of a pixel, where no one asks for more or fewer
@@ -94,8 +94,3 @@ class Converging:
         """Of the weight that was cut: the largest of a pixel, and the mean."""
         lost = self.sampled.sums[..., 3] / self.sampled.counts
         return {"max": float(lost.max()), "mean": float(lost.mean())}
-
-
-def is_adaptive(sampler: int) -> bool:
-    """Whether single pixels can have more points of this sampler: jittered ones stand in a grid that has a size."""
-    return sampler != JITTERED

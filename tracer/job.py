@@ -19,7 +19,8 @@ from tracer.camera import View
 from tracer.jit import versions
 from tracer.limits import Limits
 from tracer.nodes import KINDS
-from tracer.tile import CENTER, NOTHING, Area, Begun, Counts, Samples, Workspace, run
+from tracer.sampler import CENTER, Samples
+from tracer.tile import NOTHING, Area, Begun, Counts, Workspace, run
 from tracer.tree import solids_at
 from tracer.world import World
 

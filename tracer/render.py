@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from numbers import Real
 
 import numpy as np
@@ -18,10 +18,10 @@ from tracer.job import SMALL_TILE, TILE, Cancelled, Job, Remote, never, passes
 from tracer.limits import MAX_NODES, make_limits
 from tracer.nodes import KINDS
 from tracer.passes import Stopped, trace_passes
-from tracer.sampler import JITTERED, SAMPLERS, SOBOL
+from tracer.sampler import JITTERED, SAMPLERS, SOBOL, make_samples
 from tracer.scene import Material, Object, Scene
 from tracer.shapes.sphere import Sphere
-from tracer.tile import make_samples, trace_area
+from tracer.tile import trace_area
 from tracer.tree import checked_size, trace
 from tracer.world import World, prepare
 
@@ -130,7 +130,7 @@ def render(
     with nullcontext(executor) if executor else ThreadPoolExecutor(threads) as pool:
         if goal:
             made = Converging(world, view, limits, points.sampler, most=samples or MOST)
-            ended = _converge(made, Goal(until_error, until_seconds), pool, threads, progress, cancelled)
+            ended = _converge(made, replace(goal, began=began), pool, threads, progress, cancelled)
             job, pixels, residual, reached = made.job, made.sampled.means(), made.residual(), made.reached
         else:
             job, made, ended, reached = Job(world, view, limits, points), None, "", None

@@ -8,6 +8,9 @@ pattern. For comparison also at random, and jittered: one at random in each cell
 N^-3/4 (Mitchell, SIGGRAPH 1996). Whole numbers only: the same everywhere.
 """
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 
 from tracer.jit import compiled
@@ -18,6 +21,32 @@ GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 SAMPLERS = ("sobol", "random", "jittered")
 SOBOL, RANDOM, JITTERED = range(3)
+
+
+class Samples(NamedTuple):
+    """Points inside each pixel: `count` from number `first` on; first = -1 is the pixel's centre alone."""
+
+    first: int
+    count: int
+    sampler: int = SOBOL
+    side: int = 1  # of the grid that jittered points stand in
+
+
+CENTER = Samples(-1, 1)
+
+
+def make_samples(count: int, sampler: str = SAMPLERS[SOBOL]) -> Samples:
+    """The first `count` points of a sampler; one of Sobol's is the pixel's centre. ValueError for what can be none."""
+    if sampler not in SAMPLERS:
+        raise ValueError(f"sampler must be one of {', '.join(SAMPLERS)}, got {sampler!r}")
+    if count < 1:
+        raise ValueError(f"samples must be >= 1, got {count}")
+    side = math.isqrt(count)
+    if sampler == SAMPLERS[JITTERED] and side * side != count:
+        raise ValueError(f"jittered samples must be a square number like {side * side or 1}, got {count}")
+    if count == 1 and sampler == SAMPLERS[SOBOL]:
+        return CENTER
+    return Samples(0, count, SAMPLERS.index(sampler), side)
 
 
 @compiled

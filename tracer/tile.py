@@ -4,7 +4,6 @@ An image is all its tiles; a click is the tile of one pixel, whose table is then
 pixel of a view that sees nothing else.
 """
 
-import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -22,7 +21,7 @@ from tracer.limits import Limits
 from tracer.nodes import CAMERA, KINDS, NODE, SHADOW
 from tracer.pairs import plus
 from tracer.rows import start_row
-from tracer.sampler import JITTERED, SAMPLERS, SOBOL, sample_offset
+from tracer.sampler import Samples, sample_offset
 from tracer.shadows import CROSSING, MOST_CROSSINGS
 from tracer.vector import Vector, add, store, vector
 
@@ -40,32 +39,6 @@ class Area(NamedTuple):
     bottom: int
     step: int
     traced: int
-
-
-class Samples(NamedTuple):
-    """Points inside each pixel: `count` from number `first` on; first = -1 is the pixel's centre alone."""
-
-    first: int
-    count: int
-    sampler: int = SOBOL
-    side: int = 1  # of the grid that jittered points stand in
-
-
-CENTER = Samples(-1, 1)
-
-
-def make_samples(count: int, sampler: str = SAMPLERS[SOBOL]) -> Samples:
-    """The first `count` points of a sampler; one of Sobol's is the pixel's centre. ValueError for what can be none."""
-    if sampler not in SAMPLERS:
-        raise ValueError(f"sampler must be one of {', '.join(SAMPLERS)}, got {sampler!r}")
-    if count < 1:
-        raise ValueError(f"samples must be >= 1, got {count}")
-    side = math.isqrt(count)
-    if sampler == SAMPLERS[JITTERED] and side * side != count:
-        raise ValueError(f"jittered samples must be a square number like {side * side or 1}, got {count}")
-    if count == 1 and sampler == SAMPLERS[SOBOL]:
-        return CENTER
-    return Samples(0, count, SAMPLERS.index(sampler), side)
 
 
 class Begun(NamedTuple):

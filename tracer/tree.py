@@ -22,9 +22,9 @@ from tracer.limits import MAX_NODES, MODELS, make_limits
 from tracer.media import WORD
 from tracer.nodes import BLOCKED, ENDS, KINDS, PUBLIC, SHADOW, SURFACE
 from tracer.outline import digits_left, outline
-from tracer.sampler import SAMPLERS, SOBOL
+from tracer.sampler import CENTER, SAMPLERS, SOBOL, make_samples
 from tracer.scene import Scene
-from tracer.tile import CENTER, Area, Workspace, eye_view, make_samples, run
+from tracer.tile import Area, Workspace, eye_view, run
 from tracer.vector import Vector, tame, unit
 from tracer.world import World
 

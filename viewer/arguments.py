@@ -91,10 +91,7 @@ def pixels(text: str) -> int:
 
 
 def text_size(text: str) -> float:
-    try:
-        size = float(text)
-    except ValueError:
-        size = 0.0
+    size = _number(text)
     if not 8.0 <= size <= 48.0:
         raise argparse.ArgumentTypeError(f'points from 8 to 48, got "{text}"')
     return size
@@ -108,20 +105,22 @@ def share(text: str) -> float:
 
 
 def weight(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = -1.0
+    number = _number(text)
     if not 0.0 <= number < float("inf"):
         raise argparse.ArgumentTypeError(f'a number >= 0, got "{text}"')
     return number
 
 
 def above_zero(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = 0.0
+    number = _number(text)
     if not 0.0 < number < float("inf"):
         raise argparse.ArgumentTypeError(f'a number > 0, got "{text}"')
     return number
+
+
+def _number(text: str) -> float:
+    """NaN, which is within no limits, for what is none."""
+    try:
+        return float(text)
+    except ValueError:
+        return float("nan")

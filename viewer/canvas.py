@@ -78,7 +78,8 @@ class Canvas:
 
     def seen(self, place: Place) -> Seen | None:
         """What stands in the image's panel: the rendered image or a map of it; near by, its pixels as squares."""
-        if self.session.image.picture is None:
+        shown = self.session.image.picture
+        if shown is None:
             return None
         if place.scale < NEAR:
             texture = self._map() or self.picture()
@@ -86,13 +87,11 @@ class Canvas:
                 return None
             width, height = (place.scale * side for side in texture.size)
             return Seen(texture, (place.left, place.top), (place.left + width, place.top + height))
-        shown = self.session.image.picture
         key = (place, self._map_key(), shown, len(shown.tiles))
         if key != self._near_key:
             self._near_key = key
-            values = self.session.convergence.map
-            pixels = colored(values, self.session.convergence.shows) if values is not None else shown.shown
-            found = magnified(pixels, place)
+            pixels = self._map_pixels()
+            found = magnified(shown.shown if pixels is None else pixels, place)
             self._near = self._near_at(*found) if found else None
         return self._near
 
@@ -119,15 +118,16 @@ class Canvas:
         key = self._map_key()
         if key != self._mapped:
             self._mapped = key
-            values = self.session.convergence.map
+            pixels = self._map_pixels()
             if self.map_image:
                 self.map_image.release()
-            self.map_image = None
-            if values is not None:
-                height, width = values.shape
-                pixels = colored(values, self.session.convergence.shows)
-                self.map_image = self.ctx.texture((width, height), 4, pixels)
+            self.map_image = None if pixels is None else self.ctx.texture(pixels.shape[1::-1], 4, pixels)
         return self.map_image
+
+    def _map_pixels(self) -> np.ndarray | None:
+        state = self.session.convergence
+        values = state.map
+        return None if values is None else colored(values, state.shows)
 
     def view3d(self, size: tuple[int, int], scale: float) -> moderngl.Texture:
         """The 3D view, `size` in pixels, `scale` pixels a logical one; bottom row first, as GL has it."""

@@ -160,12 +160,18 @@ class Convergence:
         return next(k for k in range(len(taken) + 1) if k not in taken)
 
     @property
+    def shows_map(self) -> bool:
+        """Whether there is one, and it is asked for."""
+        run = self.current
+        return self.shows != "image" and run is not None and run.made is not None and bool(run.points)
+
+    @property
     def map(self) -> np.ndarray | None:
         """What is shown instead of the image (height, width): each pixel's error or its samples; NaN: not known."""
-        run = self.current
-        if self.shows == "image" or not run or not run.made or not run.points:
+        if not self.shows_map:
             return None
-        sampled = run.made.sampled
+        assert self.current and self.current.made
+        sampled = self.current.made.sampled
         return sampled.errors() if self.shows == "error" else sampled.counts.astype(float)
 
 

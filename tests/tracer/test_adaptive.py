@@ -12,16 +12,13 @@ from tests.tracer.test_precision import ACROSS, edge_image, edge_scene
 from tracer.adaptive import AGAIN, Sampled
 from tracer.converge import Converging
 from tracer.limits import make_limits
+from tracer.measure.errors import rmse
 from tracer.passes import Stopped
 from tracer.sampler import JITTERED, RANDOM, SAMPLERS, SOBOL
 from tracer.tile import Area
 
 SIZE = (64, 48)
 DRAWS = 0.07  # of an error that is estimated from the edge scene's 100 pixels with an edge: 1 / sqrt(2 * 100)
-
-
-def rmse(pixels: np.ndarray, true: np.ndarray) -> float:
-    return math.sqrt(float(np.mean((pixels - true) ** 2)))
 
 
 @pytest.mark.parametrize("sampler", ("sobol", "random"))

@@ -8,8 +8,9 @@ from tests.scenes import MIRROR, ball, kinds, plane, world_of
 from tests.tracer.test_certified import WHITE, plates
 from tracer.job import Job
 from tracer.limits import make_limits
+from tracer.sampler import CENTER
 from tracer.scene import Camera, Light, Material
-from tracer.tile import CENTER, Area, Workspace, eye_view, run
+from tracer.tile import Area, Workspace, eye_view, run
 from tracer.tree import solids_at, words
 from tracer.vector import unit
 

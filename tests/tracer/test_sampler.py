@@ -8,8 +8,7 @@ import pytest
 
 import tracer
 from tracer.jit import kernel
-from tracer.sampler import JITTERED, RANDOM, SAMPLERS, SOBOL, sample_offset
-from tracer.tile import make_samples
+from tracer.sampler import JITTERED, RANDOM, SAMPLERS, SOBOL, make_samples, sample_offset
 
 RUNS = 600  # pixels: the slope of their error's root mean square is then sure to about 0.02
 

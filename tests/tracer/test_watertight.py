@@ -7,9 +7,10 @@ import tracer
 from tests.scenes import world_of
 from tests.tracer.test_shapes import OPEN, uv_sphere
 from tracer.limits import make_limits
+from tracer.sampler import CENTER
 from tracer.scene import Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
-from tracer.tile import CENTER, Area, Workspace, eye_view, run
+from tracer.tile import Area, Workspace, eye_view, run
 from tracer.tree import solids_at, words
 
 PIXEL = Area(0, 0, 1, 1, 1, 0)

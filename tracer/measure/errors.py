@@ -36,11 +36,15 @@ def errors(pixels: np.ndarray, reference: np.ndarray) -> Errors:
     """Of linear pixels (height, width, 3) against others of the same size."""
     off = pixels - reference
     return Errors(
-        math.sqrt(float(np.mean(off**2))),
+        rmse(pixels, reference),
         float(np.mean(off**2 / (reference + DARK) ** 2)),
         float(np.abs(off).max()),
         flip(encoded(pixels), encoded(reference)),
     )
+
+
+def rmse(pixels: np.ndarray, reference: np.ndarray) -> float:
+    return math.sqrt(float(np.mean((pixels - reference) ** 2)))
 
 
 def flip(shown: np.ndarray, reference: np.ndarray) -> float:

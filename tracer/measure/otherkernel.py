@@ -1,6 +1,6 @@
 """Images by another kernel, in a process of its own: there formulas are exchanged before anything is compiled.
 
-    python -m tracer.measure.otherkernel single SCENE.pickle 240x180 0,1,2,3 FOUND.npz
+    python -m tracer.measure.otherkernel single SCENE.pickle 240x180 0,1,2,3 FOUND.pickle
 
 Its machine code is kept beside this program's own, in a folder that is named by the kind.
 """

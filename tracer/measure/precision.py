@@ -9,6 +9,8 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import count
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +20,8 @@ from tracer.render import Image
 
 ENOUGH = 0.3  # seconds: a run so long is taken once
 RUNS = 20  # else so many, or as many as there is time for
+
+Maker = Callable[..., Callable[[], Image]]  # from how an image is made to what makes it
 
 
 @dataclass(frozen=True)
@@ -90,6 +94,31 @@ class Source:
     def size(self) -> tuple[int, int]:
         height, width, _ = self.reference.pixels.shape
         return (width, height)
+
+
+def cuts(
+    made: Maker, depths: Sequence[int], weights: Sequence[float], sums: Sequence[float], deep: int, **of_sums: Any
+) -> Sequence[Method]:
+    """The three ways to cut a tree. Where it is a weight that cuts, no depth does before `deep`."""
+    return (
+        Method("cut at a depth", [Setting(f"depth {d}", d, made(depth=d)) for d in depths]),
+        Method("cut at a ray's weight", [Setting(f"weight {w:g}", w, made(depth=deep, min_weight=w)) for w in weights]),
+        Method("cut at a sum of weights", [Setting(f"tolerance {t:g}", t, made(tolerance=t, **of_sums)) for t in sums]),
+    )
+
+
+def counted(total: int, progress: Callable[[float], None]) -> Callable[[], None]:
+    """A step of so many, which tells `progress` the share done."""
+    done = count(1)
+    return lambda: progress(next(done) / total)
+
+
+def all_measured(
+    methods: Sequence[Method], reference: Reference, done: Callable[[], None]
+) -> tuple[tuple[Curve, ...], tuple[str, ...]]:
+    """Every method's curve, and what failed of them."""
+    pairs = [measured(method, reference, done) for method in methods]
+    return tuple(curve for curve, _ in pairs), tuple(line for _, lines in pairs for line in lines)
 
 
 def measured(method: Method, reference: Reference, done: Callable[[], None]) -> tuple[Curve, list[str]]:

@@ -15,7 +15,18 @@ from typing import Any
 from tracer.measure.errors import NOTHING, errors
 from tracer.measure.otherkernel import images
 from tracer.measure.plain import KINDS
-from tracer.measure.precision import Curve, Method, Reference, Setting, Source, measured, point_of
+from tracer.measure.precision import (
+    Curve,
+    Maker,
+    Method,
+    Reference,
+    Setting,
+    Source,
+    all_measured,
+    counted,
+    cuts,
+    point_of,
+)
 from tracer.render import Image, render
 from tracer.scene import Scene
 from tracer.world import World
@@ -29,7 +40,6 @@ MOST_NODES = 20_000  # rays of them, where weights hardly fall
 
 Size = tuple[int, int]
 Progress = Callable[[float], None]
-Maker = Callable[..., Callable[[], Image]]  # from how an image is made to what makes it
 How = Mapping[str, Any]  # what `render` is asked, but for the world and the size
 
 
@@ -98,9 +108,7 @@ class Study:
         second = render(world, size, **self.second)
         step()
         reference = Reference(true.pixels, self.said(true), errors(second.pixels, true.pixels))
-        pairs = [measured(method, reference, step) for method in self.methods(_maker(world, size))]
-        failures = tuple(line for _, lines in pairs for line in lines)
-        curves = tuple(curve for curve, _ in pairs)
+        curves, failures = all_measured(self.methods(_maker(world, size)), reference, step)
         return Source(self.name, self.title, self.about, reference, curves, failures, self.bounded)
 
     def steps(self, world: World) -> int:
@@ -121,13 +129,7 @@ def sources(
     kinds = [trees_cut, pixels_sampled, both_together] if _branches(world.scene) else [pixels_sampled]
     studies = [kind(effort) for kind in kinds]
     total = sum(study.steps(world) for study in studies) + (len(KINDS) if effort.kernels else 0)
-    done = 0
-
-    def step() -> None:
-        nonlocal done
-        done += 1
-        progress(done / total)
-
+    step = counted(total, progress)
     found = [study.run(world, affordable(world, size, study.true) if smaller else size, step) for study in studies]
     return [*found, kernels(world, size, step)] if effort.kernels else found
 
@@ -177,14 +179,7 @@ def trees_cut(effort: Effort) -> Study:
         )
 
     def methods(made: Maker) -> Sequence[Method]:
-        depths = [Setting(f"depth {d}", d, made(depth=d)) for d in effort.depths]
-        weights = [Setting(f"weight {w:g}", w, made(depth=DEEP, min_weight=w)) for w in effort.weights]
-        sums = [Setting(f"tolerance {t:g}", t, made(tolerance=t, max_nodes=MOST_NODES)) for t in effort.tolerances]
-        return (
-            Method("cut at a depth", depths),
-            Method("cut at a ray's weight", weights),
-            Method("cut at a sum of weights", sums),
-        )
+        return cuts(made, effort.depths, effort.weights, effort.tolerances, DEEP, max_nodes=MOST_NODES)
 
     return Study(
         "trees",

@@ -16,8 +16,8 @@ import numpy as np
 from tracer.measure.bending import bent
 from tracer.measure.case import DIGITS
 from tracer.measure.errors import NOTHING
-from tracer.measure.plates import pile, under_dark
-from tracer.measure.precision import Method, Reference, Setting, Source, measured
+from tracer.measure.plates import WHITE, pile, under_dark
+from tracer.measure.precision import Reference, Source, all_measured, cuts
 from tracer.measure.stages import ball, glass, world
 from tracer.render import render
 from tracer.scene import Camera, Material, Object
@@ -30,7 +30,6 @@ SIZE = (16, 16)  # so many times the one ray
 ANGLE = 1e-15  # degrees, of the whole image: all pixels have the same direction but for its last bit
 ANY_DEPTH = 10_000
 MOST = 100_000  # rays of a tree, where its weights hardly fall
-WHITE: Vector = (1.0, 1.0, 1.0)
 KEPT = 0.9  # of the light that the shell throws back
 MIRRORED = 0.99  # of the corridor's
 BOUNCES = 40
@@ -61,19 +60,9 @@ def solved(problem: Problem, step: Callable[[], None]) -> Source:
     stage = aimed(problem)
     exact = problem.exact(stage)
     reference = Reference(np.full((SIZE[1], SIZE[0], 3), exact), f"closed form: {exact:.15g}", NOTHING)
-
     made = partial(partial, render, stage, SIZE, threads=1, max_nodes=MOST)
-    depths = [Setting(f"depth {d}", d, made(depth=d)) for d in problem.depths]
-    weights = [Setting(f"weight {w:g}", w, made(depth=ANY_DEPTH, min_weight=w)) for w in problem.weights]
-    sums = [Setting(f"tolerance {t:g}", t, made(tolerance=t)) for t in problem.tolerances]
-    methods = (
-        Method("cut at a depth", depths),
-        Method("cut at a ray's weight", weights),
-        Method("cut at a sum of weights", sums),
-    )
-    pairs = [measured(method, reference, step) for method in methods]
-    failures = tuple(line for _, lines in pairs for line in lines)
-    curves = tuple(curve for curve, _ in pairs)
+    methods = cuts(made, problem.depths, problem.weights, problem.tolerances, ANY_DEPTH)
+    curves, failures = all_measured(methods, reference, step)
     return Source(problem.name, problem.title, problem.about, reference, curves, failures, bounded=True, exact=True)
 
 

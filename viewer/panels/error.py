@@ -47,7 +47,7 @@ EMPTY = (
 def _controls(session: Session) -> None:
     state, unit = session.convergence, d.unit()
     if imgui.button("Pause" if state.goes_on else "Refine", (66 * unit, 0)):
-        session.convergence.toggle(session)
+        state.toggle(session)
     d.hint("more rays for each pixel, until it is paused (key R)")
     imgui.same_line()
     imgui.set_next_item_width(148 * unit)
@@ -96,7 +96,7 @@ def _picked(session: Session, run: Run) -> str:
     if not (session.pixel and run.made):
         return ""
     x, y = session.pixel
-    count, error = run.made.sampled.counts[y, x], run.made.sampled.errors()[y, x]
+    count, error = run.made.sampled.counts[y, x], float(run.made.sampled.errors((y, x)))
     return "" if math.isnan(error) else f"; the picked one {count}, {error:.2g} off"
 
 
@@ -150,7 +150,7 @@ def _plot(session: Session) -> None:
             values = ticks(first, last)
             implot.setup_axis_ticks(which, values, [f"{value:g}" for value in values], False)
         for run in state.runs:
-            _curve(session, run.number, run, (left, right))
+            _curve(session, run, (left, right))
         implot.end_plot()
     implot.pop_style_color()
     implot.pop_style_var()
@@ -171,13 +171,13 @@ def ticks(low: float, high: float) -> list[float]:
     return [value for value in found if low <= value <= high]
 
 
-def _curve(session: Session, k: int, run: Run, reach: tuple[float, float]) -> None:
+def _curve(session: Session, run: Run, reach: tuple[float, float]) -> None:
     """A marker a round; flat from first to last second, the error that stays for rays that are cut."""
     points = [p for p in run.points if p.error > 0.0]
     if not points:
         return
     state, unit = session.convergence, d.unit()
-    color = imgui.ImVec4(*curve_color(session.theme, k))
+    color = imgui.ImVec4(*curve_color(session.theme, run.number))
     on = run is state.current
     name = run.name([other.model for other in state.runs])
     if 0.0 < run.floor < math.inf:
@@ -185,7 +185,7 @@ def _curve(session: Session, k: int, run: Run, reach: tuple[float, float]) -> No
         flat = implot.Spec(line_color=faint, line_weight=1.2 * unit)
         implot.plot_line(f"##floor {name}", np.array(reach), np.full(2, run.floor), flat)
     spec = implot.Spec(
-        line_color=color, line_weight=(2.6 if on else 1.5) * unit, marker=MARKERS[k % len(MARKERS)],
+        line_color=color, line_weight=(2.6 if on else 1.5) * unit, marker=MARKERS[run.number % len(MARKERS)],
         marker_size=(4.0 if on else 3.0) * unit, marker_line_color=color, marker_fill_color=color,
     )  # fmt: skip
     implot.plot_line(name, np.array([p.seconds for p in points]), np.array([p.error for p in points]), spec)

@@ -102,7 +102,7 @@ def _head(session: Session) -> None:
         )
         if changed and text.isdigit():
             session.pick(*((int(text), max(y, 0)) if label == "x" else (max(x, 0), int(text))))
-    if session.convergence.map is not None:
+    if session.convergence.shows_map:
         _scale(session)
     elif session.tree:
         rgb = session.tree.radiance

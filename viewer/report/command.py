@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tracer.jit import versions
+from tracer.measure.precision import counted
 from tracer.measure.sources import FULL, QUICK, left_out, sources
 from tracer.measure.stiff import PROBLEMS, solved, steps
 from tracer.render import processors
@@ -33,18 +34,18 @@ def report(options: Namespace) -> int:
         *(lambda name=name: find(name) for name in names), lambda: target(options.output), has_libraries
     )
     compile_once()
-    parts: list[tuple[str, Callable[[Progress, Callable[[float], None]], Chapter]]] = [
-        (name, lambda progress, share, place=place: of_scene(place, options, share))
+    parts: list[tuple[str, Callable[[Callable[[float], None]], Chapter]]] = [
+        (name, lambda share, place=place: of_scene(place, options, share))
         for name, place in zip(names, places, strict=True)
     ]
     if options.all:
-        parts.append(("stiff trees", lambda progress, share: stiff(share)))
+        parts.append(("stiff trees", stiff))
     chapters = []
     with faults(), Progress("report") as progress:
         for k, (name, measure) in enumerate(parts):
             if len(parts) > 1:
                 progress.doing = f"report {name} ({k + 1} of {len(parts)})"
-            chapters.append(measure(progress, lambda share, k=k: progress((k + share) / len(parts))))
+            chapters.append(measure(lambda share, k=k: progress((k + share) / len(parts))))
     title = "all lessons, and stiff trees" if options.all else chapters[0].title
     folder.mkdir(exist_ok=True)
     files = [path for chapter in chapters for path in draw(chapter, folder, named=options.all)]
@@ -79,13 +80,7 @@ def of_scene(place: tuple[Path, lessons.Lesson | None], options: Namespace, shar
 
 
 def stiff(share: Callable[[float], None]) -> Chapter:
-    total, done = sum(map(steps, PROBLEMS)), 0
-
-    def step() -> None:
-        nonlocal done
-        done += 1
-        share(done / total)
-
+    step = counted(sum(map(steps, PROBLEMS)), share)
     return Chapter("stiff", "Stiff trees, with exact answers", [solved(problem, step) for problem in PROBLEMS])
 
 
