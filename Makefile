@@ -24,7 +24,7 @@ run: .venv/installed
 
 test: .venv/installed-dev
 	@sh .ci/system-packages '$(PROGRAMS)' '$(LIBRARIES)'
-	$(BIN)/python -c 'from tracer.render import fill_cache; fill_cache()'
+	$(BIN)/python -c 'from tracer.image.render import fill_cache; fill_cache()'
 	$(BIN)/python -m pytest -q $(SIDE_BY_SIDE)
 
 # With the tests that need an office program and TeX, which take hundreds of megabytes, and those that compile more kernels.

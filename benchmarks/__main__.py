@@ -16,9 +16,9 @@ from benchmarks.machine import machine
 from benchmarks.plot import as_svg, has_library
 from benchmarks.report import as_json, as_markdown, read_json
 from benchmarks.task import Options, Task
-from viewer.cli import Parser, at_least
-from viewer.files import Unusable, write_atomically
-from viewer.progress import Progress
+from viewer.base.files import Unusable, write_atomically
+from viewer.base.progress import Progress
+from viewer.cli.main import Parser, at_least
 
 PARTS: dict[str, Callable[[Options], list[Task]]] = {
     "povray": against_povray.times,

@@ -14,12 +14,12 @@ import numpy as np
 import tracer
 from benchmarks.figure import Figure, Spread
 from benchmarks.task import Options, Task
-from tracer.converge import Converging
-from tracer.limits import make_limits
-from tracer.measure.errors import rmse
-from tracer.render import processors
-from tracer.sampler import SOBOL
-from viewer import lesson
+from tracer.formulas.sampler import SOBOL
+from tracer.image.converge import Converging
+from tracer.image.render import processors
+from tracer.kernel.limits import make_limits
+from tracer.measure.precision.errors import rmse
+from viewer.lessons import lesson
 
 TRUE = 1024
 SAMPLES = (16, 64)

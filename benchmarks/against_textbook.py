@@ -15,9 +15,9 @@ import tempfile
 from pathlib import Path
 
 import tracer
-from tracer.measure.plain import use
-from tracer.render import warm
-from viewer import lesson
+from tracer.image.render import warm
+from tracer.measure.precision.plain import use
+from viewer.lessons import lesson
 
 SIZE = (640, 480)
 RUNS = 9

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 
 import tracer
-from tracer.hits import closest
-from tracer.jit import kernel
+from tracer.compile.jit import kernel
+from tracer.formulas.vector import unit, vector
+from tracer.kernel.closest_hit import closest
+from tracer.kernel.entry import Workspace
 from tracer.rays import make_ray
-from tracer.tile import Workspace
-from tracer.tree import words
-from tracer.vector import unit, vector
+from tracer.tree.raytree import words
 
 
 @kernel

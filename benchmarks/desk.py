@@ -18,9 +18,9 @@ from imgui_bundle import imgui
 
 import tracer
 from tests.viewer.screen import screen
-from viewer.app import App
-from viewer.session import Session
-from viewer.window import Window
+from viewer.session.session import Session
+from viewer.window.app import App
+from viewer.window.backend import Window
 
 SIZE = (1280, 720)
 FEWEST = 10  # frames at rest

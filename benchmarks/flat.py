@@ -9,14 +9,14 @@ import numpy as np
 import tracer
 from benchmarks.figure import Figure, compared, in_turn
 from benchmarks.task import Options, Task
-from tracer.bvh import FLAT
+from tracer.accel.bvh import FLAT
+from tracer.formulas.vector import as_floats
 from tracer.scene import Camera, Light, Material, Object, Scene
 from tracer.shapes.box import Box
 from tracer.shapes.cone import Cone
 from tracer.shapes.plane import Plane
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
-from tracer.vector import as_floats
 
 SIZE = (200, 150)
 RADII = {"beside one another": 0.15, "through each other": 0.5}

@@ -8,7 +8,7 @@ from benchmarks.closest import Searcher
 from benchmarks.figure import Figure, Spread, compared, in_turn
 from benchmarks.stone import LARGE, SMALL, coherent_rays, scattered_rays, stone, stone_world
 from benchmarks.task import Options, Task
-from tracer import bvh
+from tracer.accel import bvh
 from tracer.shapes.mesh import Mesh
 
 MOST = 3.0  # times the time of a ray

@@ -7,7 +7,7 @@ from benchmarks.figure import Figure, compared
 from benchmarks.race import Race, need_povray
 from benchmarks.task import Options, Task
 from tests import povray
-from viewer import lesson
+from viewer.lessons import lesson
 
 SIZE = (640, 480)
 DEPTH = 3

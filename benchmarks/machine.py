@@ -7,7 +7,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from tracer.render import processors
+from tracer.image.render import processors
 
 PACKAGES = ("numpy", "numba", "embreex")
 

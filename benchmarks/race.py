@@ -12,7 +12,7 @@ from pathlib import Path
 import tracer
 from benchmarks.figure import in_turn
 from tests import povray
-from tracer.render import warm
+from tracer.image.render import warm
 from tracer.scene import Scene
 
 THREADS = 2

@@ -4,9 +4,9 @@ import numpy as np
 import trimesh
 
 import tracer
+from tracer.formulas.vector import as_floats
 from tracer.scene import Camera, Light, Material, Object, Scene
 from tracer.shapes.mesh import Geometry, Mesh
-from tracer.vector import as_floats
 
 LARGE = 7  # 327 680 triangles
 SMALL = 4  # 5 120 triangles, a 64th

@@ -1,0 +1,5 @@
+"""Tests, in rooms that mirror those of the program."""
+
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent

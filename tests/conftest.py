@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import tracer
-from tracer.measure import precision
-from viewer import lesson
+from tracer.measure.precision import precision
+from viewer.lessons import lesson
 
 LESSONS = lesson.names()
 

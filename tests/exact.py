@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from mpmath import mp, mpf
 
-from tracer.scene import Box, Mesh, Plane, Polygon, Shape, Sphere, Triangle
+from tracer.scene import Shape
+from tracer.scene.scene import Box, Mesh, Plane, Polygon, Sphere, Triangle
 
 mp.dps = 50
 

@@ -16,7 +16,7 @@ from mpmath import mp, mpf
 
 from tests.exact import NAN, NOWHERE, Vector, dot, exact, root, surface, unit
 from tracer.scene import Light, Object
-from tracer.tree import RayTree
+from tracer.tree.raytree import RayTree
 
 
 class Exact(NamedTuple):

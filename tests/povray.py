@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tracer.kernel.world import prepare
 from tracer.scene import Material, Object, Scene
 from tracer.shapes.box import Box
 from tracer.shapes.cone import Cone
@@ -22,7 +23,6 @@ from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
-from tracer.world import prepare
 
 
 def available() -> bool:

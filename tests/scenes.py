@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 import tracer
+from tracer.formulas.vector import VectorLike, as_floats
 from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, Tracing
 from tracer.shapes.box import Box
 from tracer.shapes.cone import Cone
@@ -14,7 +15,6 @@ from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
-from tracer.vector import VectorLike, as_floats
 
 Shape = Sphere | Plane | Polygon | Triangle | Box | Cone | Disc
 

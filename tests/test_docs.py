@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 import tracer
-from tracer.media import INDICES
-from tracer.outline import outline
+from tests import ROOT
+from tracer.formulas.media import INDICES
 from tracer.scene import Camera, Image, Light, Material, Object, Tracing
-from viewer import lesson
-from viewer.cli import make_parser
+from tracer.tree.text import outline
+from viewer.cli.main import make_parser
+from viewer.lessons import lesson
 
-ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 FORMAT = (ROOT / "docs" / "scene-format.md").read_text(encoding="utf-8")
 

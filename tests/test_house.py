@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parent.parent
+from tests import ROOT
+
 ROOMS = ("tracer", "viewer")
 SOURCES = [path for room in ROOMS for path in sorted((ROOT / room).rglob("*.py"))]
 
@@ -36,15 +37,20 @@ def test_one_place_knows_each_library() -> None:
     a file's format: its writer.
     """
     homes = {
-        "numba": {"tracer/jit.py", "tracer/intrinsics.py", "tracer/bundle.py", "tracer/lanes.py"},
-        "llvmlite": {"tracer/intrinsics.py", "tracer/bundle.py", "tracer/lanes.py"},
-        "glfw": {"viewer/window.py"},
+        "numba": {
+            "tracer/compile/jit.py",
+            "tracer/compile/intrinsics.py",
+            "tracer/compile/bundle.py",
+            "tracer/compile/simd.py",
+        },
+        "llvmlite": {"tracer/compile/intrinsics.py", "tracer/compile/bundle.py", "tracer/compile/simd.py"},
+        "glfw": {"viewer/window/backend.py"},
         "trimesh": {"tracer/formats/meshes.py"},
-        "distributed": {"tracer/cluster.py"},
-        "fpdf": {"viewer/figures/pdf.py"},
-        "pypdfium2": {"viewer/figures/png.py"},
-        "pptx": {"viewer/figures/pptx.py"},
-        "contourpy": {"viewer/figures/outlines.py"},
+        "distributed": {"tracer/image/cluster.py"},
+        "fpdf": {"viewer/figures/writers/pdf.py"},
+        "pypdfium2": {"viewer/figures/writers/png.py"},
+        "pptx": {"viewer/figures/writers/pptx.py"},
+        "contourpy": {"viewer/figures/visible/outlines.py"},
     }
     for library, home in homes.items():
         users = {str(path.relative_to(ROOT)) for path in SOURCES if library in {n.split(".")[0] for n in imports(path)}}
@@ -53,7 +59,7 @@ def test_one_place_knows_each_library() -> None:
 
 def test_importing_the_tracer_brings_no_window_and_no_mesh_library() -> None:
     program = (
-        "import sys, tracer, tracer.cluster\n"
+        "import sys, tracer, tracer.image.cluster\n"
         "print(sorted({'moderngl', 'glfw', 'imgui_bundle', 'trimesh', 'PIL', 'dask'} & set(sys.modules)))"
     )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
@@ -61,7 +67,7 @@ def test_importing_the_tracer_brings_no_window_and_no_mesh_library() -> None:
 
 
 def test_help_needs_no_heavy_library() -> None:
-    program = "import sys\nfrom viewer import cli\ncli.make_parser()\n"
+    program = "import sys\nfrom viewer.cli import main\nmain.make_parser()\n"
     program += "print(sorted({'numpy', 'numba', 'imgui_bundle'} & set(sys.modules)))"
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "[]"
@@ -79,7 +85,7 @@ def test_kernels_are_compiled_for_one_set_of_types() -> None:
     program = (
         "import tracer, numpy as np\n"
         "from tests.scenes import *\n"
-        "from tracer.tile import trace_area\n"
+        "from tracer.kernel.entry import trace_area\n"
         "world = world_of(ball((0, 0, 0), 1), lights=[Light('l', position=(1, 2, 3))], background=(1, 1, 1))\n"
         "tracer.trace(world, (3, 4)); tracer.trace(world, ray=((0, 0, 5), (0, 0, -1)), min_weight=0)\n"
         "tracer.trace(world, ray=(np.array([0, 0, 5]), [0, 0, -1.0])); tracer.trace(world, (1, 1), sample=3)\n"
@@ -92,7 +98,7 @@ def test_kernels_are_compiled_for_one_set_of_types() -> None:
 
 def test_machine_code_is_kept_where_it_can_be_written(tmp_path: Path) -> None:
     """A home that cannot be written to is no reason to fail: the code then lives in a temporary folder."""
-    program = "from tracer.jit import cache_folder; print(cache_folder())"
+    program = "from tracer.compile.jit import cache_folder; print(cache_folder())"
     for home, expected in ((tmp_path, str(tmp_path)), (Path("/dev/null"), "")):
         environment = {**os.environ, "XDG_CACHE_HOME": str(home), "TMPDIR": str(tmp_path)}
         run = subprocess.run(

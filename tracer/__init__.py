@@ -10,9 +10,9 @@ There is one kernel: the image is that kernel run for every pixel, a click is th
 
 from tracer import optics
 from tracer.formats import load
-from tracer.render import Image, render
+from tracer.image.render import Image, render
+from tracer.kernel.world import World, prepare
 from tracer.scene import Scene, SceneError
-from tracer.tree import RayTree, trace
-from tracer.world import World, prepare
+from tracer.tree.raytree import RayTree, trace
 
 __all__ = ["Image", "RayTree", "Scene", "SceneError", "World", "load", "optics", "prepare", "render", "trace"]

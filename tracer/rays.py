@@ -7,8 +7,8 @@ A corner gets the same two numbers from whichever face asks, so faces that share
 
 from typing import Any, NamedTuple
 
-from tracer.jit import compiled
-from tracer.vector import Vector
+from tracer.compile.jit import compiled
+from tracer.formulas.vector import Vector
 
 
 class Ray(NamedTuple):

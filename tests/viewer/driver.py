@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 from imgui_bundle import imgui
 
-from viewer import lesson
-from viewer.app import App
-from viewer.orbit import project
-from viewer.session import Session
-from viewer.window import Offscreen
+from viewer.base.orbit import project
+from viewer.lessons import lesson
+from viewer.session.session import Session
+from viewer.window.app import App
+from viewer.window.backend import Offscreen
 
 
 class Driver:

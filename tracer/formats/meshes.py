@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from tracer.scene import Material, Object, Scene, SceneError
-from tracer.scene_defaults import default_lights, default_surroundings
+from tracer.scene.defaults import default_lights, default_surroundings
 from tracer.shapes.mesh import Geometry, Mesh
 
 SUFFIXES = (".obj", ".ply", ".stl", ".glb")

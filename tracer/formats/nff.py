@@ -24,14 +24,14 @@ import numpy as np
 
 from tracer import fields
 from tracer.formats.words import Fault, Word, Words
-from tracer.pairs import exact_difference, pair_cross
+from tracer.formulas.double_double import exact_difference, pair_cross
+from tracer.formulas.vector import Vector, as_floats, tame, unit
 from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, SceneError, Shape
 from tracer.shapes.cone import Cone
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.planar import unit_normal
 from tracer.shapes.polygon import FLATNESS, Polygon
 from tracer.shapes.sphere import Sphere
-from tracer.vector import Vector, as_floats, tame, unit
 
 SUFFIX = ".nff"
 ENTITIES = {

@@ -10,19 +10,8 @@ from typing import Any, TypeVar
 
 from tracer import fields
 from tracer.formats.meshes import MeshError, load_parts
-from tracer.scene import (
-    Background,
-    Camera,
-    Checker,
-    Image,
-    Light,
-    Material,
-    Object,
-    Scene,
-    SceneError,
-    Tracing,
-    place,
-)
+from tracer.scene import Background, Camera, Checker, Image, Light, Material, Object, Scene, SceneError, Tracing
+from tracer.scene.scene import place
 from tracer.shapes import SHAPES
 from tracer.shapes import mesh as mesh_shape
 from tracer.shapes.mesh import Mesh

@@ -4,7 +4,7 @@ import math
 from collections.abc import Container
 from typing import NamedTuple
 
-from tracer.vector import Vector
+from tracer.formulas.vector import Vector
 
 
 class Word(NamedTuple):

@@ -14,10 +14,10 @@ from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
-from tracer.jit import compiled
+from tracer.compile.jit import compiled
+from tracer.formulas.vector import Vector
 from tracer.rays import Ray
 from tracer.shapes import box, cone, disc, plane, polygon, sphere, triangle
-from tracer.vector import Vector
 
 SHAPES: tuple[ModuleType, ...] = (sphere, plane, polygon, triangle, box, cone, disc)
 

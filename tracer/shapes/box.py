@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.jit import compiled
+from tracer.compile.jit import compiled
+from tracer.formulas.vector import Vector, add, scale
 from tracer.rays import Ray
 from tracer.shapes import planar
-from tracer.vector import Vector, add, scale
 
 NAME = "box"
 

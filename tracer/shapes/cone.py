@@ -18,11 +18,11 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.intrinsics import stay_apart
-from tracer.jit import compiled, routine
+from tracer.compile.intrinsics import stay_apart
+from tracer.compile.jit import compiled, routine
+from tracer.formulas.vector import Vector, add, cross, dot, length, negate, scale, subtract, tame, unit, vector
 from tracer.rays import Ray
 from tracer.shapes.disc import Disc
-from tracer.vector import Vector, add, cross, dot, length, negate, scale, subtract, tame, unit, vector
 
 NAME = "cone"
 

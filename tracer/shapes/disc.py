@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.intrinsics import stay_apart
-from tracer.jit import routine
-from tracer.pairs import pair_vector
+from tracer.compile.intrinsics import stay_apart
+from tracer.compile.jit import routine
+from tracer.formulas.double_double import pair_vector
+from tracer.formulas.vector import Vector, add, length, scale, subtract, tame, unit, vector
 from tracer.rays import Ray
 from tracer.shapes import planar
 from tracer.shapes.planar import may_cross, outline_slack, pack_normal, plane_distance
-from tracer.vector import Vector, add, length, scale, subtract, tame, unit, vector
 
 NAME = "disc"
 

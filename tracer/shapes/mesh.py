@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
+from tracer.formulas.vector import Vector
 from tracer.shapes.triangle import pack_triangles
-from tracer.vector import Vector
 
 NAME = "mesh"
 

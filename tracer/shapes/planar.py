@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from tracer.intrinsics import stay_apart
-from tracer.jit import compiled, routine
-from tracer.pairs import (
+from tracer.compile.intrinsics import stay_apart
+from tracer.compile.jit import compiled, routine
+from tracer.formulas.double_double import (
     PairVector,
     U,
     exact_difference,
@@ -24,8 +24,8 @@ from tracer.pairs import (
     plus,
     two_product,
 )
+from tracer.formulas.vector import Vector, add, as_floats, dot, scale, subtract, vector
 from tracer.rays import Ray
-from tracer.vector import Vector, add, as_floats, dot, scale, subtract, vector
 
 # Rounding errors of n.(a - o): three products, three differences and two sums, and as many again in the point of the
 # surface the ray leaves; each at most 2^-53 of |a| + |o| in the 1-norm.

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.jit import compiled
-from tracer.pairs import pair_vector
+from tracer.compile.jit import compiled
+from tracer.formulas.double_double import pair_vector
+from tracer.formulas.vector import Vector, tame
 from tracer.rays import Ray
 from tracer.shapes import planar
 from tracer.shapes.planar import may_cross, pack_normal, plane_distance
-from tracer.vector import Vector, tame
 
 NAME = "plane"
 

@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.jit import compiled
+from tracer.compile.jit import compiled
+from tracer.formulas.vector import Vector
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
 from tracer.shapes.planar import is_beside, may_cross, newell, outline_slack, pack_normal, plane_distance, unit_normal
-from tracer.vector import Vector
 
 NAME = "polygon"
 

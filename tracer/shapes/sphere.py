@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.intrinsics import stay_apart
-from tracer.jit import compiled, routine
-from tracer.pairs import (
+from tracer.compile.intrinsics import stay_apart
+from tracer.compile.jit import compiled, routine
+from tracer.formulas.double_double import (
     SMALLEST,
     Pair,
     PairVector,
@@ -33,9 +33,9 @@ from tracer.pairs import (
     two_product,
     two_sum,
 )
+from tracer.formulas.vector import Vector, add, dot, scale, subtract, unit, vector
 from tracer.rays import Ray
 from tracer.shapes.planar import BALL
-from tracer.vector import Vector, add, dot, scale, subtract, unit, vector
 
 NAME = "sphere"
 

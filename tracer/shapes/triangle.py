@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.jit import compiled
-from tracer.lanes import alike, below, lanes, larger, smaller
-from tracer.pairs import exact_difference, pair_cross
+from tracer.compile.jit import compiled
+from tracer.compile.simd import alike, below, lanes, larger, smaller
+from tracer.formulas.double_double import exact_difference, pair_cross
+from tracer.formulas.vector import Vector, add, cross, dot, length, scale, subtract, unit, vector
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
 from tracer.shapes.planar import NEAR, is_beside, may_cross, outline_slack, pack_normal, plane_distance, unit_normal
-from tracer.vector import Vector, add, cross, dot, length, scale, subtract, unit, vector
 
 NAME = "triangle"
 

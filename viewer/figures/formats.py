@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from tracer.tree import RayTree
+from tracer.tree.raytree import RayTree
 from viewer.figures.font import has
 from viewer.figures.marks import Figure
 
@@ -22,49 +22,49 @@ class Format:
 
 
 def _svg(pages: Pages, across: int) -> bytes:
-    from viewer.figures.svg import write_svg
+    from viewer.figures.writers.svg import write_svg
 
     return write_svg(pages[0])
 
 
 def _pdf(pages: Pages, across: int) -> bytes:
-    from viewer.figures.pdf import write_pdf
+    from viewer.figures.writers.pdf import write_pdf
 
     return write_pdf(pages)
 
 
 def _png(pages: Pages, across: int) -> bytes:
-    from viewer.figures.png import write_png
+    from viewer.figures.writers.png import write_png
 
     return write_png(pages[0], across)
 
 
 def _tikz(pages: Pages, across: int) -> bytes:
-    from viewer.figures.tikz import write_tikz
+    from viewer.figures.writers.tikz import write_tikz
 
     return write_tikz(pages[0])
 
 
 def _pptx(pages: Pages, across: int) -> bytes:
-    from viewer.figures.pptx import write_pptx
+    from viewer.figures.writers.pptx import write_pptx
 
     return write_pptx(pages)
 
 
 def _dot(tree: RayTree) -> str:
-    from viewer.figures.dot import write_dot
+    from viewer.figures.writers.dot import write_dot
 
     return write_dot(tree)
 
 
 def _csv(tree: RayTree) -> str:
-    from viewer.figures.csv import write_csv
+    from viewer.figures.writers.csv import write_csv
 
     return write_csv(tree)
 
 
 def _tikz_has(letter: str) -> bool:
-    from viewer.figures.tikz import has
+    from viewer.figures.writers.tikz import has
 
     return has(letter)
 

@@ -3,7 +3,8 @@
 import sys
 from pathlib import Path
 
-from viewer import cli, lesson
+from viewer.cli import main
+from viewer.lessons import lesson
 
 SHOWN = ("both", "hit")
 EXTRA = (
@@ -33,7 +34,7 @@ def _shown(folder: Path, name: str, options: list[str], figure: str) -> str:
     words = ["export", name, *options, "--ground"]
     count = len([word for word in options if word not in ("--figure", figure)])
     path = folder / f"{name}-{figure}{f'-{count}' if count else ''}.svg"
-    if cli.main([*words, "-o", str(path)]) != 0:
+    if main.main([*words, "-o", str(path)]) != 0:
         raise SystemExit(1)
     return f"    raytree {' '.join(words)} -o {path.name}\n\n![{figure} of {name}](figures/{path.name})\n"
 

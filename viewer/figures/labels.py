@@ -4,10 +4,10 @@ A ray has its letter and its row's number, R3, in the tree, in the scene and at 
 L to a light, as in Whitted's figure (CACM 23(6), 1980); E from the eye.
 """
 
-from tracer.nodes import SHADOW
-from tracer.tree import RayTree
-from viewer.theme import STYLES
-from viewer.wording import shown
+from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import RayTree
+from viewer.base.theme import STYLES
+from viewer.base.wording import shown
 
 # Under a leaf, in as few words as a slide has room for.
 ENDS = {

@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from viewer.base.theme import STYLES, Theme
 from viewer.figures import signs
 from viewer.figures.font import text_width
+from viewer.figures.layout.free_space import Vacant
 from viewer.figures.marks import Line, Mark, Point, Rectangle, Stroke, Text
-from viewer.figures.vacant import Vacant
-from viewer.theme import STYLES, Theme
 
 LINE = 1.3  # from line to line, in sizes of the text
 SAMPLE = 2.4  # the width of what is explained, with the gap to its words

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 
+from viewer.base.theme import Arrow, Color
 from viewer.figures.font import text_box
-from viewer.theme import Arrow, Color
 
 WIDTH, HEIGHT = 960.0, 540.0
 
@@ -162,6 +162,6 @@ class Figure:
 
     def _repr_svg_(self) -> str:
         """What a notebook shows."""
-        from viewer.figures.svg import write_svg
+        from viewer.figures.writers.svg import write_svg
 
         return write_svg(self).decode("utf-8")

@@ -1,9 +1,9 @@
 """What a notebook shows of a tree. `tracer` knows no viewer: it asks who has announced a drawer (pyproject.toml)."""
 
-from tracer.tree import RayTree
-from viewer.figures.figure import Subject, Wishes, pages
-from viewer.figures.stage import by_depth
-from viewer.figures.svg import write_svg
+from tracer.tree.raytree import RayTree
+from viewer.figures.figure.pages import Subject, Wishes, pages
+from viewer.figures.steps import by_depth
+from viewer.figures.writers.svg import write_svg
 
 
 def tree_svg(tree: RayTree) -> str:

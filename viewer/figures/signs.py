@@ -2,8 +2,8 @@
 
 import math
 
+from viewer.base.theme import Color, Theme
 from viewer.figures.marks import Disc, Line, Mark, Point, Shape, Stroke
-from viewer.theme import Color, Theme
 
 
 def eye(at: Point, size: float, theme: Theme) -> list[Mark]:

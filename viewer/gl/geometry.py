@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from tracer.formulas.vector import tame, unit
 from tracer.shapes.box import Box
 from tracer.shapes.cone import Cone
 from tracer.shapes.disc import Disc
@@ -16,8 +17,7 @@ from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
-from tracer.vector import tame, unit
-from viewer.orbit import Frame
+from viewer.base.orbit import Frame
 
 PLANE_REACH = 12.0  # radii of the scene
 CREASE = math.cos(math.radians(15.0))  # faces that meet at less than this angle are meant to be one

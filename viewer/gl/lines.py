@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import moderngl
 import numpy as np
 
+from viewer.base.theme import ARROW, ARROW_AT, HALO, Arrow, Color
 from viewer.gl.program import make_program, put
-from viewer.theme import ARROW, ARROW_AT, HALO, Arrow, Color
 
 LINE = np.dtype(
     [

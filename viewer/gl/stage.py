@@ -9,15 +9,15 @@ from dataclasses import dataclass
 import moderngl
 import numpy as np
 
-from tracer.world import World
+from tracer.kernel.world import World
+from viewer.base.orbit import Frame, Orbit
+from viewer.base.theme import EDGE_OPACITY, HIDDEN, Theme, faded
 from viewer.gl.features import Features, features_of
 from viewer.gl.lines import Line, Lines
 from viewer.gl.program import make_program, put
+from viewer.gl.stage_lines import StageLines
 from viewer.gl.surfaces import Surfaces, make_surface_program
 from viewer.gl.target import Target
-from viewer.orbit import Frame, Orbit
-from viewer.stagelines import StageLines
-from viewer.theme import EDGE_OPACITY, HIDDEN, Theme, faded
 
 IMAGE_OPACITY = 0.78  # of the image on the image plane: it shows, and what is behind it too
 

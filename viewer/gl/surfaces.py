@@ -11,17 +11,17 @@ from typing import Any
 import moderngl
 import numpy as np
 
+from tracer.kernel.world import World
 from tracer.shapes.disc import Disc
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
-from tracer.world import World
+from viewer.base.orbit import Frame, Orbit
+from viewer.base.theme import Color
 from viewer.gl.features import Features
 from viewer.gl.geometry import ball, triangles
 from viewer.gl.program import make_program, put
-from viewer.orbit import Frame, Orbit
-from viewer.theme import Color
 
 MOST_LIGHTS = 8  # as in surface.frag
 ROUND = 64  # segments of a ball where few are drawn

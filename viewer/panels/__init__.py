@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from viewer.panels import error, image, lesson, ray, scene, tree
-from viewer.session import Session
+from viewer.session.session import Session
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,11 @@
 
 from imgui_bundle import imgui
 
-from tracer.limits import MODELS
+from tracer.kernel.limits import MODELS
+from viewer.base.theme import STYLES, faded
 from viewer.panels import draw as d
 from viewer.panels.image import waiting_lines
-from viewer.session import Session
-from viewer.theme import STYLES, faded
+from viewer.session.session import Session
 
 NAME = "##bar"
 SAMPLE = 44  # logical pixels that a legend's line takes beside its name

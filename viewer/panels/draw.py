@@ -4,7 +4,7 @@ import math
 
 from imgui_bundle import imgui
 
-from viewer.theme import FONT_SIZE, Arrow, Color, RayStyle, Theme, faded
+from viewer.base.theme import FONT_SIZE, Arrow, Color, RayStyle, Theme, faded
 
 Point = tuple[float, float]
 

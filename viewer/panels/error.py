@@ -6,11 +6,11 @@ from collections.abc import Sequence
 import numpy as np
 from imgui_bundle import imgui, implot
 
-from viewer.canvas import Canvas
-from viewer.convergence import SHOWN, WAYS, Run, forecast
+from viewer.base.theme import SMALL, curve_color
+from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
-from viewer.session import Session
-from viewer.theme import SMALL, curve_color
+from viewer.session.convergence import SHOWN, WAYS, Run, forecast
+from viewer.session.session import Session
 
 TITLE = "Error"
 MAP_WIDTH = 116  # logical pixels

@@ -2,13 +2,13 @@
 
 from imgui_bundle import imgui
 
-from viewer.canvas import Canvas, texture_ref
-from viewer.colormap import RANGES, strip
-from viewer.magnified import Place
+from viewer.base.colormap import RANGES, strip
+from viewer.base.pictures import as_shown
+from viewer.base.theme import SMALL
+from viewer.gl.canvas import Canvas, texture_ref
+from viewer.gl.magnified import Place
 from viewer.panels import draw as d
-from viewer.picture import as_shown
-from viewer.session import Session
-from viewer.theme import SMALL
+from viewer.session.session import Session
 
 TITLE = "Image"
 

@@ -2,8 +2,8 @@
 
 from imgui_bundle import imgui
 
-from viewer.canvas import Canvas
-from viewer.session import Session
+from viewer.gl.canvas import Canvas
+from viewer.session.session import Session
 
 TITLE = "Lesson"
 

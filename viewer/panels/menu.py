@@ -5,13 +5,13 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from tracer.formats import READERS
-from viewer import keys
-from viewer import lesson as lessons
-from viewer.files import Unusable
+from viewer.base.files import Unusable
+from viewer.base.theme import THEMES
+from viewer.lessons import lesson as lessons
 from viewer.panels import draw as d
-from viewer.session import Session
-from viewer.takehome import FIGURES, FORMATS
-from viewer.theme import THEMES
+from viewer.session.figure_export import FIGURES, FORMATS
+from viewer.session.session import Session
+from viewer.window import keys
 
 OPEN = "Open a scene"
 
@@ -73,7 +73,7 @@ def open_file(session: Session, path: Path) -> None:
 
 def save_image(session: Session) -> None:
     """The image on show, beside where the program was started, under a name that is not taken."""
-    from viewer.picture import write_picture
+    from viewer.base.pictures import write_picture
 
     picture = session.image.picture
     if not picture or not session.path:

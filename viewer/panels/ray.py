@@ -2,12 +2,12 @@
 
 from imgui_bundle import imgui
 
-from viewer.canvas import Canvas
-from viewer.explain import explain, headline
+from viewer.base.theme import STYLES
+from viewer.explain.explain import explain, headline
+from viewer.explain.sections import Section
+from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
-from viewer.sections import Section
-from viewer.session import Session
-from viewer.theme import STYLES
+from viewer.session.session import Session
 
 TITLE = "Selected ray"
 

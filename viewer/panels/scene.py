@@ -5,15 +5,15 @@ import math
 import numpy as np
 from imgui_bundle import imgui
 
-from tracer.nodes import SHADOW
-from tracer.tree import light_name
-from viewer.canvas import Canvas, texture_ref
+from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import light_name
+from viewer.base.orbit import project
+from viewer.base.theme import SMALL, faded
 from viewer.figures.labels import ray_label
-from viewer.orbit import project
+from viewer.figures.ray_lines import nearest_row
+from viewer.gl.canvas import Canvas, texture_ref
 from viewer.panels import draw as d
-from viewer.raylines import nearest_row
-from viewer.session import Session
-from viewer.theme import SMALL, faded
+from viewer.session.session import Session
 
 TITLE = "Scene"
 

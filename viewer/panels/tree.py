@@ -6,17 +6,17 @@ import math
 import numpy as np
 from imgui_bundle import imgui
 
-from tracer.nodes import SHADOW
-from tracer.outline import heaviest_rows, missing
-from viewer.canvas import Canvas
-from viewer.explain import headline
-from viewer.figures.layout import Place, layout, with_parents_only
+from tracer.kernel.nodes import SHADOW
+from tracer.tree.text import heaviest_rows, missing
+from viewer.base.pictures import as_shown
+from viewer.base.theme import BLOCKED_DASH, DIMMED, SMALL, STYLES, faded
+from viewer.base.wording import shown
+from viewer.explain.explain import headline
+from viewer.figures.layout.tidy_tree import Place, layout, with_parents_only
+from viewer.figures.ray_lines import family
+from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
-from viewer.picture import as_shown
-from viewer.raylines import family
-from viewer.session import Session
-from viewer.theme import BLOCKED_DASH, DIMMED, SMALL, STYLES, faded
-from viewer.wording import shown
+from viewer.session.session import Session
 
 TITLE = "Ray tree"
 

@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from tracer.measure.precision import Source
+from tracer.measure.precision.precision import Source
 
 
 @dataclass

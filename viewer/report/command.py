@@ -7,16 +7,16 @@ from argparse import Namespace
 from collections.abc import Callable
 from pathlib import Path
 
-from tracer.jit import versions
-from tracer.measure.precision import counted
-from tracer.measure.sources import FULL, QUICK, left_out, sources
-from tracer.measure.stiff import PROBLEMS, solved, steps
-from tracer.render import processors
-from tracer.world import World
-from viewer import lesson as lessons
-from viewer.commands import compile_once, faults, find, prepared, put
-from viewer.files import Unusable, check_folder, every, write_atomically
-from viewer.progress import Progress
+from tracer.compile.jit import versions
+from tracer.image.render import processors
+from tracer.kernel.world import World
+from tracer.measure.precision.precision import counted
+from tracer.measure.precision.sources import FULL, QUICK, left_out, sources
+from tracer.measure.precision.stiff import PROBLEMS, solved, steps
+from viewer.base.files import Unusable, check_folder, every, write_atomically
+from viewer.base.progress import Progress
+from viewer.cli.commands import compile_once, faults, find, prepared, put
+from viewer.lessons import lesson as lessons
 from viewer.report.chapter import Chapter
 from viewer.report.data import as_csv, as_json
 from viewer.report.page import as_html

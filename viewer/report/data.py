@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from tracer.measure.errors import MEASURES
-from tracer.measure.precision import Source
+from tracer.measure.precision.errors import MEASURES
+from tracer.measure.precision.precision import Source
 from viewer.report.chapter import Chapter
 
 FORMAT = "raytree-report/1"

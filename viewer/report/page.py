@@ -5,7 +5,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from html import escape
 
-from tracer.measure.precision import Curve, Point, Source
+from tracer.measure.precision.precision import Curve, Point, Source
 from viewer.report.chapter import Chapter
 
 STYLE = """

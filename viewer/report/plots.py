@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any
 
-from tracer.measure.errors import MEASURES
-from tracer.measure.precision import Curve, Point, Source
+from tracer.measure.precision.errors import MEASURES
+from tracer.measure.precision.precision import Curve, Point, Source
 
 LOOKS = (("#0072B2", "o", "-"), ("#B35C00", "s", "--"), ("#11723F", "^", "-."), ("#5A5A5A", "D", ":"))
 INK, GRID = "#14181D", "#D6DBE1"

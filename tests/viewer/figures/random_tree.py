@@ -5,7 +5,7 @@ import random
 import numpy as np
 
 from tests.scenes import box
-from tracer.nodes import (
+from tracer.kernel.nodes import (
     BACKGROUND,
     BLOCKED,
     CAMERA,
@@ -20,7 +20,7 @@ from tracer.nodes import (
     TIR,
 )
 from tracer.scene import Light, Material, Scene
-from tracer.tree import RayTree
+from tracer.tree.raytree import RayTree
 
 BOTH = (REFLECTION, REFRACTION)
 NAMES = ("a", "ball", "glass ball", "a name that is too long for any box")

@@ -14,16 +14,16 @@ from PIL import Image
 
 import tracer
 from tests.conftest import LESSONS
-from tracer.nodes import SHADOW
-from tracer.tree import RayTree
-from viewer import lesson
-from viewer.figures.figure import FIGURES, Subject, Wishes, pages
+from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import RayTree
+from viewer.base.orbit import Frame, home
+from viewer.base.theme import DARK, LIGHT
+from viewer.figures.figure.pages import FIGURES, Subject, Wishes, pages
 from viewer.figures.font import FONT
 from viewer.figures.formats import FORMATS
 from viewer.figures.marks import Figure, Text
-from viewer.figures.stage import by_depth
-from viewer.orbit import Frame, home
-from viewer.theme import DARK, LIGHT
+from viewer.figures.steps import by_depth
+from viewer.lessons import lesson
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -130,7 +130,7 @@ def test_png_is_transparent_unless_asked(worlds: dict[str, tracer.World]) -> Non
 
 
 def test_tikz_escapes_what_tex_would_read() -> None:
-    from viewer.figures.tikz import escaped
+    from viewer.figures.writers.tikz import escaped
 
     assert escaped("50 % of $a_b$ {c} \\d ~e^f #1 & g") == (
         r"50 \% of \$a\_b\$ \{c\} \textbackslash{}d \textasciitilde{}e\textasciicircum{}f \#1 \& g"
@@ -138,7 +138,7 @@ def test_tikz_escapes_what_tex_would_read() -> None:
 
 
 def test_tikz_says_every_word(figures: list[Figure]) -> None:
-    from viewer.figures.tikz import escaped
+    from viewer.figures.writers.tikz import escaped
 
     text = written("tikz", figures[-1:]).decode("utf-8")
     for word in words(figures[-1]):

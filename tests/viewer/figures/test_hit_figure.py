@@ -10,13 +10,13 @@ import tracer
 from tests.conftest import LESSONS
 from tests.scenes import box, world_of
 from tests.viewer.figures.geometry import check
-from tracer.nodes import SHADOW
+from tracer.kernel.nodes import SHADOW
 from tracer.scene import Light, Material
-from viewer import lesson
-from viewer.figures.figure import Subject, Wishes, pages
-from viewer.figures.hitfigure import CENTER
+from viewer.figures.figure.hit import CENTER
+from viewer.figures.figure.pages import Subject, Wishes, pages
 from viewer.figures.marks import Figure, Line, Text
-from viewer.figures.stage import by_depth
+from viewer.figures.steps import by_depth
+from viewer.lessons import lesson
 
 
 def turn_of(figure: Figure, name: str, back: bool) -> float:

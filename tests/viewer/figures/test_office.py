@@ -8,13 +8,13 @@ import pytest
 
 import tracer
 from tests.conftest import LESSONS
-from viewer import lesson
-from viewer.figures.figure import FIGURES, Subject, Wishes, pages
+from viewer.base.orbit import Frame, home
+from viewer.figures.figure.pages import FIGURES, Subject, Wishes, pages
 from viewer.figures.marks import Figure, Text
-from viewer.figures.pptx import write_pptx
-from viewer.figures.stage import by_depth
-from viewer.figures.tikz import write_tikz
-from viewer.orbit import Frame, home
+from viewer.figures.steps import by_depth
+from viewer.figures.writers.pptx import write_pptx
+from viewer.figures.writers.tikz import write_tikz
+from viewer.lessons import lesson
 
 pytestmark = [pytest.mark.office, pytest.mark.timeout(600)]
 

@@ -11,20 +11,20 @@ import tracer
 from tests.conftest import LESSONS
 from tests.scenes import MATTE, box, world_of
 from tests.viewer.figures.geometry import overlap
-from tracer.camera import View, make_view
-from tracer.nodes import SHADOW
+from tracer.formulas.camera import View, make_view
+from tracer.formulas.shading import surface_color
+from tracer.kernel.nodes import SHADOW
 from tracer.scene import Camera, Checker, Light, Material, Object
-from tracer.shading import surface_color
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
-from viewer import lesson
-from viewer.figures.figure import Subject, Wishes, pages
+from viewer.base.orbit import Frame, Orbit, home
+from viewer.figures.figure.pages import Subject, Wishes, pages
 from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text, shares_within
-from viewer.figures.outlines import FINE, spots_of, too_fine
-from viewer.figures.rings import sharper, simpler, straighter
-from viewer.figures.scenery import camera_of, scenery
-from viewer.figures.stage import by_depth
-from viewer.orbit import Frame, Orbit, home
+from viewer.figures.steps import by_depth
+from viewer.figures.visible.outlines import FINE, spots_of, too_fine
+from viewer.figures.visible.rings import sharper, simpler, straighter
+from viewer.figures.visible.scenery import camera_of, scenery
+from viewer.lessons import lesson
 
 CANVAS = (0.0, 0.0, WIDTH, HEIGHT)
 

@@ -12,19 +12,19 @@ import tracer
 from tests.conftest import LESSONS
 from tests.viewer.figures.geometry import check
 from tests.viewer.figures.random_tree import random_tree
-from tests.viewer.test_layout import plates
-from tracer.nodes import SHADOW
-from tracer.tree import RayTree
-from viewer import lesson
-from viewer.figures.figure import Subject, Wishes, pages
-from viewer.figures.folds import percent
+from tests.viewer.panels.test_layout import plates
+from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import RayTree
+from viewer.base.orbit import Frame, home
+from viewer.base.theme import DARK, LIGHT, MONO, Theme
+from viewer.figures.figure.pages import Subject, Wishes, pages
 from viewer.figures.labels import ray_label
+from viewer.figures.layout.folds import percent
+from viewer.figures.layout.placing import EYES
+from viewer.figures.layout.tree_plan import Wanted, plan_tree
 from viewer.figures.marks import Box, Disc, Figure, Line, Text
-from viewer.figures.placing import EYES
-from viewer.figures.stage import by_colour, by_depth, by_ray
-from viewer.figures.treeplan import Wanted, plan_tree
-from viewer.orbit import Frame, home
-from viewer.theme import DARK, LIGHT, MONO, Theme
+from viewer.figures.steps import by_colour, by_depth, by_ray
+from viewer.lessons import lesson
 
 
 def hits(figure: Figure) -> dict[int, Box]:

@@ -1,0 +1,185 @@
+"""Adaptive sampling: every pixel is one of a plain image, the estimate is no lower than the error, rays are saved."""
+
+import math
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import tracer
+from tests.scenes import ball, world_of
+from tests.tracer.measure.test_precision import ACROSS, edge_image, edge_scene
+from tracer.formulas.sampler import JITTERED, RANDOM, SAMPLERS, SOBOL
+from tracer.image.adaptive import AGAIN, Sampled
+from tracer.image.converge import Converging
+from tracer.image.passes import Stopped
+from tracer.kernel.entry import Area
+from tracer.kernel.limits import make_limits
+from tracer.measure.precision.errors import rmse
+
+SIZE = (64, 48)
+DRAWS = 0.07  # of an error that is estimated from the edge scene's 100 pixels with an edge: 1 / sqrt(2 * 100)
+
+
+@pytest.mark.parametrize("sampler", ("sobol", "random"))
+def test_pixels_are_those_of_plain_images(worlds: dict[str, tracer.World], sampler: str) -> None:
+    """A pixel of N samples has the bits of the image of N samples a pixel: on any number of threads."""
+    world = worlds["glass-ball"]
+    image = tracer.render(world, SIZE, until_error=0.02, sampler=sampler)
+    assert image.counts is not None
+    counts = np.unique(image.counts)
+    assert len(counts) > 3
+    for n in counts.tolist():
+        # One of Sobol's points is an image's own case, the centre: two are the least here.
+        plain = tracer.render(world, SIZE, samples=n, sampler=sampler)
+        here = image.counts == n
+        assert image.pixels[here].tobytes() == plain.pixels[here].tobytes()
+    again = tracer.render(world, SIZE, until_error=0.02, sampler=sampler, threads=1)
+    assert again.pixels.tobytes() == image.pixels.tobytes()
+    assert again.rays == image.rays
+
+
+def test_what_is_cut_is_counted_as_in_plain_images(worlds: dict[str, tracer.World]) -> None:
+    world = worlds["mirror-balls"]
+    image = tracer.render(world, SIZE, depth=1, samples=2, until_error=1e-9)
+    plain = tracer.render(world, SIZE, depth=1, samples=2)
+    assert image.ended == "samples"
+    assert image.rays == plain.rays
+    assert image.tests == plain.tests > 0
+    assert image.residual["max"] == plain.residual["max"] > 0.0
+    assert image.residual["mean"] == pytest.approx(plain.residual["mean"], rel=1e-14)
+    assert image.bound == plain.bound
+
+
+def test_the_estimate_of_a_lesson_is_no_lower_than_its_error(worlds: dict[str, tracer.World]) -> None:
+    """Some thousand pixels with edges: one that stops for a lucky draw must not make the whole look better."""
+    world, size = worlds["mirror-balls"], (160, 120)
+    true = tracer.render(world, size, samples=512).pixels
+    for sampler in ("sobol", "random"):
+        for goal in (0.01, 0.005):
+            image = tracer.render(world, size, until_error=goal, sampler=sampler)
+            assert image.reached
+            assert rmse(image.pixels, true) <= 1.05 * image.reached.error <= 1.05 * goal
+
+
+def test_an_edge_in_closed_form_with_a_quarter_of_the_rays() -> None:
+    """Where one pixel in some hundred has an edge in it, the others need no more than the two that show that."""
+    world, true = edge_scene(), edge_image()
+    plain = tracer.render(world, (ACROSS, ACROSS), samples=64)
+    wanted = rmse(plain.pixels, true)
+    for goal in (2.0 * wanted, 1.4 * wanted, wanted):
+        image = tracer.render(world, (ACROSS, ACROSS), until_error=goal)
+        assert image.reached
+        assert image.reached.error <= goal
+        assert rmse(image.pixels, true) < (1.0 + 2.0 * DRAWS) * image.reached.error
+    assert image.counts is not None
+    assert image.counts.mean() < 64 / 4
+    assert image.counts[0, 0] == 2
+    edges = (true[..., 0] > 0.0) & (true[..., 0] < 1.0)
+    assert image.counts[edges].mean() > 64 / 2
+
+
+@pytest.mark.parametrize(
+    ("sampler", "law"),
+    # At an edge the square error is v(N) = c N^-3/2. A mean whose two halves are off by v(N/2) each moves by
+    # v(N/2) - v(N) in the square; independent halves have v(N/2) = 2 v(N), renewed samples v(N/4) + v(N).
+    (("sobol", math.sqrt(2.0**1.5 - 1.0)), ("random", 1.0), ("jittered", math.sqrt((4.0**1.5 + 1.0) / AGAIN))),
+)
+def test_the_estimate_is_theory_s(sampler: str, law: float) -> None:
+    world, true = edge_scene(), edge_image()
+    view = world.view((ACROSS, ACROSS))
+    limits = make_limits(world, records=False)
+    made = Converging(world, view, limits, SAMPLERS.index(sampler), adaptive=False, most=256)
+    with ThreadPoolExecutor(2) as pool:
+        found = [(reached, rmse(made.sampled.means(), true)) for reached in made.rounds(pool, 2)]
+    counts = [reached.samples for reached, _ in found]
+    assert counts == [(4.0 if sampler == "jittered" else 2.0) ** k for k in range(len(counts))]
+    assert counts[-1] == 256
+    ratios = [math.log(reached.error / error) for reached, error in found if reached.samples >= 4]
+    assert math.exp(math.fsum(ratios) / len(ratios)) == pytest.approx(law, rel=2.0 * DRAWS)
+    if sampler == "jittered":
+        plain = tracer.render(world, (ACROSS, ACROSS), samples=256, sampler="jittered")
+        assert made.sampled.means().tobytes() == plain.pixels.tobytes()
+
+
+def test_time_ends_it(worlds: dict[str, tracer.World]) -> None:
+    """However short the time, every pixel has two samples: fewer say nothing of their error."""
+    image = tracer.render(worlds["mirror-balls"], SIZE, until_seconds=1e-9)
+    assert image.ended == "seconds"
+    assert image.reached
+    assert (image.reached.least, image.reached.most) == (2, 2)
+    assert image.reached.error > 0.0
+    later = tracer.render(worlds["mirror-balls"], SIZE, until_seconds=0.2)
+    assert later.ended == "seconds"
+    assert later.reached
+    assert later.seconds["trace"] >= 0.2
+    assert later.reached.samples > 2.0
+
+
+def test_a_flat_image_needs_two_samples() -> None:
+    """The ball is behind the eye."""
+    image = tracer.render(world_of(ball((0, 0, 50), 0.1)), SIZE, until_error=1e-9)
+    assert image.reached
+    assert image.reached.error == 0.0
+    assert image.ended == "error"
+    assert image.reached.most == 2
+
+
+def test_broken_off_and_gone_on_with(worlds: dict[str, tracer.World]) -> None:
+    """A round that is stopped between two tiles loses none, and what comes of it is the same."""
+    world = worlds["two-lights"]
+    limits = make_limits(world, records=False)
+
+    def fresh() -> Converging:
+        return Converging(world, world.view(SIZE), limits, SOBOL, adaptive=False, most=8)
+
+    whole, broken = fresh(), fresh()
+    with ThreadPoolExecutor(1) as pool:
+        for _ in whole.rounds(pool, 1):
+            pass
+        seen: list[int] = []
+        for _ in range(100):
+            try:
+                for _ in broken.rounds(pool, 1, lambda *_: seen.append(0), lambda: len(seen) % 2 == 1):
+                    pass
+                break
+            except Stopped:
+                seen.append(0)
+    assert len(seen) > 8
+    assert broken.sampled.sums.tobytes() == whole.sampled.sums.tobytes()
+    assert broken.reached._replace(seconds=0.0) == whole.reached._replace(seconds=0.0)
+
+
+def test_gains_by_hand() -> None:
+    """Of three pixels the one that moved most by its samples goes on, the others stay."""
+    sampled = Sampled(3, 1, RANDOM, adaptive=True)
+    area = Area(0, 0, 3, 1, 1, 0)
+    for count, colors in ((1, (0.5, 0.5, 0.5)), (2, (1.0, 1.1, 3.0))):
+        begun = sampled.next(64)
+        assert begun
+        sums = np.zeros((1, 3, 4))
+        sums[0, :, 0] = colors
+        sampled.take_in(area, begun.plan, sums)
+        assert (sampled.counts == count).all()
+    # Means went from 0.5 to 0.5, 0.55 and 1.5 in one component of three.
+    assert sampled.moved[0] == pytest.approx([0.0, 0.05**2 / 3, 1.0 / 3], rel=1e-12)
+    assert sampled.error == pytest.approx(math.sqrt((0.05**2 + 1.0) / 9), rel=1e-12)
+    begun = sampled.next(64)
+    assert begun
+    assert begun.plan[0, :, 1].tolist() == [2, 2, 4]
+    assert Sampled(3, 1, JITTERED, adaptive=False).next(64) is not None
+    assert AGAIN == 5.0
+
+
+@pytest.mark.parametrize(
+    ("options", "fault"),
+    (
+        ({"until_error": 0.0}, "until_error must be a number > 0, got 0.0"),
+        ({"until_seconds": math.inf}, "until_seconds must be a number > 0, got inf"),
+        ({"until_error": 1.0, "samples": 1}, "samples must be >= 2 in an image that converges, got 1"),
+        ({"until_error": 1.0, "sampler": "jittered"}, "jittered samples cannot be added to"),
+    ),
+)
+def test_faults(options: dict, fault: str, worlds: dict[str, tracer.World]) -> None:
+    with pytest.raises(ValueError, match=fault):
+        tracer.render(worlds["plates"], SIZE, **options)

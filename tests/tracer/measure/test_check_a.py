@@ -1,0 +1,85 @@
+"""`raytree check` of rays and surfaces: the cases come out, their exact answers are exact, the textbook fails."""
+
+import math
+import random
+from decimal import localcontext
+
+import pytest
+from mpmath import mp, mpf
+
+from tracer.measure.check.case import DIGITS, Case, Reading, exactly, off, run
+from tracer.measure.check.cases import faces, gaps, limbs, needless, sameness, spheres, starts
+
+CASES = [case for group in (spheres, limbs, gaps, faces, starts, sameness, needless) for case in group.CASES]
+
+# Where the textbook is to be seen failing. What is not here is a case of structure, or one where it does well.
+FAILS = ("A1", "A2", "A3", "A6", "A7", "A8", "A9", "A4", "A5", "A10", "A11")
+FAILS += ("B1", "B3", "B6", "B7", "B8", "B10", "C1", "C2", "C3", "C4", "C5", "C7", "C9", "J4")
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.id)
+def test_case_comes_out(case: Case) -> None:
+    result = run(case)
+    assert result.ok, [reading for reading in result.readings if not reading.ok]
+    assert len(case.title) <= 70
+    assert case.wrong.endswith(".")
+
+
+def test_ids_are_unique() -> None:
+    ids = [case.id for case in CASES]
+    assert len(set(ids)) == len(ids)
+
+
+@pytest.mark.parametrize("case", [case for case in CASES if case.id in FAILS], ids=lambda case: case.id)
+def test_textbook_fails_visibly_where_we_do_not(case: Case) -> None:
+    readings = [one for one in run(case).readings if one.textbook is not None]
+    ours = [off(one.got, one.exact) / (size(one) or 1.0) for one in readings]
+    assert max(one.textbook_error or 0.0 for one in readings) > max(1e-12, 1000.0 * max(ours, default=0.0))
+
+
+def size(reading: Reading) -> float:
+    return 0.0 if isinstance(reading.exact, str) else abs(float(reading.exact))
+
+
+def test_textbook_does_fail_in_ten_cases_and_more() -> None:
+    assert len(FAILS) >= 10
+    assert set(FAILS) <= {case.id for case in CASES}
+
+
+def test_words_and_counts_leave_no_room() -> None:
+    assert exactly("", "hit", "hit").ok
+    assert exactly("", 4, 4.0).ok
+    assert not exactly("", "hit", "miss").ok
+    assert not exactly("", 4, 5).ok
+    assert exactly("", 4, 5).error == math.inf
+
+
+def test_roots_have_fifty_digits() -> None:
+    chance = random.Random(7)
+    with mp.workdps(80), localcontext(DIGITS):
+        for _ in range(100):
+            radius = 10.0 ** chance.uniform(-3, 9)
+            center = [radius * chance.uniform(-1, 1) for _ in range(3)]
+            aim = [chance.uniform(-1, 1) for _ in range(3)]
+            on = [c + 0.5 * radius * chance.uniform(-1, 1) for c in center]
+            far = 10.0 ** chance.uniform(0, 6) * radius
+            origin = [p - far * a for p, a in zip(on, aim, strict=True)]
+            f = [mpf(o) - mpf(c) for o, c in zip(origin, center, strict=True)]
+            d = [mpf(a) for a in aim]
+            a, b = mp.fdot(d, d), mp.fdot(d, f)
+            half = mp.sqrt(b * b - a * (mp.fdot(f, f) - mpf(radius) ** 2))
+            for found, exact in zip(
+                spheres.roots(origin, aim, center, radius), ((-b - half) / a, (-b + half) / a), strict=True
+            ):
+                assert abs(mpf(str(found)) - exact) < mpf(10) ** -24 * abs(exact)
+
+
+def test_way_through_the_coat_as_snell_has_it() -> None:
+    case = next(case for case in CASES if case.id == "C1")
+    ways = [float(one.exact) for one in run(case).readings if not isinstance(one.exact, str)]
+    with mp.workdps(50):
+        for gap, way in zip((1e-3, 4e-5, 1e-6, 1e-9, 1e-12, 1e-15), ways, strict=True):
+            radius = mpf(1.0 + gap)
+            inside = mp.asin(mpf(0.2) / radius / mpf("1.5"))
+            start, beside = radius * mp.cos(inside), radius * mp.sin(inside)
+            assert abs(way / float(start - mp.sqrt(1 - beside**2)) - 1.0) < 1e-15

@@ -1,0 +1,71 @@
+"""`raytree check` as its users see it: the table, a case explained, JSON, exit status."""
+
+import json
+import math
+from dataclasses import replace
+
+import pytest
+
+from tracer.measure.check import check
+from tracer.measure.check.case import Case, Reading
+from viewer.cli import check as table
+from viewer.cli.main import main
+
+
+def test_table_has_every_case_and_a_verdict(capsysbinary: pytest.CaptureFixture) -> None:
+    assert main(["check"]) == 0
+    said = capsysbinary.readouterr().out.decode()
+    for case in check.CASES:
+        assert f"\n{case.id:4}{case.title}\n" in said
+    assert said.rstrip().splitlines()[-1].startswith(f"{len(check.CASES)} cases in ")
+    assert "FALLS SHORT" not in said
+    assert max(map(len, said.splitlines())) <= 140
+
+
+def test_json_says_what_the_table_says(capsysbinary: pytest.CaptureFixture) -> None:
+    assert main(["check", "--json"]) == 0
+    document = json.loads(capsysbinary.readouterr().out, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))
+    assert [case["id"] for case in document["cases"]] == [case.id for case in check.CASES]
+    for case in document["cases"]:
+        assert case["ok"] is True
+        assert {"id", "ok", "exact", "got", "error", "tolerance"} <= set(case)
+        assert case["error"] <= case["tolerance"]
+
+
+def test_a_case_and_a_group_can_be_asked_for(capsysbinary: pytest.CaptureFixture) -> None:
+    assert main(["check", "a3", "F", "--explain"]) == 0
+    said = capsysbinary.readouterr().out.decode()
+    for case in check.CASES:
+        assert (f"{case.id}  {case.title}" in said) == (case.id == "A3" or case.id[0] == "F")
+    (a3,) = (case for case in check.CASES if case.id == "A3")
+    assert a3.wrong.split(".")[0] in " ".join(said.split())
+    assert "R = 1e+12" in said
+
+
+def test_unknown_case_is_one_line(capsys: pytest.CaptureFixture) -> None:
+    assert main(["check", "A33"]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith('raytree check: no case "A33": did you mean A3')
+    assert len(said.splitlines()) == 1
+
+
+def test_a_case_that_falls_short_is_seen_and_told_by_the_exit_status(capsysbinary: pytest.CaptureFixture) -> None:
+    def worse(case: Case) -> Case:
+        return replace(case, read=lambda: [Reading("too far", 1, 1.0 + 1e-9, allowed=4.0, textbook=1.0)])
+
+    cases = [worse(check.CASES[0]), check.CASES[1]]
+    said: list[str] = []
+    assert table.check(cases, False, False, said.append) == 1
+    assert said[0].count("FALLS SHORT") == 1
+    assert said[0].rstrip().endswith("A1 fell short")
+    assert table.check(cases, False, True, said.append) == 1
+    assert [case["ok"] for case in json.loads(said[1])["cases"]] == [False, True]
+
+
+def test_numbers_and_words_are_judged_as_what_they_are() -> None:
+    assert Reading("", 1, 1.0 + 2.0**-52).error == 2.0
+    assert Reading("", "hit", "hit", 0.0, 0.0).ok
+    assert not Reading("", "hit", "miss", 0.0, 0.0).ok
+    assert not Reading("", 3, 4, 0.0, 0.0).ok
+    assert Reading("", 1, math.nan).error == math.inf
+    assert not Reading("", 1, math.inf).ok

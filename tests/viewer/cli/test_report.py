@@ -1,0 +1,149 @@
+"""`raytree report`: a page that needs nothing else, plots, and data; the same every time but for the times."""
+
+import csv
+import json
+import re
+import xml.etree.ElementTree as xml
+from pathlib import Path
+
+import pytest
+
+from tracer.measure.precision.stiff import PROBLEMS
+from viewer.cli import main
+from viewer.lessons import lesson
+
+ARGUMENTS = ["--quick", "--size", "16x12"]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    found = tmp_path_factory.mktemp("report") / "new"
+    assert main.main(["report", "plates", *ARGUMENTS, "-o", str(found)]) == 0
+    return found
+
+
+@pytest.fixture
+def one_plot(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of each source, for plots take longest."""
+    monkeypatch.setattr("viewer.report.command.PLOTS", (("rays", "rmse"),))
+    monkeypatch.setattr("viewer.report.command.EXACT_PLOTS", (("rays", "largest"),))
+
+
+def test_files(folder: Path) -> None:
+    plots = {
+        f"{source}-{what}.{kind}"
+        for source in ("trees", "pixels", "together")
+        for what in ("rmse-seconds", "rmse-rays", "rmse-tests", "largest-seconds", "flip-seconds")
+        for kind in ("svg", "pdf")
+    }
+    assert {path.name for path in folder.iterdir()} == plots | {"report.html", "report.csv", "report.json"}
+
+
+def test_page_needs_nothing_else(folder: Path) -> None:
+    page = (folder / "report.html").read_text("utf-8")
+    links = re.findall(r'(?:src|href)="([^"]+)"', page)
+    assert all(link.startswith("#") for link in links)
+    names = re.findall(r'\bid="([^"]+)"', page)
+    assert len(names) == len(set(names))
+    assert {link[1:] for link in links} <= set(names)
+    assert page.count("16x12 pixels") == 3
+    for words in ("Trees that are cut", "Pixels that are sampled", "Both together", "What failed", "numba"):
+        assert words in page
+
+
+def test_plots_say_what_their_axes_are(folder: Path) -> None:
+    for path in folder.glob("*.svg"):
+        text = " ".join(element.text or "" for element in xml.parse(path).iter() if element.tag.endswith("text"))
+        assert ("time (s)" in text) == path.stem.endswith("seconds")
+        assert ("rays traced" in text) == path.stem.endswith("rays")
+        assert ("tests of a ray against a surface" in text) == path.stem.endswith("tests")
+    bounds = (folder / "trees-largest-seconds.svg").read_text("utf-8")
+    assert "cut at a depth: its bound" in bounds
+
+
+def test_data_says_the_same(folder: Path) -> None:
+    rows = list(csv.DictReader((folder / "report.csv").open(encoding="utf-8")))
+    document = json.loads((folder / "report.json").read_text("utf-8"))
+    assert document["format"] == "raytree-report/1"
+    points = [p for scene in document["scenes"] for s in scene["sources"] for c in s["curves"] for p in c["points"]]
+    assert len(rows) == len(points)
+    for row, point in zip(rows, points, strict=True):
+        assert row["setting"] == point["label"]
+        assert float(row["rmse"]) == point["errors"]["rmse"]
+        assert int(row["rays"]) == point["rays"]
+
+
+def test_the_same_again_but_for_the_times(folder: Path, tmp_path: Path, one_plot: None) -> None:
+    assert main.main(["report", "plates", *ARGUMENTS, "-o", str(tmp_path)]) == 0
+
+    def timeless(path: Path) -> str:
+        return re.sub(r'"seconds": [^,\n]+', "", path.read_text("utf-8"))
+
+    assert timeless(tmp_path / "report.json") == timeless(folder / "report.json")
+    assert (tmp_path / "pixels-rmse-rays.svg").read_bytes() == (folder / "pixels-rmse-rays.svg").read_bytes()
+    assert (tmp_path / "pixels-rmse-rays.pdf").read_bytes() == (folder / "pixels-rmse-rays.pdf").read_bytes()
+
+
+def test_faults_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "file").write_text("")
+    assert main.main(["report", "no-such-lesson", "-o", str(tmp_path / "file")]) == 2
+    scene, output = capsys.readouterr().err.splitlines()
+    assert "no-such-lesson" in scene
+    assert output == f"{tmp_path}/file: must be a folder, got a file"
+    assert main.main(["report", "plates", "-o", str(tmp_path / "none" / "there")]) == 2
+    assert "folder not found" in capsys.readouterr().err
+
+
+def test_all_lessons_on_one_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, one_plot: None) -> None:
+    """Of one lesson and three stiff trees, here: a chapter for each lesson, then one for these; files say whose."""
+    monkeypatch.setattr(lesson, "names", lambda: ["plates"])
+    monkeypatch.setattr("viewer.report.command.PROBLEMS", PROBLEMS[2:])
+    assert main.main(["report", "--all", *ARGUMENTS, "-o", str(tmp_path / "all")]) == 0
+    page = (tmp_path / "all" / "report.html").read_text("utf-8")
+    assert re.findall(r'<h1 id="([^"]+)"', page) == ["plates", "stiff"]
+    links = re.findall(r'(?:src|href)="([^"]+)"', page)
+    names = re.findall(r'\bid="([^"]+)"', page)
+    assert all(link.startswith("#") for link in links)
+    assert len(names) == len(set(names))
+    assert {link[1:] for link in links} <= set(names)
+    assert "closed form: 10." in page
+    document = json.loads((tmp_path / "all" / "report.json").read_text("utf-8"))
+    assert [scene["name"] for scene in document["scenes"]] == ["plates", "stiff"]
+    assert {row["scene"] for row in csv.DictReader((tmp_path / "all" / "report.csv").open(encoding="utf-8"))} == {
+        "plates", "stiff",
+    }  # fmt: skip
+    assert (tmp_path / "all" / "plates-pixels-rmse-rays.pdf").exists()
+    assert (tmp_path / "all" / "stiff-shell-largest-rays.svg").exists()
+
+
+@pytest.mark.parametrize("given", [[], ["plates", "--all"]])
+def test_a_scene_or_all_of_them(given: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main.main(["report", *given, "-o", str(tmp_path / "new")]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("raytree report: a SCENE, or --all for every lesson and the stiff trees")
+
+
+@pytest.mark.parametrize("kind", ["nff", "ply"])
+def test_other_people_s_files(kind: str, tmp_path: Path, one_plot: None) -> None:
+    """A scene in Haines' format, and a bare mesh."""
+    path = tmp_path / f"'given' & so.{kind}"
+    if kind == "nff":
+        path.write_text(
+            "v\nfrom 0 1 6\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 64 64\nb 0.1 0.2 0.3\nl 4 6 5\n"
+            "f 1 0.9 0.7 0.5 0.5 30 0 1\ns 0 0 0 1\ns 1 1 0 0.5\n"
+        )
+    else:
+        path.write_text(
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+            "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+            "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
+        )
+    assert main.main(["report", str(path), *ARGUMENTS, "-o", str(tmp_path / "report")]) == 0
+    document = json.loads((tmp_path / "report" / "report.json").read_text("utf-8"))
+    (scene,) = document["scenes"]
+    assert scene["name"] == "'given' & so"
+    page = (tmp_path / "report" / "report.html").read_text("utf-8")
+    assert set(re.findall(r'<section id="([^"]*)"', page)) == {f"-given----so-{s['name']}" for s in scene["sources"]}
+    assert all(re.fullmatch(r"#[\w-]+", link) for link in re.findall(r"url\(([^)]*)\)", page))
+    assert [source["name"] for source in scene["sources"]][-1] == ("together" if kind == "nff" else "pixels")
+    assert all(point["tests"] > 0 for s in scene["sources"] for curve in s["curves"] for point in curve["points"])

@@ -1,0 +1,145 @@
+"""The panel of the selected ray: its formulas come out with the tree's own numbers."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+import tracer
+from tests.scenes import ball, plane, world_of
+from tracer.scene import Light, Material
+from viewer.base.wording import shown
+from viewer.explain.explain import explain, headline
+from viewer.explain.sections import Section
+
+LAMPS = [
+    Light("lamp", position=(0.0, 5.0, 2.0), color=(0.5, 0.25, 1.0)),
+    Light("low", position=(0.0, -5.0, 0.0)),
+    Light("hidden", position=(0.0, 5.0, -9.0)),
+]
+
+
+def section(sections: list[Section], title: str) -> dict[str, str]:
+    (found,) = [section for section in sections if section.title == title]
+    return {line.name: line.value for line in found.lines}
+
+
+def value(text: str) -> float:
+    return float(text.replace("−", "-").rstrip("°"))
+
+
+def values(text: str) -> list[float]:
+    return [value(part) for part in text.split("  ")]
+
+
+@pytest.fixture
+def water() -> tuple[tracer.World, tracer.RayTree]:
+    """Into water at 3-4-5: sin 0.8 outside, 0.6 inside."""
+    material = Material("water", diffuse=0.5, specular=0.5, shininess=4, reflect=0.25, transmit=0.5, ior=4 / 3)
+    stone = ball((0, 3, -5), 1)
+    world = world_of(plane((0, 0, 0), (0, 1, 0), material, "water"), stone, lights=LAMPS, background=(0.5, 0.5, 0.5))
+    return world, tracer.trace(world, ray=((0, 3, 4), (0, -0.6, -0.8)), depth=1)
+
+
+def test_snell_and_the_transmission_direction(water: tuple) -> None:
+    world, tree = water
+    sections = explain(tree, world, 0)
+    snell = section(sections, "Snell's law")
+    assert list(snell) == ["1 · sin 53.13°", "1.3333 · sin 36.87°"]
+    assert [value(text) for text in snell.values()] == [0.8, 0.8]
+    bent = section(sections, "Transmission direction")
+    assert value(bent["η = n₁/n₂"]) == 0.75
+    assert value(bent["c₁ = −v·n"]) == 0.6
+    assert value(bent["1 − η²(1 − c₁²)"]) == 0.64
+    assert value(bent["c₂ = √"]) == 0.8
+    refracted = next(i for i in range(len(tree)) if tree.kind(i) == "refraction")
+    assert values(bent["t"]) == pytest.approx(tree.nodes["direction"][refracted], abs=6e-5)
+    mirrored = section(sections, "Reflection")
+    reflected = next(i for i in range(len(tree)) if tree.kind(i) == "reflection")
+    assert values(mirrored["r"]) == pytest.approx(tree.nodes["direction"][reflected], abs=6e-5)
+    assert value(mirrored["n·v"]) == -0.6
+
+
+def test_sum_names_each_child_with_its_share(water: tuple) -> None:
+    world, tree = water
+    total = section(explain(tree, world, 0), "What it sends up")
+    parts = [np.array(values(text)) for text in total.values()]
+    assert parts[-1] == pytest.approx(tree.radiance, abs=6e-5)
+    assert sum(parts[:-1]) == pytest.approx(tree.radiance, abs=2e-4)
+    assert any(re.fullmatch(r"\+ 0.25 × ray \d+ \(R\)", name) for name in total)
+    assert any(re.fullmatch(r"\+ 0.5 × ray \d+ \(T\)", name) for name in total)
+
+
+def test_local_light_stands_light_by_light(water: tuple) -> None:
+    """One that is lit, one behind the surface, one blocked by name; together with ambient they are the local term."""
+    world, tree = water
+    local = section(explain(tree, world, 0), "Local light")
+    names = list(local)
+    assert any(name.startswith("lamp: N·L") for name in names)
+    assert any(re.fullmatch("low: N·L −[0-9.]+: faces away from it", name) for name in names)
+    assert "hidden: blocked by ball" in names
+    lit = next(name for name in names if name.startswith("lamp: N·L"))
+    # What is said is enough to work the share out by hand.
+    _, kd, ks, p = values(local["ka  kd  ks  p"])
+    n_l, r_v = (float(x) for x in re.findall(r"[0-9.]+", lit))
+    color, light = np.array(values(local["colour C"])), np.array(values(local["lamp: L"]))
+    assert values(local[lit]) == pytest.approx(light * (kd * color * n_l + ks * r_v**p), abs=2e-3)
+    assert values(local[lit]) == pytest.approx(values(local["local"]), abs=1e-4)
+    assert values(local["local"]) == pytest.approx(tree.nodes["local"][0], abs=6e-5)
+
+
+def test_shadow_ray_shows_its_lights_formula(water: tuple) -> None:
+    world, tree = water
+    i = next(i for i in range(len(tree)) if tree.light_name(i) == "lamp")
+    light = section(explain(tree, world, i), "Light from lamp")
+    n_l = 5 / math.hypot(5, 2 - 0)  # the hit is at the origin
+    point = tree.nodes["point"][0]
+    to_light = np.subtract((0.0, 5.0, 2.0), point)
+    n_l = to_light[1] / np.linalg.norm(to_light)
+    assert value(light["N·L"]) == pytest.approx(n_l, rel=1e-4, abs=0.0)
+    assert values(light["kd C (N·L)"]) == pytest.approx([0.5 * n_l] * 3, abs=6e-5)
+    share = np.array((0.5, 0.25, 1.0)) * (0.5 * n_l + value(light["ks (R·V)ᵖ, p = 4"]))
+    assert values(light["share"]) == pytest.approx(share, abs=2e-4)
+    assert headline(tree, i)[1] == "from water to lamp: nothing in its way"
+
+
+def test_total_internal_reflection_shows_the_number_that_decides() -> None:
+    material = Material("water", transmit=1.0, ior=1.33)
+    world = world_of(plane((0, 0, 0), (0, 1, 0), material, "water"))
+    a = math.radians(60)
+    tree = tracer.trace(world, ray=((0, -1, 0), (math.sin(a), math.cos(a), 0)), depth=1)
+    sections = explain(tree, world, 0)
+    critical = section(sections, "Critical angle")
+    assert critical["asin(1 / 1.33)"] == "48.75°"
+    assert critical["θ₁ = 60.00°"] == "beyond it: total internal reflection"
+    decided = section(sections, "Transmission direction")
+    assert value(decided["1 − η²(1 − c₁²)"]) == pytest.approx(1 - (1.33 * math.sin(a)) ** 2, rel=1e-4, abs=0.0)
+    assert decided["η²(1 − c₁²)"].endswith("≥ 1: total internal reflection")
+    assert section(sections, "Snell's law")["sin θ₂ would be"].endswith("> 1")
+    assert headline(tree, 1)[0] == "Total internal reflection 1"
+
+
+def test_fresnel_shares_are_those_of_the_children() -> None:
+    material = Material("glass", reflect=0.1, transmit=0.8, ior=1.5)
+    world = world_of(plane((0, 0, 0), (0, 1, 0), material, "glass"), model="fresnel")
+    tree = tracer.trace(world, ray=((0, 1, 0), (1, -1, 0)), depth=1)
+    shares = section(explain(tree, world, 0), "Fresnel")
+    assert value(shares["kr + kt R"]) == pytest.approx(tree.nodes["factor"][1][0], rel=1e-4, abs=0.0)
+    assert value(shares["kt T"]) == pytest.approx(tree.nodes["factor"][2][0], rel=1e-4, abs=0.0)
+
+
+def test_every_ray_of_every_lesson_can_be_explained(world: tracer.World) -> None:
+    for pixel in ((400, 300), (300, 200), (560, 330), (452, 455), (10, 10)):
+        for model in ("whitted", "fresnel"):
+            tree = tracer.trace(world, pixel, depth=3, model=model)
+            for i in range(len(tree)):
+                sections = explain(tree, world, i)
+                assert [part.title for part in sections].count("Numbers") == 1
+                for part in sections:
+                    for line in part.lines:
+                        assert "nan" not in line.value and "inf" not in line.value, (part.title, line)
+
+
+def test_numbers_are_written_for_people() -> None:
+    assert [shown(x) for x in (1.0, -0.5, 1 / 3, 1e-9, math.nan)] == ["1", "−0.5", "0.33333", "1e−09", "–"]

@@ -1,0 +1,96 @@
+"""The lessons: each opens, each shows at its pixel what it says it shows."""
+
+import itertools
+from pathlib import Path
+
+import pytest
+
+import tracer
+from tests.conftest import LESSONS
+from viewer.base.files import Unusable
+from viewer.lessons import lesson
+
+
+@pytest.mark.parametrize("name", LESSONS)
+def test_lesson_is_complete(name: str) -> None:
+    found = lesson.read(name)
+    assert found.title and len(found.text) > 300
+    scene = tracer.load(found.scene)
+    assert scene.title
+    assert found.pixel
+    assert found.pixel[0] < scene.image.width and found.pixel[1] < scene.image.height
+
+
+def test_order_of_the_lessons_is_that_of_the_lecture() -> None:
+    assert LESSONS == ["mirror-balls", "glass-ball", "underwater", "two-lights", "scale", "drop", "plates", "panes"]
+
+
+def opened(name: str, worlds: dict[str, tracer.World]) -> tracer.RayTree:
+    found = lesson.read(name)
+    return tracer.trace(worlds[name], found.pixel, depth=found.depth)
+
+
+def test_mirror_balls_add_something_at_every_depth(worlds: dict[str, tracer.World]) -> None:
+    found = lesson.read("mirror-balls")
+    colors = [tracer.trace(worlds["mirror-balls"], found.pixel, depth=depth).radiance for depth in range(4)]
+    for shallow, deep in itertools.pairwise(colors):
+        assert abs(deep - shallow).max() > 0.05
+
+
+def test_glass_ball_is_entered_and_left_for_the_table(worlds: dict[str, tracer.World]) -> None:
+    tree = opened("glass-ball", worlds)
+    inside = next(i for i in tree.children[0] if tree.kind(i) == "refraction")
+    out = next(i for i in tree.children[inside] if tree.kind(i) == "refraction")
+    assert [tree.object_name(i) for i in (0, inside, out)] == ["glass ball", "glass ball", "table"]
+    assert tree.nodes["n1"][inside] == 1.52
+
+
+def test_cut_stone_holds_light_by_total_internal_reflection(worlds: dict[str, tracer.World]) -> None:
+    kinds = set()
+    for x in range(560, 680, 8):
+        tree = tracer.trace(worlds["glass-ball"], (x, 320), depth=4)
+        if tree.object_name(0) == "cut stone":
+            kinds |= {tree.kind(i) for i in range(len(tree))}
+    assert "tir" in kinds
+
+
+def test_water_is_beyond_the_critical_angle(worlds: dict[str, tracer.World]) -> None:
+    tree = opened("underwater", worlds)
+    assert tree.object_name(0) == "water"
+    assert tree.nodes["n1"][0] == 1.33
+    assert tree.nodes["radicand"][0] < 0.0
+    assert tree.kind(tree.children[0][-1]) == "tir"
+
+
+def test_floor_under_the_table_sees_no_light(worlds: dict[str, tracer.World]) -> None:
+    tree = opened("two-lights", worlds)
+    assert tree.object_name(0) == "floor"
+    shadows = [i for i in tree.children[0] if tree.kind(i) == "shadow"]
+    assert [tree.end(i) for i in shadows] == ["blocked", "blocked"]
+    found = set()
+    for x in range(200, 600, 10):
+        floor = tracer.trace(worlds["two-lights"], (x, 470), depth=0)
+        found.add(tuple((floor.light_name(i), floor.end(i)) for i in floor.children[0]))
+    for pair in ((("lamp", "lit"), ("window", "blocked")), (("lamp", "blocked"), ("window", "lit"))):
+        assert pair in found, "a pixel that sees only one of the lights"
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("no data", "a lesson begins with its data"),
+        ("+++\ntitle = \n+++\nx", "not TOML"),
+        ("+++\nscene = 'scene.toml'\n+++\nx", "title is missing"),
+        ("+++\ntitle = 'x'\npixle = [1, 2]\n+++\nx", 'unknown key "pixle" (did you mean "pixel"?)'),
+        ("+++\ntitle = 'x'\npixel = [1, -2]\n+++\nx", "pixel must be two whole numbers"),
+        ("+++\ntitle = 'x'\n[view]\nelevation = 95\n+++\nx", "elevation must be > -90 and < 90, got 95"),
+    ],
+)
+def test_faults_of_a_lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, said: str) -> None:
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "lesson.md").write_text(text)
+    (tmp_path / "ORDER").write_text("")
+    monkeypatch.setattr(lesson, "folder", lambda: tmp_path)
+    with pytest.raises(Unusable) as caught:
+        lesson.read("mine")
+    assert any(said in fault for fault in caught.value.faults)

@@ -1,0 +1,123 @@
+"""Ctrl+S in the window: the figure of what is on show, and the command line that makes the same bytes again."""
+
+import os
+import shlex
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from imgui_bundle import imgui
+
+import tracer
+from tests.viewer.driver import Driver, viewer
+from viewer.cli import main
+from viewer.session.figure_export import FIGURES, TakeHome, free
+
+
+@pytest.fixture
+def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Driver]:
+    monkeypatch.chdir(tmp_path)
+    with viewer() as driver:
+        yield driver
+
+
+def press_save(room: Driver) -> None:
+    """And wait for what comes of it, however it ends."""
+    room.press(imgui.Key.mod_ctrl, imgui.Key.s)
+    if room.session.takehome.making:
+        room.session.takehome.making.exception()
+    room.frames()
+    assert room.session.takehome.making is None
+
+
+def save(room: Driver) -> Path:
+    """Press Ctrl+S; the file that comes of it."""
+    before = set(Path().iterdir())
+    press_save(room)
+    (path,) = set(Path().iterdir()) - before
+    return path
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_the_command_line_makes_the_same_file(room: Driver, figure: str, tmp_path: Path) -> None:
+    room.open("glass-ball")
+    room.session.orbit.turn(0.3, 0.1)
+    room.type("2")
+    room.session.takehome.figure = figure
+    if figure == "hit":
+        room.session.select(4)
+    path = save(room)
+    assert path.name == f"glass-ball_248_180_{figure}_d2.svg"
+    assert f"wrote {path.resolve()}" in room.session.notice.text
+    command = shlex.split(room.session.takehome.command)
+    assert command[0] == "raytree"
+    assert main.main([*command[1:], "-o", "again.svg"]) == 0
+    assert Path("again.svg").read_bytes() == path.read_bytes()
+
+
+def test_an_earlier_figure_is_never_lost(room: Driver) -> None:
+    room.open("mirror-balls")
+    first, second = save(room), save(room)
+    assert second.name == first.with_stem(f"{first.stem}-2").name
+    assert first.read_bytes() == second.read_bytes()
+    assert free(first).name == f"{first.stem}-3.svg"
+
+
+def test_without_a_clipboard_that_is_said() -> None:
+    """In a process of its own: the library asks for a screen once. With one: tests/viewer/window/test_window.py."""
+    code = "from viewer.session.figure_export import put_into_clipboard; put_into_clipboard('words')"
+    bare = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    run = subprocess.run([sys.executable, "-c", code], env=bare, capture_output=True, text=True)
+    said = run.stderr.strip().splitlines()[-1]
+    assert said.startswith("viewer.base.files.Unusable: nothing can be copied here: ")
+    assert said.endswith("; Ctrl+S writes the figure into a file")
+
+
+def test_the_choice_is_kept(room: Driver, tmp_path: Path) -> None:
+    """From one start to the next; what is no choice of ours counts as none."""
+    kept = tmp_path / "kept" / "figure.json"
+    kept.parent.mkdir()
+    room.open("mirror-balls")
+    mine = room.session.takehome
+    mine.remember(kept)
+    mine.figure, mine.format, mine.theme = "tree", "tikz", "mono"
+    save(room)
+    later = TakeHome()
+    later.remember(kept)
+    assert (later.figure, later.format, later.theme) == ("tree", "tikz", "mono")
+    for text in ("", "[]", '{"figure": "cake"}', '{"figure": "cake", "format": "svg", "theme": ""}'):
+        kept.write_text(text)
+        fresh = TakeHome()
+        fresh.remember(kept)
+        assert (fresh.figure, fresh.format, fresh.theme) == ("both", "svg", "")
+
+
+def test_without_a_pixel_there_is_nothing_to_export(room: Driver, tmp_path: Path) -> None:
+    room.open("mirror-balls")
+    room.session.clear()
+    room.session.clear()
+    press_save(room)
+    assert room.session.notice.text == "nothing to export yet: pick a pixel"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_hit_that_is_none_is_said(room: Driver, tmp_path: Path) -> None:
+    """The selected ray leaves the scene: there is no hit to show."""
+    room.open("glass-ball")
+    tree = room.session.tree
+    assert tree
+    room.session.select(next(i for i in range(len(tree)) if tree.end(i) == "background"))
+    room.session.takehome.figure = "hit"
+    press_save(room)
+    assert room.session.faults == ["--node 3 must be a ray that meets a surface: E, T4, R7, T8, R13, T14"]
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_notebooks_show_the_figure(worlds: dict[str, tracer.World]) -> None:
+    tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=2)
+    text = tree._repr_svg_()
+    assert text is not None
+    assert text.startswith("<?xml")
+    assert "glass ball" in text

@@ -1,0 +1,1 @@
+"""The bounding volume hierarchy (BVH): its construction by the surface area heuristic, and its traversal."""

@@ -1,0 +1,51 @@
+"""Local illumination: what a point sends towards the eye by itself, before any ray is followed.
+
+Whitted's model with Phong's highlight (CACM 23(6), 1980; the slides' "Ray Tracing" and "Reflection direction for Phong
+model"): I = ambient ka C + sum over the lights of L (kd C (N.L) + ks (R.V)^p), C the surface's colour there.
+Every light counts only as far as its shadow ray gets through.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from tracer.compile.jit import compiled
+from tracer.formulas.vector import Vector, add, dot, multiply, negate, scale, subtract, vector
+
+
+@compiled
+def ambient(material: Any, color: Vector, world_ambient: Vector) -> Vector:
+    """ambient * ka * C."""
+    return scale(material.ambient, multiply(world_ambient, color))
+
+
+@compiled
+def phong(material: Any, color: Vector, light: Vector, n: Vector, to_light: Vector, v: Vector) -> Vector:
+    """L (kd C (N.L) + ks (R.V)^p): one unshadowed light's share; `to_light` a unit vector with N.L > 0, v the ray."""
+    n_l = dot(n, to_light)
+    r = subtract(scale(2.0 * n_l, n), to_light)
+    r_v = dot(r, negate(v))
+    share = scale(material.diffuse * n_l, color)
+    if material.specular > 0.0 and r_v > 0.0:
+        highlight = material.specular * math.pow(r_v, material.shininess)
+        share = add(share, (highlight, highlight, highlight))
+    return multiply(light, share)
+
+
+@compiled
+def surface_color(material: Any, surface: Any, point: Vector) -> Vector:
+    """C: the material's colour, or its checker's second one where the squares' indices add up to an odd number.
+
+    Squares lie along the surface's own two axes on planes, polygons and discs (`surface.tiled`), cubes along the
+    world's three axes elsewhere.
+    """
+    size = material.checker_size
+    if size > 0.0:
+        if surface.tiled:
+            cells = np.floor(dot(vector(surface.u), point) / size) + np.floor(dot(vector(surface.v), point) / size)
+        else:
+            cells = np.floor(point[0] / size) + np.floor(point[1] / size) + np.floor(point[2] / size)
+        if cells - 2.0 * np.floor(0.5 * cells) != 0.0:
+            return vector(material.checker_color)
+    return vector(material.color)

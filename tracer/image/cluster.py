@@ -1,0 +1,198 @@
+"""Rendering past one machine: a Dask cluster as an Executor (https://distributed.dask.org).
+
+    with tracer.cluster.connect("tcp://host:8786") as cluster:
+        image = tracer.render(world, executor=cluster)
+
+The world is sent once and passed on from worker to worker. It is a call's result, not scattered data, so that the
+scheduler has it made anew where the workers that held it are lost; tiles of a killed worker are traced by another.
+"""
+
+import asyncio
+import contextlib
+import logging
+import re
+import time
+import warnings
+from collections.abc import Callable, Iterator
+from concurrent.futures import CancelledError, Future
+from typing import Any
+
+from tracer.compile.jit import machine, versions
+from tracer.image.job import Mismatch, Remote, Task, difference
+from tracer.image.render import warm
+
+CONNECTING = 5  # seconds for the scheduler to answer
+WAITING = 120.0  # seconds for a first worker to appear
+LOOKING = 5.0  # seconds between looks for more workers
+RETRIES = 3  # of a call that failed
+SCHEMES = ("tcp", "tls", "ws", "wss", "ucx")
+LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")  # which Dask sets one by one
+LARGEST = "8 GiB"  # of a world that is sent without Dask's advice to send it otherwise
+
+
+class ClusterError(RuntimeError):
+    """A cluster that cannot be used, or was lost: one line a fault."""
+
+    def __init__(self, *faults: str) -> None:
+        super().__init__("\n".join(faults))
+        self.faults = faults
+
+
+class Cluster(Remote):
+    """A Dask client as an executor of tiles."""
+
+    def __init__(self, client: Any) -> None:
+        self.client = client
+        self.look()
+        self.inner = client.get_executor(pure=False, retries=RETRIES)
+        self.abandoned = abandoned
+
+    def share(self, task: Task) -> Any:
+        from dask.config import set as settings
+
+        with settings({"distributed.admin.large-graph-warning-threshold": LARGEST}):
+            return self.client.submit(received, task, pure=False)
+
+    def look(self) -> None:
+        """How many threads there are by now."""
+        self.threads = sum(self.client.nthreads().values())
+        self.looked = time.monotonic()
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **options: Any) -> Future:
+        if time.monotonic() - self.looked > LOOKING:
+            self.look()
+        return self.inner.submit(fn, *args, **options)
+
+
+def received(task: Task) -> Task:
+    """On a worker: what it was sent, as a result that it can pass on."""
+    return task
+
+
+def abandoned() -> bool:
+    """On a worker: ends the call that asks where it was cancelled, for its thread cannot be stopped from outside.
+
+    By an exception: half a result must not pass as one.
+    """
+    import distributed.worker as dask
+
+    state: Any = dask  # which names the call of a thread without listing that in its interface
+    task = dask.get_worker().state.tasks.get(state.thread_state.key)
+    if task is not None and task.state == "cancelled":
+        raise CancelledError
+    return False
+
+
+@contextlib.contextmanager
+def connect(
+    address: str,
+    say: Callable[[str], None] = lambda doing: None,
+    note: Callable[[str], None] = lambda line: None,
+    waiting: float = WAITING,
+) -> Iterator[Cluster]:
+    """The cluster at a scheduler's address. ClusterError where there is none, or its workers are not as we are.
+
+    `say` is told what is being done; `note` of what may surprise: that there is no worker yet, that last bits may
+    differ. When the context is left, calls that still run are cancelled.
+    """
+    address = checked(address)
+    try:
+        from distributed import Client, KilledWorker
+        from distributed.comm.core import CommClosedError
+    except ImportError:
+        raise ClusterError('a cluster needs the extra "dask": python -m pip install "raytree[dask]"') from None
+    say(f"connect to {address}")
+    with contextlib.ExitStack() as stack:
+        stack.enter_context(quiet())
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of Dask's versions; ours are compared below
+                client: Any = Client(address, timeout=CONNECTING, set_as_default=False)
+        except (OSError, ValueError, TypeError) as error:
+            raise ClusterError(f"{address}: no Dask scheduler answers: {_line(error)}") from None
+        stack.callback(client.close, timeout=2)
+        try:
+            if not client.nthreads():
+                note(f"{address} has no worker yet: waiting for one, at most {waiting:g} s")
+                say("wait for a worker")
+                wait_for_worker(client, address, waiting)
+            for line in compare(client):
+                note(line)
+            say("prepare the tracer on the cluster, the first time in about twenty seconds")
+            warm_up(client)
+            yield Cluster(client)
+        except Mismatch as error:
+            raise ClusterError(f"{address}: a worker that came later has {error}") from None
+        except KilledWorker as error:
+            raise ClusterError(f"{address}: one worker after the other was killed at it: {_line(error)}") from None
+        except (CancelledError, asyncio.CancelledError, CommClosedError, TimeoutError) as error:
+            raise ClusterError(f"{address}: the scheduler was lost: {_line(error)}") from None
+        except OSError as error:  # of a connection, or of whatever else is done in this context
+            if address not in str(error):
+                raise
+            raise ClusterError(f"{address}: the scheduler was lost: {_line(error)}") from None
+
+
+@contextlib.contextmanager
+def quiet() -> Iterator[None]:
+    """What Dask would log comes back as our one line."""
+    loggers = [logging.getLogger(name) for name in LOGGERS]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
+
+
+def wait_for_worker(client: Any, address: str, waiting: float) -> None:
+    try:
+        client.wait_for_workers(1, timeout=waiting)
+    except TimeoutError:
+        raise ClusterError(f"{address}: no worker came within {waiting:g} s") from None
+
+
+def compare(client: Any) -> list[str]:
+    """Notes on workers whose last bits may differ from ours. ClusterError for workers of other versions."""
+    faults: dict[str, list[str]] = {}
+    notes: dict[str, list[str]] = {}
+    for worker, found in sorted(client.run(described, on_error="return").items()):
+        if not isinstance(found, tuple):
+            faults.setdefault(f"no raytree like this one: {_line(found)}", []).append(worker)
+            continue
+        for ours, theirs, lines in zip(described(), found, (faults, notes), strict=True):
+            if text := difference(ours, theirs):
+                lines.setdefault(text, []).append(worker)
+    if faults:
+        raise ClusterError(*(f"{_several(workers)} has {text}" for text, workers in faults.items()))
+    return [f"{_several(workers)} has {text}: last bits may differ" for text, workers in notes.items()]
+
+
+def described() -> tuple[dict[str, str], dict[str, str]]:
+    """On a worker: what has to be the same there and here, and what had better be."""
+    return versions(), machine()
+
+
+def warm_up(client: Any) -> None:
+    """Let one worker of each machine compile the kernels, for the others there to load."""
+    first = {re.sub(r":\d+$", "", worker): worker for worker in client.nthreads()}
+    options = {"allow_other_workers": True, "retries": RETRIES, "pure": False}
+    client.gather([client.submit(warm, workers=[worker], **options) for worker in first.values()])
+
+
+def checked(address: str) -> str:
+    """With its protocol, tcp where none is given."""
+    found = re.fullmatch(r"(?:(\w+)://)?([^\s/]+:\d+)", address)
+    if not found or (found[1] or "tcp") not in SCHEMES:
+        raise ClusterError(f'a cluster\'s address must be like tcp://host:8786, got "{address}"')
+    return f"{found[1] or 'tcp'}://{found[2]}"
+
+
+def _several(workers: list[str]) -> str:
+    return f"worker {workers[0]}" + (f" (as {len(workers) - 1} more)" if len(workers) > 1 else "")
+
+
+def _line(error: BaseException) -> str:
+    return " ".join(str(error).split())[:200] or type(error).__name__

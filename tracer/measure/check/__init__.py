@@ -1,0 +1,1 @@
+"""`raytree check`: cases with exact answers, beside the textbook's formulas."""

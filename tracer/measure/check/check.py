@@ -1,0 +1,97 @@
+"""All cases of `raytree check`, group by group, and how they come out."""
+
+from collections.abc import Callable, Sequence
+from decimal import Decimal
+from fractions import Fraction
+from types import ModuleType
+from typing import Any
+
+from tracer.measure.check.case import Case, Result, run
+from tracer.measure.check.cases import (
+    bending,
+    chains,
+    faces,
+    gaps,
+    lenses,
+    limbs,
+    media,
+    needless,
+    plates,
+    sameness,
+    spheres,
+    starts,
+)
+
+GROUPS: tuple[ModuleType, ...] = (
+    spheres, limbs, gaps, faces, starts, bending, chains, plates, lenses, media, sameness, needless,
+)  # fmt: skip
+
+# What the cases' letters stand for.
+TOPICS = {
+    "A": "spheres",
+    "B": "flat faces, meshes and boxes",
+    "C": "where rays start, and how large a scene is",
+    "D": "bending at a surface",
+    "E": "long chains of bounces",
+    "F": "trees that branch without end",
+    "G": "geometrical optics",
+    "H": "one medium in another",
+    "I": "shadows and mirrors",
+    "J": "sameness, and input that is none",
+    "L": "nothing traced that a scene does not need",
+}
+
+CASES: tuple[Case, ...] = tuple(
+    sorted((case for group in GROUPS for case in group.CASES), key=lambda case: (case.id[0], int(case.id[1:])))
+)
+
+
+def run_all(cases: Sequence[Case] = CASES, progress: Callable[[float], None] = lambda share: None) -> list[Result]:
+    """Every case's result; `progress` gets the finished share."""
+    results = []
+    for case in cases:
+        results.append(run(case))
+        progress(len(results) / len(cases))
+    return results
+
+
+def to_dict(results: Sequence[Result]) -> dict[str, Any]:
+    """As JSON has it: of each case the reading that comes nearest to what is allowed, and all of them below."""
+    return {"cases": [_case(result) for result in results]}
+
+
+def _case(result: Result) -> dict[str, Any]:
+    worst = result.worst
+    return {
+        "id": result.case.id,
+        "ok": result.ok,
+        "exact": plain(worst.exact),
+        "got": plain(worst.got),
+        "error": finite(worst.error),
+        "tolerance": worst.allowed,
+        "title": result.case.title,
+        "readings": [
+            {
+                "setting": reading.setting,
+                "exact": plain(reading.exact),
+                "got": plain(reading.got),
+                "textbook": plain(reading.textbook),
+                "error": finite(reading.error),
+                "unit": reading.unit,
+                "tolerance": reading.allowed,
+                "ok": reading.ok,
+            }
+            for reading in result.readings
+        ],
+    }
+
+
+def plain(value: Any) -> Any:
+    """A number or a word for JSON, which has no infinity."""
+    if isinstance(value, Decimal | Fraction):
+        return float(value)
+    return finite(value) if isinstance(value, float) else value
+
+
+def finite(value: float) -> float | None:
+    return value if abs(value) < float("inf") else None

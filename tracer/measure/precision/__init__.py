@@ -1,0 +1,1 @@
+"""`raytree report`: error against run time, for each source of error."""

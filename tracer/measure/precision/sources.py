@@ -1,0 +1,253 @@
+"""Where an image's error comes from, one source by itself at a time: trees that are cut, pixels that are sampled.
+
+A tree cut at a depth, at the weight of a ray, or when what is left weighs too little in sum, is judged at the pixels'
+centres against trees followed to almost nothing. Samples are judged at the scene's own depth, against an image of very
+many of another sampler. Together: both, each setting finer in both.
+"""
+
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from tracer.image.render import Image, render
+from tracer.kernel.world import World
+from tracer.measure.precision.errors import NOTHING, errors
+from tracer.measure.precision.otherkernel import images
+from tracer.measure.precision.plain import KINDS
+from tracer.measure.precision.precision import (
+    Curve,
+    Maker,
+    Method,
+    Reference,
+    Setting,
+    Source,
+    all_measured,
+    counted,
+    cuts,
+    point_of,
+)
+from tracer.scene import Scene
+
+PATIENCE = 6.0  # seconds that an image taken for true may take
+PROBE = 12  # pixels across, of the image that tells how long others take
+DEEP = 1000  # levels: where it is a weight that cuts, no depth does
+TRUE = 1e-9  # of the weight, that the trees taken for true lack at most
+FAINT = 1e-4  # the same of a ray, where samples blur what is lost by more
+MOST_NODES = 20_000  # rays of them, where weights hardly fall
+
+Size = tuple[int, int]
+Progress = Callable[[float], None]
+How = Mapping[str, Any]  # what `render` is asked, but for the world and the size
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How far settings go."""
+
+    depths: Sequence[int]
+    weights: Sequence[float]
+    tolerances: Sequence[float]
+    samples: Sequence[int]
+    true_samples: int  # a square
+    errors: Sequence[float]  # to be reached by samples where the error is
+    kernels: bool = False  # whether others are compiled: the first time that takes a minute
+
+
+FULL = Effort(tuple(range(9)), tuple(10.0**-k for k in range(1, 7)), tuple(10.0**-k for k in range(1, 7)),
+              (1, 4, 16, 64, 256), 4096, (0.03, 0.01, 0.003, 0.001, 0.0005), True)  # fmt: skip
+QUICK = Effort(
+    tuple(range(6)), (1e-1, 1e-2, 1e-3, 1e-4), (1e-1, 1e-2, 1e-3, 1e-4), (1, 4, 16, 64), 576, (0.03, 0.01, 0.003)
+)
+
+
+def left_out(scene: Scene, effort: Effort) -> list[str]:
+    """Sources of error that this scene has not, and those that the tracer has not, with the reason."""
+    found = ["soft lights, glossy mirrors, lens: every light is a point, every mirror is smooth, the eye is a pinhole"]
+    found.append("wavelengths: every index is one number")
+    if not effort.kernels:
+        found.append("kernels in other precision: they would have to be compiled; a report without --quick has them")
+    if not _branches(scene):
+        found.append("trees that are cut: no surface reflects or transmits, every tree is its camera ray")
+    return found
+
+
+def _branches(scene: Scene) -> bool:
+    return any(item.material.reflect > 0.0 or item.material.transmit > 0.0 for item in scene.objects)
+
+
+def affordable(world: World, size: Size, how: How) -> Size:
+    """This size, or a smaller one of that shape, so that such an image takes no longer than PATIENCE."""
+    probe = (min(size[0], PROBE), max(1, min(size[0], PROBE) * size[1] // size[0]))
+    began = time.perf_counter()
+    render(world, probe, **how)
+    each = (time.perf_counter() - began) / (probe[0] * probe[1])
+    share = min(1.0, math.sqrt(PATIENCE / (each * size[0] * size[1])))
+    return max(1, round(share * size[0])), max(1, round(share * size[1]))
+
+
+@dataclass(frozen=True)
+class Study:
+    """How a source of error is measured: against what, and the settings of each method."""
+
+    name: str
+    title: str
+    about: str
+    true: How  # of the image that is taken for the truth
+    second: How  # another way to make it
+    said: Callable[[Image], str]  # what is said of the two
+    methods: Callable[[Maker], Sequence[Method]]  # of how images are made
+    bounded: bool = False  # whether what the program says is missing bounds this error
+
+    def run(self, world: World, size: Size, step: Callable[[], None]) -> Source:
+        """`step` is told of every image that is taken for true and of every setting."""
+        true = render(world, size, **self.true)
+        step()
+        second = render(world, size, **self.second)
+        step()
+        reference = Reference(true.pixels, self.said(true), errors(second.pixels, true.pixels))
+        curves, failures = all_measured(self.methods(_maker(world, size)), reference, step)
+        return Source(self.name, self.title, self.about, reference, curves, failures, self.bounded)
+
+    def steps(self, world: World) -> int:
+        return 2 + sum(len(method.settings) for method in self.methods(_maker(world, (1, 1))))
+
+
+def _maker(world: World, size: Size) -> Maker:
+    return lambda **how: partial(render, world, size, **how)
+
+
+def sources(
+    world: World, size: Size, effort: Effort, progress: Progress = lambda share: None, smaller: bool = False
+) -> list[Source]:
+    """Every source of error that this scene has, measured on images of that size; `progress` gets the share done.
+
+    `smaller`: where what is taken for true would take too long, images are smaller.
+    """
+    kinds = [trees_cut, pixels_sampled, both_together] if _branches(world.scene) else [pixels_sampled]
+    studies = [kind(effort) for kind in kinds]
+    total = sum(study.steps(world) for study in studies) + (len(KINDS) if effort.kernels else 0)
+    step = counted(total, progress)
+    found = [study.run(world, affordable(world, size, study.true) if smaller else size, step) for study in studies]
+    return [*found, kernels(world, size, step)] if effort.kernels else found
+
+
+def kernels(world: World, size: Size, step: Callable[[], None]) -> Source:
+    """The textbook's formulas in double and in single precision, depth by depth, each judged by this kernel's image."""
+    depths = range(max(world.scene.tracing.depth, 3) + 1)
+    ours = [render(world, size, depth=depth).pixels for depth in depths]
+    curves, failures, own = [], [], NOTHING
+    for kind in KINDS:
+        name = f"textbook, {kind} precision"
+        try:
+            found = images(kind, world.scene, size, depths)
+        except RuntimeError as error:
+            failures.append(f"{name}: {error}")
+            continue
+        finally:
+            step()
+        points = [
+            point_of(f"depth {depth}", depth, image, least, true)
+            for depth, (image, least), true in zip(depths, found, ours, strict=True)
+        ]
+        curves.append(Curve(name, tuple(points), None, None))
+        own = points[-1].errors if kind == "double" else own
+    how = "this program's own kernel at each depth, stable formulas in double precision. The second way: the textbook's"
+    return Source(
+        "kernels",
+        "Kernels in single and double precision",
+        "What rounding does to the whole image: the same trees by the textbook's formulas, with 53 and with 24 bits. "
+        "Edges move by less than a pixel, so what is off is mostly a few samples at edges, and all that is close.",
+        Reference(ours[-1], how, own),
+        tuple(curves),
+        tuple(failures),
+    )
+
+
+def trees_cut(effort: Effort) -> Study:
+    def said(true: Image) -> str:
+        missing = (
+            f"at most {true.bound:.1e}"
+            if math.isfinite(true.bound)
+            else "bounded by nothing, for light may add up without end"
+        )
+        return (
+            f"trees followed, the heaviest ray first, until what is left weighs {TRUE:g} in sum or they have "
+            f"{MOST_NODES} rays: what is missing is {missing}. The second way is level by level, up to {DEEP} levels"
+        )
+
+    def methods(made: Maker) -> Sequence[Method]:
+        return cuts(made, effort.depths, effort.weights, effort.tolerances, DEEP, max_nodes=MOST_NODES)
+
+    return Study(
+        "trees",
+        "Trees that are cut",
+        "What the image lacks where rays are not followed on. Pixels are traced at their centres.",
+        {"tolerance": TRUE, "max_nodes": MOST_NODES},
+        {"depth": DEEP, "min_weight": TRUE, "max_nodes": MOST_NODES},
+        said,
+        methods,
+        bounded=True,
+    )
+
+
+def pixels_sampled(effort: Effort) -> Study:
+    kinds = (("at random", "random", -0.5), ("jittered", "jittered", -0.75), ("evenly (Sobol)", "sobol", -0.75))
+
+    def methods(made: Maker) -> Sequence[Method]:
+        found = [
+            Method(label, [Setting(_many(n), n, made(samples=n, sampler=sampler)) for n in effort.samples], slope)
+            for label, sampler, slope in kinds
+        ]
+        settings = [Setting(f"error {e:g}", e, made(until_error=e)) for e in effort.errors]
+        return [*found, Method("where the error is", settings)]
+
+    how = f"{effort.true_samples} samples a pixel that fill it evenly (Sobol's). The second way is as many, jittered"
+    true = {"samples": effort.true_samples}
+    return Study(
+        "pixels",
+        "Pixels that are sampled",
+        "What the mean of a pixel's samples is off. Where a pixel has an edge in it, theory has N^-1/2 for samples at "
+        "random and N^-3/4 for jittered ones; smooth pixels do better than that. Where the error is: more samples only "
+        "for pixels that still change, until the image's error is estimated as what was asked for. The scene's own "
+        "depth.",
+        true,
+        {**true, "sampler": "jittered"},
+        lambda _: how,
+        methods,
+    )
+
+
+def both_together(effort: Effort) -> Study:
+    def methods(made: Maker) -> Sequence[Method]:
+        settings = [
+            Setting(f"depth {d}, {_many(n)}", n, made(samples=n, depth=d))
+            for d, n in zip((1, 2, 3, 4, 6), effort.samples, strict=False)
+        ]
+        both = [
+            Setting(f"error {e:g}", e, made(until_error=e, tolerance=0.1 * e, max_nodes=MOST_NODES))
+            for e in effort.errors
+        ]
+        return [Method("depth and samples", settings), Method("samples and rays where they count", both)]
+
+    how = (
+        f"{effort.true_samples} samples a pixel (Sobol's), every ray followed that weighs {FAINT:g}. The second way is "
+        "as many samples, jittered"
+    )
+    true = {"samples": effort.true_samples, "depth": DEEP, "min_weight": FAINT, "max_nodes": MOST_NODES}
+    return Study(
+        "together",
+        "Both together",
+        "What an image is off that is cut and sampled: a larger depth and more samples from marker to marker; or "
+        "samples where the error is, of trees cut at a tenth of that error in the sum of weights.",
+        true,
+        {**true, "sampler": "jittered"},
+        lambda _: how,
+        methods,
+    )
+
+
+def _many(samples: int) -> str:
+    return f"{samples} sample{'s' if samples > 1 else ''}"

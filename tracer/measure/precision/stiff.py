@@ -1,0 +1,156 @@
+"""Stiff trees whose answer is known: what a cut at a depth, at a ray's weight, at a sum of weights makes of them.
+
+Each is one ray, traced for every pixel of a small image so that it can be timed; its exact radiance is a closed form.
+Piles of plates: Stokes, Proc. R. Soc. 11, 1862. The slab: an Airy sum without interference. The drop: Descartes' rays
+of all orders. The corridor and the shell are geometric series.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from decimal import localcontext
+from functools import partial
+
+import numpy as np
+
+from tracer.formulas.vector import Vector, add
+from tracer.image.render import render
+from tracer.kernel.world import World, prepare
+from tracer.measure.check.case import DIGITS
+from tracer.measure.check.cases.bending import bent
+from tracer.measure.check.cases.plates import WHITE, pile, under_dark
+from tracer.measure.check.scenes import ball, glass, world
+from tracer.measure.precision.errors import NOTHING
+from tracer.measure.precision.precision import Reference, Source, all_measured, cuts
+from tracer.scene import Camera, Material, Object
+from tracer.shapes.polygon import Polygon
+from tracer.tree.raytree import trace
+
+SIZE = (16, 16)  # so many times the one ray
+ANGLE = 1e-15  # degrees, of the whole image: all pixels have the same direction but for its last bit
+ANY_DEPTH = 10_000
+MOST = 100_000  # rays of a tree, where its weights hardly fall
+KEPT = 0.9  # of the light that the shell throws back
+MIRRORED = 0.99  # of the corridor's
+BOUNCES = 40
+
+
+@dataclass(frozen=True)
+class Problem:
+    name: str
+    title: str
+    about: str
+    make: Callable[[], World]
+    eye: Vector
+    way: Vector
+    exact: Callable[[World], float]
+    depths: Sequence[int]
+    weights: Sequence[float] = tuple(10.0**-k for k in range(1, 9))
+    tolerances: Sequence[float] = tuple(10.0**-k for k in range(1, 13, 2))
+
+
+def aimed(problem: Problem) -> World:
+    """Its scene, with a camera all of whose pixels look along the one ray."""
+    camera = Camera(problem.eye, add(problem.eye, problem.way), (0.0, 0.3, 1.0), ANGLE)
+    return prepare(replace(problem.make().scene, camera=camera))
+
+
+def solved(problem: Problem, step: Callable[[], None]) -> Source:
+    """How far each way to cut is from the exact answer; `step` is told of every setting."""
+    stage = aimed(problem)
+    exact = problem.exact(stage)
+    reference = Reference(np.full((SIZE[1], SIZE[0], 3), exact), f"closed form: {exact:.15g}", NOTHING)
+    made = partial(partial, render, stage, SIZE, threads=1, max_nodes=MOST)
+    methods = cuts(made, problem.depths, problem.weights, problem.tolerances, ANY_DEPTH)
+    curves, failures = all_measured(methods, reference, step)
+    return Source(problem.name, problem.title, problem.about, reference, curves, failures, bounded=True, exact=True)
+
+
+def steps(problem: Problem) -> int:
+    return len(problem.depths) + len(problem.weights) + len(problem.tolerances)
+
+
+def slab_lets_through(stage: World) -> float:
+    """(1 - R) / (1 + R), where R is of the ray as it is recorded."""
+    with localcontext(DIGITS):
+        r = bent(trace(stage, (0, 0), size=SIZE, depth=0)).r
+        return float((1 - r) / (1 + r))
+
+
+def drop() -> World:
+    return world(ball((0, 0, 0), 1.0, glass(4 / 3)), background=WHITE, model="fresnel")
+
+
+def shell() -> World:
+    return world(ball((0, 0, 0), 1.0, Material("shell", ambient=1.0, reflect=KEPT)))
+
+
+def corridor() -> World:
+    """Two mirrors a unit apart, a quarter long for each bounce, open at the end to a white sky."""
+    mirror = Material("mirror", reflect=MIRRORED)
+    end = 0.25 * BOUNCES
+    walls = [
+        Object(Polygon(((0.0, y, -1.0), (end, y, -1.0), (end, y, 1.0), (0.0, y, 1.0))), mirror, f"wall at {y:g}")
+        for y in (0.0, 1.0)
+    ]
+    return world(*walls, background=WHITE)
+
+
+GRAZING = math.radians(89.9)
+
+PROBLEMS = (
+    Problem(
+        "pile",
+        "Three plates head on",
+        "Six faces split every ray, and each ray's weight falls quickly, but not the number of rays: together what is "
+        "cut weighs more than any one of them. The pile throws back N / (24 + N) of the light, N = 6.",
+        lambda: pile(3),
+        (0.1, 1000.0, 0.2),
+        (0.0, -1.0, 0.0),
+        lambda stage: 6 / 30,
+        (1, 2, 4, 6, 8, 10, 12),
+        tuple(10.0**-k for k in range(1, 6)),
+        tuple(10.0**-k for k in range(1, 6)),
+    ),
+    Problem(
+        "slab",
+        "A slab at 89.9 degrees",
+        "What is inside stays inside and lets out a hundredth at each end: no ray weighs much, thousands count.",
+        under_dark,
+        (0.1, 1.0 + math.cos(GRAZING), 0.2),
+        (math.sin(GRAZING), -math.cos(GRAZING), 0.0),
+        slab_lets_through,
+        (1, 3, 10, 30, 100, 300, 1000, 3000),
+    ),
+    Problem(
+        "drop",
+        "A drop of water under a white sky",
+        "All orders of the rainbow's ray together bring back all the light: 1.",
+        drop,
+        (-2.0, 0.8, 0.0),
+        (1.0, 0.0, 0.0),
+        lambda stage: 1.0,
+        (0, 1, 2, 3, 4, 5, 6, 8),
+    ),
+    Problem(
+        "corridor",
+        f"Along two mirrors, {BOUNCES} times to and fro",
+        "One ray that hardly loses weight: no depth below its length sees any light, while a weight does no harm.",
+        corridor,
+        (0.0, 0.5, 0.0),
+        (0.25, 1.0, 0.0),
+        lambda stage: MIRRORED**BOUNCES,
+        (5, 10, 20, BOUNCES - 1, BOUNCES, BOUNCES + 10),
+        (0.9, 0.8, 0.7, 0.6, 0.5, 0.1, 0.01),
+    ),
+    Problem(
+        "shell",
+        "Inside a shell that shines and throws back nine tenths",
+        "A geometric series, 10: what is cut at depth D is 10 times 0.9^(D+1), and that is also what the bound says.",
+        shell,
+        (0.1, 0.2, -0.3),
+        (1.0, 2.0, 3.0),
+        lambda stage: 1.0 / (1.0 - KEPT),
+        (1, 3, 10, 30, 100, 300),
+    ),
+)

@@ -1,0 +1,187 @@
+"""What an author writes: a scene as frozen dataclasses, each field with its rule and its default beside it.
+
+Format 1 of the scene file has the same names; `formats/` reads files into these. Lengths are in the author's unit,
+colours linear RGB, angles in degrees, the frame right-handed.
+"""
+
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tracer import fields
+from tracer.formulas.media import INDICES
+from tracer.formulas.vector import Vector
+from tracer.shapes.box import Box
+from tracer.shapes.cone import Cone
+from tracer.shapes.disc import Disc
+from tracer.shapes.mesh import Mesh
+from tracer.shapes.plane import Plane
+from tracer.shapes.polygon import Polygon
+from tracer.shapes.sphere import Sphere
+from tracer.shapes.triangle import Triangle
+
+Shape = Sphere | Plane | Polygon | Triangle | Box | Cone | Disc | Mesh
+
+NOT_YET = "0 (this version traces no other)"
+
+
+def _zero() -> Any:
+    """A number of format 1 whose effect is not traced yet: better refused than silently ignored."""
+
+    def read(value: Any) -> float:
+        if value != 0 or isinstance(value, bool):
+            raise fields.Refused(NOT_YET)
+        return 0.0
+
+    return fields.rule(read)
+
+
+def _index() -> Any:
+    """An index of refraction: a number or the name of a medium."""
+
+    def read(value: Any) -> float:
+        if isinstance(value, str):
+            if value in INDICES:
+                return INDICES[value]
+            raise fields.Refused(f"a number > 0 or {fields.one_of(INDICES)}{fields.nearest(value, INDICES)}")
+        if isinstance(value, dict):
+            raise fields.Refused("a number > 0 or the name of a medium (this version traces no dispersion)")
+        return fields.number(above=0)["read"](value)
+
+    return fields.rule(read)
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    position: Vector | None = field(default=None, metadata=fields.point())  # None: where the whole scene is seen
+    look_at: Vector | None = field(default=None, metadata=fields.point())  # None: the middle of the scene
+    up: Vector = field(default=(0.0, 1.0, 0.0), metadata=fields.direction())
+    fov: float = field(default=40.0, metadata=fields.number(above=0, below=180))  # degrees over the image's full height
+    lens_radius: float = field(default=0.0, metadata=_zero())
+    focus_distance: float = field(default=1.0, metadata=fields.number(above=0))
+
+    def faults(self) -> list[str]:
+        if self.position is None or self.look_at is None:
+            return []
+        gaze = np.subtract(self.look_at, self.position)
+        if not gaze.any():
+            return [f"look_at must differ from position, got {fields.shown(self.look_at)} for both"]
+        if not np.cross(gaze / np.abs(gaze).max(), self.up).any():
+            return [f"up must not point along the line of sight, got {fields.shown(self.up)}"]
+        return []
+
+
+@dataclass(frozen=True, slots=True)
+class Image:
+    width: int = field(default=640, metadata=fields.whole(1, 16384))
+    height: int = field(default=480, metadata=fields.whole(1, 16384))
+
+
+@dataclass(frozen=True, slots=True)
+class Background:
+    color: Vector = field(default=(0.0, 0.0, 0.0), metadata=fields.color())
+
+
+@dataclass(frozen=True, slots=True)
+class Tracing:
+    depth: int = field(default=3, metadata=fields.whole(0, 10**9))  # 0: camera rays and their shadow rays only
+    shadows: str = field(default="filter", metadata=fields.choice("filter", "block"))  # what glass does to shadow rays
+    model: str = field(default="whitted", metadata=fields.choice("whitted", "fresnel"))
+    ambient: Vector = field(default=(1.0, 1.0, 1.0), metadata=fields.color())
+
+
+@dataclass(frozen=True, slots=True)
+class Light:
+    name: str = field(default="", metadata=fields.text())
+    position: Vector | None = field(default=None, metadata=fields.point())
+    direction: Vector | None = field(default=None, metadata=fields.direction())  # the way its light travels
+    color: Vector = field(default=(1.0, 1.0, 1.0), metadata=fields.color())
+    radius: float = field(default=0.0, metadata=_zero())
+
+    def faults(self) -> list[str]:
+        if (self.position is None) == (self.direction is None):
+            found = "neither" if self.position is None else "both"
+            return [f"a light has either a position or a direction, got {found}"]
+        return []
+
+
+@dataclass(frozen=True, slots=True)
+class Checker:
+    color: Vector = field(metadata=fields.color())
+    size: float = field(default=1.0, metadata=fields.number(above=0))
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    name: str = field(default="", metadata=fields.text())
+    color: Vector = field(default=(1.0, 1.0, 1.0), metadata=fields.color())  # C: tints ambient and diffuse
+    ambient: float = field(default=0.0, metadata=fields.number(least=0))  # ka
+    diffuse: float = field(default=0.0, metadata=fields.number(least=0))  # kd
+    specular: float = field(default=0.0, metadata=fields.number(least=0))  # ks
+    shininess: float = field(default=1.0, metadata=fields.number(above=0))  # p
+    reflect: float = field(default=0.0, metadata=fields.number(least=0, most=1))  # kr
+    transmit: float = field(default=0.0, metadata=fields.number(least=0, most=1))  # kt
+    ior: float = field(default=1.0, metadata=_index())  # counts only where transmit > 0
+    roughness: float = field(default=0.0, metadata=_zero())
+    checker: Checker | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Object:
+    shape: Shape
+    material: Material
+    name: str = field(default="", metadata=fields.text())
+    priority: int = field(default=0, metadata=fields.whole(-(10**6), 10**6))  # higher wins where glass overlaps
+    thin: bool = field(default=False, metadata=fields.flag())  # a sheet that transmits unbent and bounds no medium
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    objects: tuple[Object, ...]
+    lights: tuple[Light, ...] = ()
+    camera: Camera = Camera()
+    image: Image = Image()
+    background: Background = Background()
+    tracing: Tracing = Tracing()
+    title: str = ""
+    path: Path | None = None  # the file it came from
+
+    def faults(self) -> list[str]:
+        """Every value that is not allowed, one line each; the same rules as for a file."""
+        found = []
+        parts = [("camera", self.camera), ("image", self.image), ("background", self.background)]
+        parts += [("tracing", self.tracing)]
+        parts += [(place("light", k, light.name), light) for k, light in enumerate(self.lights)]
+        for k, item in enumerate(self.objects):
+            here = place("object", k, item.name)
+            parts += [(here, item), (here, item.shape), (f'{here}: material "{item.material.name}"', item.material)]
+        for here, part in parts:
+            faults = fields.value_faults(part)
+            if not faults and hasattr(part, "faults"):
+                faults = part.faults()
+            found += [f"{here}: {fault}" for fault in faults]
+        if not self.objects:
+            found.append("a scene needs at least one object")
+        return found
+
+
+class SceneError(ValueError):
+    """A scene that cannot be used: one line a fault."""
+
+    def __init__(self, faults: list[str]) -> None:
+        super().__init__("\n".join(faults))
+        self.faults = faults
+
+
+def place(table: str, k: int, name: str = "") -> str:
+    """`object[2] "ball"`: the k-th table of that kind, counted from 0, and its name where it has one."""
+    return f'{table}[{k}] "{name}"' if name else f"{table}[{k}]"
+
+
+def middle_and_radius(bounds: np.ndarray) -> tuple[np.ndarray, float]:
+    """A ball about the boxes (n, 2, 3): what a camera must see to see the scene."""
+    low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
+    return 0.5 * (low + high), 0.5 * math.dist(low, high)

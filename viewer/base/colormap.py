@@ -1,0 +1,32 @@
+"""A map of numbers as colours: dark for little, bright for much, on a scale of octaves.
+
+From blue over red to yellow, and lighter all the way, so that it reads in grey and with any colour vision.
+"""
+
+import math
+
+import numpy as np
+
+from viewer.base.theme import MAP, Color, in_bytes
+
+RANGES = {"error": (1e-4, 1e-1), "samples": (1, 256)}  # where the scale begins and ends
+STEPS = 256
+
+
+def strip(count: int) -> list[Color]:
+    """Colours from one end of the scale to the other."""
+    places = np.linspace(0.0, len(MAP) - 1.0, count)
+    channels = [np.interp(places, range(len(MAP)), [color[k] for color in MAP]) for k in range(3)]
+    return [(float(r), float(g), float(b), 1.0) for r, g, b in zip(*channels, strict=True)]
+
+
+TABLE = np.array([(*in_bytes(color), 255) for color in strip(STEPS)], np.uint8)
+
+
+def colored(values: np.ndarray, shows: str) -> np.ndarray:
+    """8-bit sRGB (height, width, 4) of numbers (height, width); what is not known is as dark as nothing."""
+    low, high = RANGES[shows]
+    with np.errstate(divide="ignore"):
+        share = np.log(values / low) / math.log(high / low)
+    place = np.clip(np.nan_to_num(share, nan=0.0, neginf=0.0, posinf=1.0), 0.0, 1.0)
+    return TABLE[(place * (STEPS - 1)).astype(np.intp)]

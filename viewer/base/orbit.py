@@ -1,0 +1,186 @@
+"""The eye that looks at the 3D scene: it turns about a target, goes nearer and farther, and slides sideways.
+
+All in a frame of its own, in which the scene's middle is the origin and its radius 1 (`Frame`): the same numbers suit
+a scene of light years and one of nanometres, and 32-bit floats have the digits to draw either.
+"""
+
+import math
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+
+from tracer.formulas.camera import View
+from tracer.formulas.vector import tame, unit
+from tracer.kernel.world import World
+from tracer.scene.scene import middle_and_radius
+
+ENDLESS = 3.0  # times the camera's way to what it looks at: what has such a radius is part of the surroundings
+FOV = math.radians(35)
+CLOSEST, FARTHEST = 0.02, 60.0  # distance to the target
+STEEPEST = math.radians(89)
+MARGIN = 0.04  # of the picture, that stays free about what is taken in
+AZIMUTH, ELEVATION, DISTANCE = 38.0, 22.0, 2.6  # of a view that nobody has chosen: degrees, radii of the scene
+NEAR_SHARE = 1 / 400  # of the distance: the near plane
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Where the scene's middle is and how large it is."""
+
+    middle: np.ndarray
+    radius: float
+
+    @staticmethod
+    def of(world: World) -> "Frame":
+        """The frame of a world: its bounded surfaces, or what the camera looks at where there are none."""
+        view = world.view()
+        if not len(world.bounds):
+            return Frame(np.add(view.eye, view.forward), 1.0)
+        middle, radius = middle_and_radius(_in_proportion(world))
+        return Frame(middle, radius if radius > 0.0 else 1.0)
+
+    def inside(self, points: np.ndarray | tuple) -> np.ndarray:
+        """World points (..., 3) in this frame."""
+        return (np.asarray(points, float) - self.middle) / self.radius
+
+
+def _in_proportion(world: World) -> np.ndarray:
+    """The boxes (n, 2, 3) of what a scene is about: not those far larger than the camera's way to what it looks at.
+
+    A floor without an end in sight, or the Earth, would leave nothing else to be seen.
+    """
+    camera, boxes = world.scene.camera, world.bounds
+    if camera.position is None or camera.look_at is None:
+        return boxes
+    sizes = 0.5 * np.linalg.norm(boxes[:, 1] - boxes[:, 0], axis=1)
+    fitting = sizes <= ENDLESS * math.dist(camera.position, camera.look_at)
+    return boxes[fitting] if fitting.any() else boxes
+
+
+@dataclass
+class Orbit:
+    """Angles in radians; `target` and `distance` in the frame. `north`: azimuth 0, `up`: the axis it turns about."""
+
+    azimuth: float = 0.0
+    elevation: float = 0.0
+    distance: float = 2.6
+    target: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    north: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, 1.0]))
+    up: np.ndarray = field(default_factory=lambda: np.array([0.0, 1.0, 0.0]))
+
+    @staticmethod
+    def beside(view: View, up: tuple, azimuth: float, elevation: float, distance: float) -> "Orbit":
+        """An eye turned away from the scene's own camera by these angles (degrees)."""
+        axis = np.array(unit(tame(up)))
+        back = -np.array(view.forward)
+        north = back - (back @ axis) * axis
+        if np.linalg.norm(north) < 1e-6:
+            north = np.array(view.up) - (np.array(view.up) @ axis) * axis
+        north /= np.linalg.norm(north)
+        return Orbit(math.radians(azimuth), math.radians(elevation), distance, np.zeros(3), north, axis)
+
+    @staticmethod
+    def of_camera(view: View, up: tuple, eye: np.ndarray) -> "Orbit":
+        """The scene's own camera, its eye in the frame."""
+        orbit = Orbit.beside(view, up, 0.0, 0.0, 1.0)
+        forward = np.array(view.forward)
+        orbit.elevation = math.asin(float(np.clip(-forward @ orbit.up, -1.0, 1.0)))
+        orbit.distance = max(0.5, float(-eye @ forward))
+        orbit.target = eye + orbit.distance * forward
+        return orbit
+
+    def take_in(self, points: np.ndarray) -> None:
+        """Step back until all these points of the frame (n, 3) are in a picture of 3:2."""
+        for _ in range(60):
+            places, depths = project(points, self.matrix(1.5), (1.0, 1.0))
+            if (depths > 0.0).all() and (np.abs(places - 0.5) <= 0.5 - MARGIN).all():
+                return
+            self.distance *= 1.05
+
+    @property
+    def outward(self) -> np.ndarray:
+        """Unit vector from the target to the eye."""
+        east = np.cross(self.up, self.north)
+        level = math.cos(self.azimuth) * self.north + math.sin(self.azimuth) * east
+        return math.cos(self.elevation) * level + math.sin(self.elevation) * self.up
+
+    @property
+    def eye(self) -> np.ndarray:
+        return self.target + self.distance * self.outward
+
+    @property
+    def axes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Right and up of the picture."""
+        right = np.cross(self.up, self.outward)
+        right /= np.linalg.norm(right)
+        return right, np.cross(self.outward, right)
+
+    def turn(self, dx: float, dy: float) -> None:
+        """By radians: the scene follows the hand."""
+        self.azimuth -= dx
+        self.elevation = min(STEEPEST, max(-STEEPEST, self.elevation + dy))
+
+    def slide(self, dx: float, dy: float) -> None:
+        """By shares of the picture's height: the point under the hand stays under it."""
+        right, up = self.axes
+        step = 2.0 * math.tan(FOV / 2) * self.distance
+        self.target = self.target - step * dx * right + step * dy * up
+
+    def zoom(self, steps: float) -> None:
+        self.distance = min(FARTHEST, max(CLOSEST, self.distance * 0.88**steps))
+
+    def matrix(self, aspect: float) -> np.ndarray:
+        """World (in the frame) to clip coordinates, (4, 4), for columns."""
+        right, up = self.axes
+        back = self.outward
+        eye = self.eye
+        look = np.eye(4)
+        look[0, :3], look[1, :3], look[2, :3] = right, up, back
+        look[:3, 3] = -look[:3, :3] @ eye
+        near = self.distance * NEAR_SHARE
+        far = self.distance + 60.0
+        f = 1.0 / math.tan(FOV / 2)
+        lens = np.zeros((4, 4))
+        lens[0, 0], lens[1, 1] = f / aspect, f
+        lens[2, 2], lens[2, 3] = (far + near) / (near - far), 2 * far * near / (near - far)
+        lens[3, 2] = -1.0
+        return lens @ look
+
+
+class Chosen(Protocol):
+    """A view that an author chose: degrees, distance in radii of the scene, target in the world or its middle."""
+
+    @property
+    def azimuth(self) -> float: ...
+    @property
+    def elevation(self) -> float: ...
+    @property
+    def distance(self) -> float: ...
+    @property
+    def target(self) -> tuple[float, float, float] | None: ...
+
+
+def home(world: World, frame: Frame, chosen: Chosen | None) -> Orbit:
+    """From where a scene is seen at first: as chosen, or beside its camera with both in the picture."""
+    camera, up = world.view(), world.scene.camera.up
+    if chosen:
+        orbit = Orbit.beside(camera, up, chosen.azimuth, chosen.elevation, chosen.distance)
+        if chosen.target:
+            orbit.target = frame.inside(chosen.target)
+        return orbit
+    orbit = Orbit.beside(camera, up, AZIMUTH, ELEVATION, DISTANCE)
+    eye = frame.inside(camera.eye)
+    orbit.target = 0.35 * eye
+    orbit.take_in(np.stack([eye, np.zeros(3)]))
+    return orbit
+
+
+def project(points: np.ndarray, matrix: np.ndarray, size: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+    """(places, depths): points (n, 3) of the frame in pixels from the picture's top left; depth <= 0 behind the eye."""
+    clip = np.c_[points, np.ones(len(points))] @ matrix.T
+    depth = clip[:, 3]
+    safe = np.where(np.abs(depth) < 1e-12, 1e-12, depth)
+    x = (0.5 + 0.5 * clip[:, 0] / safe) * size[0]
+    y = (0.5 - 0.5 * clip[:, 1] / safe) * size[1]
+    return np.stack([x, y], axis=1), depth

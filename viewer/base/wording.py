@@ -1,0 +1,67 @@
+"""Numbers as people read them, in panels and labels: a true minus sign, a dash for what is absent."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from tracer.tree.text import decimals_left, digits_left
+
+GONE = "no digit left"  # of a number that is all rounding error
+
+
+def shown(x: float, digits: int = 5, error: float = 0.0) -> str:
+    """A number for people, with no digit that its error has made; a dash for what is absent."""
+    if math.isnan(x):
+        return "–"
+    sure = digits if x == 0.0 else min(digits, digits_left(abs(x), error))
+    return f"{x:.{sure}g}".replace("-", "−") if sure > 0 else GONE
+
+
+def angle(radians: float, error: float = 0.0) -> str:
+    """In degrees, with no more decimals than are sure."""
+    if math.isnan(radians):
+        return "–"
+    decimals = min(2, decimals_left(error))
+    return f"{math.degrees(radians):.{decimals}f}°" if decimals >= 0 else GONE
+
+
+def place(xyz: Sequence[float] | np.ndarray, error: float = 0.0) -> str:
+    """A point or a direction: five digits of its largest coordinate, or as many as are sure, in a scene of any size."""
+    size = max(abs(float(x)) for x in xyz)
+    if math.isnan(size):
+        return "–"
+    exponent = math.floor(math.log10(size)) if size > 0.0 else 0
+    decimals = min(4, digits_left(size, error) - 1)
+    if decimals < 0:
+        return GONE
+    if -3 <= exponent <= 4:
+        return triple(xyz, min(4, max(0, decimals - exponent)))
+    unit = 10.0**exponent
+    return f"{triple([float(x) / unit for x in xyz], decimals)}  ·10{str(exponent).translate(RAISED)}"
+
+
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def triple(xyz: Sequence[float] | np.ndarray, decimals: int = 4) -> str:
+    """Coordinates or a colour."""
+    if math.isnan(xyz[0]):
+        return "–"
+    return "  ".join(_fixed(x, decimals) for x in xyz)
+
+
+def _fixed(x: float, decimals: int) -> str:
+    """So many decimals; what they show as nothing has no sign."""
+    text = f"{x:.{decimals}f}"
+    return text.lstrip("-") if float(text) == 0.0 else text.replace("-", "−")
+
+
+def same(rgb: np.ndarray) -> str:
+    """One number where the three are equal."""
+    return shown(float(rgb[0])) if rgb[0] == rgb[1] == rgb[2] else triple(rgb, 4)
+
+
+def pair(first: str, second: str) -> str:
+    """`first → second`, or the first alone where there is no second."""
+    return f"{first} → {second}" if second != "–" else first

@@ -1,0 +1,129 @@
+"""`raytree check` as a person reads it: a line a case, its exact answer, the textbook's and ours."""
+
+import difflib
+import json
+import textwrap
+import time
+from collections.abc import Callable, Sequence
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+from tracer.measure.check.case import Case, Reading, Result
+from tracer.measure.check.check import CASES, TOPICS, run_all, to_dict
+from tracer.tree.text import columns
+from viewer.base.files import Unusable
+
+LONGEST = 20  # characters of a word in the table
+NONE = "–"  # where the textbook has nothing to compare with
+WIDTH = 100  # of running text
+HEADINGS = ("setting", "exact answer", "the textbook's", "error", "ours", "error", "")
+ABOUT = (
+    "Each line is a case at the setting where the textbook's formula does worst beside ours. Its error is relative;\n"
+    "ours is counted in units of rounding, 2^-53 of the answer times the case's condition number, with what is\n"
+    "allowed behind it. Where an answer has a bound of its own (some of E and F) the unit is that bound. A dash: the\n"
+    "textbook has no formula to compare with.\n"
+)
+
+
+def chosen(names: Sequence[str]) -> list[Case]:
+    """The cases of these names or groups (a name's first letter), all for none. Unusable for a name there is not."""
+    if not names:
+        return list(CASES)
+    found: list[Case] = []
+    faults: list[str] = []
+    for name in names:
+        these = [case for case in CASES if name.upper() in (case.id, case.id[0])]
+        found += [case for case in these if case not in found]
+        if not these:
+            close = difflib.get_close_matches(name.upper(), [case.id for case in CASES], 1)
+            hint = f"did you mean {close[0]}?" if close else f"the groups are {', '.join(TOPICS)}"
+            faults.append(f'raytree check: no case "{name}": {hint}')
+    if faults:
+        raise Unusable(*faults)
+    return found
+
+
+def check(
+    cases: Sequence[Case],
+    explain: bool,
+    as_json: bool,
+    put: Callable[[str], None],
+    run: Callable[[Sequence[Case]], list[Result]] = run_all,
+) -> int:
+    """Run the cases and print them; 1 where one falls short."""
+    began = time.perf_counter()
+    results = run(cases)
+    if as_json:
+        put(json.dumps(to_dict(results), indent=1, allow_nan=False, ensure_ascii=False) + "\n")
+    elif explain:
+        put("\n".join(explained(result) for result in results))
+    else:
+        put(table(results) + "\n" + verdict(results, time.perf_counter() - began) + "\n")
+    return 0 if all(result.ok for result in results) else 1
+
+
+def table(results: Sequence[Result]) -> str:
+    """Topic by topic; a case's title, and below it the setting with the answers."""
+    head, *rows = columns([("  ", *HEADINGS), *(("  ", *cells(result.telling)) for result in results)])
+    lines = [ABOUT, head]
+    topic = ""
+    for result, row in zip(results, rows, strict=True):
+        case = result.case
+        if case.id[0] != topic:
+            topic = case.id[0]
+            lines += ["", f"{topic}  {TOPICS[topic].upper()}"]
+        lines += [f"{case.id:4}{case.title}", row]
+    return "\n".join(lines) + "\n"
+
+
+def explained(result: Result) -> str:
+    """One case in full: what it is, what goes wrong, every setting."""
+    case = result.case
+    lines = columns([HEADINGS, *(cells(reading) for reading in result.readings)])
+    return "\n".join([f"{case.id}  {case.title}", "", textwrap.fill(case.wrong, WIDTH), "", *lines]) + "\n"
+
+
+def verdict(results: Sequence[Result], seconds: float) -> str:
+    short = [result.case.id for result in results if not result.ok]
+    count = f"{len(results)} case{'s' if len(results) != 1 else ''} in {seconds:.1f} s"
+    return f"{count}: " + (f"{', '.join(short)} fell short" if short else "all within what is allowed")
+
+
+def cells(reading: Reading) -> tuple[str, ...]:
+    usual = reading.textbook_error
+    lost = NONE if usual is None else ("wrong" if usual == float("inf") else f"{usual:.1e}")
+    if usual == 0.0:
+        lost = "0"
+    if usual is not None and reading.unit == 0.0:
+        lost = "wrong" if usual else "right"
+    return (
+        reading.setting,
+        shown(reading.exact),
+        NONE if reading.textbook is None else shown(reading.textbook),
+        lost,
+        shown(reading.got),
+        counted(reading),
+        "ok" if reading.ok else "FALLS SHORT",
+    )
+
+
+def counted(reading: Reading) -> str:
+    """The error in units, with what is allowed; words are right or wrong."""
+    if isinstance(reading.exact, str) or reading.unit == 0.0:
+        return "right" if reading.ok else "wrong"
+    few = 0.0 < reading.error < 0.01
+    return f"{'<0.01' if few else f'{reading.error:.2g}'} of {reading.allowed:g}"
+
+
+def shown(value: Any) -> str:
+    """A number with ten digits, a word as it is."""
+    if isinstance(value, str):
+        return value if len(value) <= LONGEST else value[: LONGEST - 1].rpartition(" ")[0] + " …"
+    if value == float("inf"):
+        return "no hit"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, Fraction) and value.denominator < 1000:
+        return str(value)
+    return f"{float(value) if isinstance(value, Decimal | Fraction) else value:.10g}"

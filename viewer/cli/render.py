@@ -1,0 +1,202 @@
+"""`raytree render`: a scene's image into a file, or those of several scenes into a folder; here or on a cluster."""
+
+import contextlib
+import json
+import math
+import sys
+import time
+from argparse import Namespace
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import tracer
+from tracer.image.converge import MOST, Reached
+from tracer.image.render import Image
+from tracer.tree.text import light_missing, number
+from viewer.base.files import Unusable, check_writable, write_atomically
+from viewer.base.pictures import WRITERS, check_format, write_picture
+from viewer.base.progress import Progress
+from viewer.cli.commands import compile_once, faults, find
+
+
+@dataclass(frozen=True)
+class Order:
+    """One image to be made."""
+
+    name: str
+    scene: Path
+    target: Path
+
+
+def render(options: Namespace) -> int:
+    orders = ordered(options)
+    many = len(orders) > 1
+    stats: list[dict[str, Any]] = []
+    compiling = 0.0 if options.dask else compile_once()
+    with Progress("render") as progress, executor_of(options.dask, progress) as (executor, connecting):
+        for k, order in enumerate(orders):
+            if many:
+                progress.doing = f"render {order.name} ({k + 1} of {len(orders)})"
+            try:
+                figures = render_one(order, options, executor, progress, Share(progress, k, len(orders)))
+            except Unusable as fault:
+                if not many:
+                    raise
+                progress.put(str(fault))  # the other scenes are rendered all the same
+                continue
+            if not stats:
+                figures["seconds"]["compile"] += compiling + connecting
+            stats.append(figures)
+    if options.stats:
+        document = {"images": stats} if many else stats[0]
+        write_atomically(options.stats, (json.dumps(document, indent=1) + "\n").encode("utf-8"))
+    return 0 if len(stats) == len(orders) else 2
+
+
+@dataclass(frozen=True)
+class Share:
+    """Of all images, from that of the k-th."""
+
+    progress: Progress
+    k: int
+    count: int
+
+    def __call__(self, share: float) -> None:
+        self.progress((self.k + share) / self.count)
+
+    def say(self, doing: str) -> None:
+        """What one image is waiting for; where there are several, the time left is that of all."""
+        if self.count == 1:
+            self.progress.say(doing)
+
+
+@contextlib.contextmanager
+def executor_of(address: str | None, progress: Progress) -> Iterator[tuple[Executor | None, float]]:
+    """The cluster at this address and the seconds until it was ready; None where there is no address."""
+    if address is None:
+        yield None, 0.0
+        return
+    from tracer.image.cluster import ClusterError, connect
+
+    began = time.perf_counter()
+    try:
+        with connect(address, progress.say, lambda line: progress.put(f"note: {line}")) as cluster:
+            progress.say("render")
+            yield cluster, time.perf_counter() - began
+    except ClusterError as error:
+        raise Unusable(*error.faults) from None
+
+
+def render_one(
+    order: Order, options: Namespace, executor: Executor | None, progress: Progress, share: Share
+) -> dict[str, Any]:
+    """Load, prepare, trace and write one image; what `--stats` says of it."""
+    with faults():
+        began = time.perf_counter()
+        share.say(f"load {order.name}")
+        scene = tracer.load(order.scene, progress if share.count == 1 else lambda share: None)
+        loaded = time.perf_counter()
+        share.say(f"prepare {order.name}")
+        world = tracer.prepare(scene)
+        for note in world.notes:
+            progress.put(f"note: {note}")
+        prepared = time.perf_counter()
+        share.say(f"render {order.name}")
+        image = tracer.render(
+            world,
+            options.size,
+            options.samples,
+            options.depth,
+            options.threads,
+            min_weight=options.min_weight,
+            tolerance=options.tolerance,
+            model=options.model,
+            sampler=options.sampler,
+            until_error=options.until_error,
+            until_seconds=options.until_seconds,
+            executor=executor,
+            progress=share,
+        )
+    share.say(f"write {order.target.name}")
+    order.target.parent.mkdir(exist_ok=True)
+    write_picture(order.target, image.pixels)
+    name = f"{order.name}: " if share.count > 1 else ""
+    if image.reached:
+        progress.put(name + how_far(image, image.reached, options), sys.stdout)
+    if options.tolerance is not None or (image.reached and image.residual["max"] > 0.0):
+        most = number(image.residual["max"])
+        missing = f"a pixel's rays that were cut carry at most {most} of the weight{light_missing(image.bound)}"
+        progress.put(name + missing, sys.stdout)
+    return {
+        "scene": str(order.scene),
+        "image": str(order.target),
+        "seconds": {"load": loaded - began, "prepare": prepared - loaded, **image.seconds},
+        "rays": image.rays,
+        "tests": image.tests,
+        "threads": image.threads,
+        "size": list(image.size),
+        "samples": image.reached.samples if image.reached else image.samples,
+        "depth": image.depth,
+        "tolerance": image.tolerance,
+        "residual": image.residual,
+        "bound": image.bound if math.isfinite(image.bound) else None,
+        "left_out": image.left_out,
+        **(reached(image, image.reached) if image.reached else {}),
+    }
+
+
+def how_far(image: Image, far: Reached, options: Namespace) -> str:
+    """What an image that converges has come to, in a line."""
+    mean = f"{far.samples:,.0f}" if far.samples >= 100 else f"{far.samples:.3g}"
+    spread = f"{mean} samples a pixel" + (f", {far.least} to {far.most}" if far.most > far.least else "")
+    if far.error == 0.0:
+        end = "nothing is left to gain"
+    elif image.ended == "error":
+        end = f"{options.until_error:g} was asked for"
+    elif image.ended == "seconds":
+        end = "time is up"
+    else:
+        end = f"at most {options.samples or MOST} of a pixel, and they double"
+    reach = f"{far.error:.2g} (RMSE, linear light) after {far.seconds:.2f} s and {far.rays:,} rays"
+    return f"estimated sampling error {reach}: {spread}; {end}"
+
+
+def reached(image: Image, far: Reached) -> dict[str, Any]:
+    """The same for programs."""
+    return {"error": far.error, "samples_least": far.least, "samples_most": far.most, "ended": image.ended}
+
+
+def ordered(options: Namespace) -> list[Order]:
+    """What is to be made of which scene. Unusable for every name and place that is none."""
+    into = Path(options.output)
+    slash = options.output.endswith(("/", "\\"))
+    folder = len(options.scene) > 1 or into.is_dir() or slash
+    unusable: list[str] = []
+    orders = []
+    for scene in options.scene:
+        try:
+            path, lesson = find(scene)
+        except Unusable as fault:
+            unusable += fault.faults
+            continue
+        name = lesson.name if lesson else path.stem
+        orders.append(Order(name, path, into / f"{name}.{options.format or 'png'}" if folder else into))
+    for name, count in Counter(order.name for order in orders).items():
+        if count > 1:
+            unusable.append(f"raytree render: {count} scenes would be written to the same file: {name}")
+    if folder and not into.is_dir() and (into.exists() or (into.suffix.lower() in WRITERS and not slash)):
+        unusable.append(f"raytree render: the images of several scenes need a folder, got {into}")
+    if options.format and not folder:
+        unusable.append(f"raytree render: --format is for images in a folder; {into} says its own")
+    if unusable:
+        raise Unusable(*unusable)
+    if not folder:
+        check_format(into)
+    targets = [into] if folder and not into.is_dir() else [order.target for order in orders]
+    for path in filter(None, (*targets, options.stats)):
+        check_writable(path)
+    return orders

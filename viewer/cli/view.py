@@ -1,0 +1,93 @@
+"""The commands that open the viewer: in a window, into a screenshot, and without a screen."""
+
+from argparse import Namespace
+from pathlib import Path
+
+import platformdirs
+
+import tracer
+from viewer.base.files import Unusable, check_writable
+from viewer.base.pictures import write_picture
+from viewer.base.progress import Progress
+from viewer.cli.commands import COMPILING, compile_once, faults, prepared, put
+from viewer.lessons.lesson import Lesson
+from viewer.session.session import Session
+from viewer.window.app import App
+from viewer.window.backend import NoWindow, Offscreen, Window
+
+SIZE = (1280, 720)
+
+
+def show(path: Path, lesson: Lesson | None, options: Namespace) -> int:
+    """The viewer on a scene, as the options say."""
+    if options.screenshot:
+        if options.screenshot.suffix.lower() != ".png":
+            raise Unusable(f"{options.screenshot}: a screenshot must be a .png file")
+        check_writable(options.screenshot)
+        take_screenshot(path, lesson, options, options.screenshot)
+        return 0
+    try:
+        window = Window("raytree", options.size or SIZE, _settings())
+    except NoWindow as reason:
+        return without_display(path, lesson, options, str(reason))
+    app = App(window, Session())
+    app.session.takehome.remember(_settings().with_name("figure.json"))
+    try:
+        app.session.open(path, lesson, options.depth, options.pixel, options.model)
+        app.run()
+    finally:
+        app.close()
+    return 0
+
+
+def take_screenshot(path: Path, lesson: Lesson | None, options: Namespace, target: Path) -> None:
+    """Draw the viewer until the first full image and the tree are there, write it, leave."""
+    try:
+        app = App(Offscreen(options.size or SIZE), Session())
+    except NoWindow as reason:
+        raise Unusable(str(reason)) from None
+    try:
+        app.session.open(path, lesson, options.depth, options.pixel, options.model)
+        with (
+            Progress(COMPILING, at_once=True) if app.session.warmup.compiles else Progress("load the scene") as progress
+        ):
+
+            def say(doing: str) -> None:
+                """Nothing more is begun for what cannot be shown."""
+                if app.session.faults:
+                    raise Unusable(*app.session.faults)
+                progress.say(doing)
+
+            app.settle(say=say, progress=progress)
+            write_picture(target, app.surface.grab())
+    finally:
+        app.close()
+
+
+def without_display(path: Path, lesson: Lesson | None, options: Namespace, reason: str) -> int:
+    """The same job where no window can be opened: the picked pixel's tree in the terminal, and a screenshot."""
+    put(f"{reason}.\n")
+    compile_once()
+    with faults():
+        world = prepared(path)
+        image = world.scene.image
+        pixel = options.pixel or (lesson and lesson.pixel) or (image.width // 2, image.height // 2)
+        depth = options.depth if options.depth is not None else lesson and lesson.depth
+        tree = tracer.trace(world, pixel, depth=depth, model=options.model)
+    target = Path("out") / f"{lesson.name if lesson else path.stem}.png"
+    put(f"Drawing the viewer into {target} instead; this is the ray tree it shows:\n\n{tree.to_text()}")
+    target.parent.mkdir(exist_ok=True)
+    check_writable(target)
+    options.pixel = pixel
+    take_screenshot(path, lesson, options, target)
+    return 0
+
+
+def _settings() -> Path:
+    """Where the panels' places are kept from one start to the next."""
+    folder = platformdirs.user_config_path("raytree")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return Path()
+    return folder / "panels.ini"

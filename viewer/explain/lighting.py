@@ -1,0 +1,83 @@
+"""The light that reaches a hit straight from the lights: the local term, with its own numbers put in."""
+
+import numpy as np
+
+from tracer.formulas.shading import surface_color
+from tracer.formulas.vector import vector
+from tracer.kernel.world import World
+from tracer.scene import Material
+from tracer.tree.raytree import RayTree, light_name
+from viewer.base.wording import same, shown, triple
+from viewer.explain.sections import Section
+
+
+def local_light(tree: RayTree, world: World, i: int) -> Section:
+    """The local term of hit i, light by light."""
+    row = tree.nodes[i]
+    material = world.scene.objects[row["object"]].material
+    section = Section("Local light", "I = A ka C + Σ S L (kd C (N·L) + ks (R·V)ᵖ)")
+    color = _color(world, tree, i)
+    ambient = np.array(world.scene.tracing.ambient) * material.ambient * color
+    section.add("colour C", triple(color, 3))
+    section.add("ka  kd  ks  p", "  ".join(shown(x, 3) for x in _numbers(material)))
+    section.add(f"ambient: A · {shown(material.ambient)} · C", triple(ambient, 4))
+    rows = {int(tree.nodes["light"][child]): child for child in tree.children[i]}
+    for j, light in enumerate(world.scene.lights):
+        name = light_name(world.scene, j)
+        child = rows[j]
+        n_l, r_v = _cosines(tree, i, child)
+        if n_l <= 0.0:
+            detail = f"N·L {shown(n_l, 3)}: faces away from it"
+        elif tree.end(child) == "blocked":
+            detail = f"blocked by {tree.object_name(child)}"
+        else:
+            section.add(f"{name}: L", triple(light.color, 3))
+            detail = f"N·L {shown(n_l, 3)}, R·V {shown(max(r_v, 0.0), 3)}"
+            if tree.end(child) == "filtered":
+                detail += f", × {shown(tree.nodes['factor'][child][0], 3)} through glass (S)"
+        section.add(f"{name}: {detail}", triple(tree.nodes["radiance"][child], 4))
+    section.add("local", triple(row["local"], 4))
+    return section
+
+
+def one_light(tree: RayTree, world: World, i: int, j: int) -> Section:
+    """Light j's share at hit i."""
+    row = tree.nodes[i]
+    light = world.scene.lights[j]
+    child = next(c for c in tree.children[i] if tree.nodes["light"][c] == j)
+    material = world.scene.objects[row["object"]].material
+    n_l, r_v = _cosines(tree, i, child)
+    color = _color(world, tree, i)
+    section = Section(f"Light from {light_name(world.scene, j)}", "S L (kd C (N·L) + ks (R·V)ᵖ)")
+    section.add("light L", triple(light.color, 3))
+    section.add("N·L", shown(n_l))
+    if n_l <= 0.0:
+        section.add("N·L ≤ 0", "the surface faces away from it: no light")
+        return section
+    section.add("kd C (N·L)", triple(material.diffuse * n_l * color, 4))
+    highlight = material.specular * r_v**material.shininess if r_v > 0.0 else 0.0
+    section.add("R·V", shown(r_v))
+    section.add(f"ks (R·V)ᵖ, p = {shown(material.shininess)}", f"{highlight:.4f}")
+    section.add("S: gets through", same(tree.nodes["factor"][child]))
+    section.add("share", triple(tree.nodes["radiance"][child], 4))
+    return section
+
+
+def _numbers(material: Material) -> tuple[float, float, float, float]:
+    return (material.ambient, material.diffuse, material.specular, material.shininess)
+
+
+def _cosines(tree: RayTree, i: int, child: int) -> tuple[float, float]:
+    """N·L and R·V at hit i, for the light that its shadow ray goes to."""
+    row = tree.nodes[i]
+    n, to_light = np.array(row["normal"]), tree.nodes["direction"][child]
+    n_l = float(n @ to_light)
+    r = 2.0 * n_l * n - to_light
+    return n_l, float(r @ -row["direction"])
+
+
+def _color(world: World, tree: RayTree, i: int) -> np.ndarray:
+    row = tree.nodes[i]
+    this = world.arrays.objects[row["object"]]
+    material = world.arrays.materials[this["material"]]
+    return np.array(surface_color(material, this, vector(row["point"])))

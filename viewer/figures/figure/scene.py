@@ -1,0 +1,276 @@
+"""The scene with a pixel's rays over it, seen from beside: what opaque things hide of a ray is drawn faintly.
+
+The eye is the 3D view's own. Objects are flat areas with their outlines, a shade darker where they turn away; rays and
+their labels are those of the tree figure.
+"""
+
+import math
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from tracer.kernel.nodes import KINDS, SHADOW
+from tracer.scene import Material
+from tracer.tree.raytree import RayTree, light_name, name_of
+from viewer.base.pictures import LUMINANCE, as_shown
+from viewer.base.theme import ARROW_AT, HALO, STYLES, Arrow, Color, Theme, faded
+from viewer.figures import signs
+from viewer.figures.font import text_width
+from viewer.figures.labels import ray_label, ray_title
+from viewer.figures.layout.label_placement import Names, Spot
+from viewer.figures.marks import Line, Mark, Piece, Point, Shape, Stroke, along, shares_within
+from viewer.figures.ray_lines import RayLine, ray_lines
+from viewer.figures.steps import Stage
+from viewer.figures.visible.outlines import Area
+from viewer.figures.visible.scene_view import SceneView
+from viewer.figures.visible.scenery import Part
+
+PALE = 0.45  # how much of the paper's colour things take, so that rays stand out
+SHADE = 0.09  # opacity of what makes a turned-away surface darker
+GLASS = 0.13  # opacity of glass
+OUTLINE, CREASE = 1.3, 0.8  # widths
+FAINT = 0.3  # opacity of what is hidden of a ray
+SLIM = 0.7  # of a shadow ray's width: there are many, and they are not what the figure is about
+SPOTS = (0.4, 0.5, 0.3, 0.6, 0.7, 0.2, 0.8, 0.1, 0.9)  # of what is seen of a ray, where it may be named
+ROOMY = 2.2  # times its name's size, at least, a ray that has its name upon it; shorter ones have it beside
+LABELS = 24  # rays that are named, the heaviest
+FIRST = 12  # of them, that are named even where names must cross other rays; rays to lights never do
+
+
+Named = tuple[frozenset[int], list[Mark]]  # the rays with which a name comes (none: it is always there), and its marks
+
+
+def scene_pages(view: SceneView, stages: Sequence[Stage], size: float, theme: Theme) -> list[list[Mark]]:
+    """A page a stage. Names are placed for the last, the fullest, and come with what they name: none ever moves."""
+    drawings = [_Drawing(view, stage, size, theme) for stage in stages]
+    names = drawings[-1].named()
+    return [
+        drawing.marks + [mark for rows, marks in names if not rows or rows & drawing.stage.rows for mark in marks]
+        for drawing in drawings
+    ]
+
+
+class _Drawing:
+    def __init__(self, view: SceneView, stage: Stage, size: float, theme: Theme) -> None:
+        self.view, self.stage, self.size, self.theme = view, stage, size, theme
+        self.tree: RayTree = stage.tree
+        self.scene = view.world.scene
+        self.marks: list[Mark] = []
+        self.names = Names(view.where, size, theme)
+        for part in view.seen.opaque:
+            self._thing(part, 1.0)
+        for part in view.seen.glass:
+            self._thing(part, GLASS)
+        lines = ray_lines(self.tree, len(self.tree), view.frame, frozenset(KINDS))
+        self.lines = [line for line in lines if line.row in stage.rows]
+        for line in sorted(self.lines, key=lambda line: -line.row):  # the first rays over the later ones
+            self._ray(line)
+        self.lights = self._lights()
+        self._eye()
+
+    # --- things -------------------------------------------------------------------------------------------------------
+
+    def _thing(self, part: Part, opacity: float) -> None:
+        theme = self.theme
+        item = self.scene.objects[part.number]
+        name = f"object-{part.number}"
+        fill = faded(theme.text, GLASS) if opacity < 1.0 else look(item.material, theme)
+        title = name_of(self.scene, part.number)
+        for k, face in enumerate(part.faces):
+            for area in face:
+                width = CREASE if len(part.faces) > 1 else OUTLINE
+                self._area(name, area, fill, Stroke(theme.muted, width), title if k == 0 else "")
+        checker = item.material.checker
+        if opacity == 1.0 and checker:
+            other = look(replace(item.material, color=checker.color), theme)
+            between = _between(fill, other)
+            for colored, areas in ((between, part.mingled), (other, part.checks)):
+                for area in areas:
+                    self._area(name, area, colored, None)
+        if opacity == 1.0:
+            for shade in part.shades:
+                for area in shade:
+                    self._area(name, area, (0.0, 0.0, 0.0, SHADE), None)
+
+    def _area(self, name: str, area: Area, fill: Color, stroke: Stroke | None, title: str = "") -> None:
+        self.marks.append(Shape(name, area.outline, fill, stroke, holes=area.holes, title=title))
+
+    # --- rays ---------------------------------------------------------------------------------------------------------
+
+    def _ray(self, line: RayLine) -> None:
+        style, color = STYLES[line.kind], self.theme.ray(line.kind)
+        name, title = f"ray-{line.row}", ray_title(self.tree, line.row)
+        strong = 1.8 if line.row == self.stage.current else 1.0
+        slim = SLIM if line.kind == "shadow" else 1.0
+        stroke = Stroke(color, strong * slim * style.width, line.dash)
+        faint = Stroke(faded(color, FAINT), style.width, line.dash)
+        arrow = self._arrow_at(line)
+        for stretch in self.view.parts(line):
+            piece = self._on_canvas(line, stretch.begin, stretch.end)
+            if piece is None:
+                continue
+            a, b = piece
+            self.names.ways.append((name, piece))
+            if not stretch.seen:
+                self.marks.append(Line(name, a, b, faint, title=title))
+                continue
+            if line.kind != "shadow":
+                self.marks.append(Line("halo", a, b, Stroke(self.theme.ground, stroke.width + 2.0 * HALO)))
+            self.marks.append(Line(name, a, b, stroke, title=title))
+            head = self._on_canvas(line, stretch.begin, arrow) if stretch.begin < arrow < stretch.end else None
+            if head and style.arrow is not Arrow.NONE and math.dist(*head) > 1.0:
+                self.marks.append(Line(name, *_last(head, 2.0), Stroke(color, stroke.width), style.arrow, 1.0))
+                self.names.take(head[1], 0.9 * self.size)
+        met = self._on_canvas(line, 0.999, 1.0)
+        if met and line.kind != "shadow":  # what it meets there is to be seen
+            self.names.take(met[1], 0.5 * self.size)
+        if met and line.blocked:
+            self.marks += signs.cross(name, met[1], self.size, color)
+
+    def _arrow_at(self, line: RayLine) -> float:
+        """Where its arrow stands, of its length: as always or, if that is outside, in the middle of what is seen."""
+        shares = np.linspace(0.0, 1.0, 101)
+        places, depths = self.view.at(line.start + shares[:, None] * (line.end - line.start))
+        left, top, right, bottom = self.view.where
+        x, y = places.T
+        inside = (depths > 0.0) & (x > left) & (x < right) & (y > top) & (y < bottom)
+        if inside[round(100 * ARROW_AT)] or not inside.any():
+            return ARROW_AT
+        return float(np.median(shares[inside]))
+
+    def _on_canvas(self, line: RayLine, begin: float, end: float) -> Piece | None:
+        """A stretch of a ray where it is before the eye and within the figure; None where it is not."""
+        ends = np.array([line.start + share * (line.end - line.start) for share in (begin, end)])
+        places, depths = self.view.at(ends)
+        near = 1e-3  # of the scene's radius
+        if (depths <= near).all():
+            return None
+        if (depths <= near).any():
+            share = (near - depths[0]) / (depths[1] - depths[0])
+            ends[int(np.argmin(depths))] = ends[0] + share * (ends[1] - ends[0])
+            places, _ = self.view.at(ends)
+        piece = _pair(places)
+        inside = shares_within(piece, self.view.where)
+        return (along(piece, inside[0]), along(piece, inside[1])) if inside else None
+
+    # --- signs and labels ---------------------------------------------------------------------------------------------
+
+    def _place(self, point: np.ndarray) -> Point | None:
+        """Of a point of the frame on the canvas, if it is well within."""
+        places, depths = self.view.at(point[None])
+        x, y = places[0].tolist()
+        left, top, right, bottom = self.view.where
+        room = 0.8 * self.size
+        inside = left + room < x < right - room and top + room < y < bottom - room
+        return (x, y) if depths[0] > 0.0 and inside else None
+
+    def _lights(self) -> dict[int, Point]:
+        """Where lights are, of those within the picture."""
+        found = {}
+        for j, light in enumerate(self.scene.lights):
+            at = self._place(self.view.frame.inside(light.position)) if light.position else None
+            if at:
+                self.marks += signs.sun(f"light-{j}", at, 1.4 * self.size, self.theme.sun)
+                self.names.take(at, 1.2 * self.size)
+                found[j] = at
+        return found
+
+    def _eye(self) -> None:
+        at = self._place(self.view.frame.inside(self.view.world.view().eye))
+        if at:
+            self.marks += signs.eye(at, self.size, self.theme)
+            self.names.take(at, 1.6 * self.size)
+
+    def named(self) -> list[Named]:
+        """Names of lights, of rays, the heaviest first, then of what these meet."""
+        found: list[Named] = []
+        for j, at in self.lights.items():
+            name = light_name(self.scene, j)
+            found.append((frozenset(), self.names.label(f"light-{j}", name, [Spot(at)], self.theme.text)))
+        nodes = self.tree.nodes
+        rays = [line for line in self.lines if nodes["kind"][line.row] != SHADOW]
+        shadows = [line for line in self.lines if nodes["kind"][line.row] == SHADOW]
+        rays.sort(key=lambda line: (-nodes["weight"][line.row].max(), line.row))
+        for k, line in enumerate([*rays, *shadows][:LABELS]):
+            piece = self._on_canvas(line, 0.0, 1.0)
+            if piece:
+                label, color = ray_label(self.tree, line.row), self.theme.ray(line.kind)
+                spots = self._along(f"ray-{line.row}", label, piece)
+                most = sys.maxsize if k < FIRST and line.kind != "shadow" else 0
+                words = self.names.label(f"ray-{line.row}", label, spots, color, most)
+                found.append((frozenset((line.row,)), words))
+        found += self._ways_out(shadows)
+        for part in (*self.view.seen.opaque, *self.view.seen.glass):
+            rows = frozenset(line.row for line in rays if nodes["object"][line.row] == part.number)
+            if rows:
+                name = name_of(self.scene, part.number)
+                upon = _wide(part) > 1.1 * text_width(name, self.size)  # else the name would hide the thing
+                spots = [Spot(at, upon=True) for at in part.spots if upon]
+                if not upon or not self.names.fits(name, spots):
+                    spots = [Spot(at) for at in part.spots[:3]]
+                label = self.names.label(f"object-{part.number}", name, spots, self.theme.text, lead=True)
+                found.append((rows, label))
+        return found
+
+    def _along(self, name: str, label: str, piece: Piece) -> list[Spot]:
+        """Upon a ray where it is long enough, else beside it."""
+        upon = math.dist(*piece) > ROOMY * max(self.size, text_width(label, self.size))
+        places = [along(piece, share) for share in SPOTS]
+        return [Spot(at, upon=True, spare=name) for at in places if upon] + [Spot(at) for at in places]
+
+    def _ways_out(self, shadows: Sequence[RayLine]) -> list[Named]:
+        """Where rays to a light leave the picture: which light they go to."""
+        found: list[Named] = []
+        left, top, right, bottom = self.view.where
+        for j in sorted(set(range(len(self.scene.lights))) - self.lights.keys()):
+            ends: list[Spot] = []
+            rows: set[int] = set()
+            for line in shadows:
+                piece = self._on_canvas(line, 0.0, 1.0) if self.tree.nodes["light"][line.row] == j else None
+                if piece is None:
+                    continue
+                x, y = piece[1]
+                if min(x - left, right - x, y - top, bottom - y) < 0.5:
+                    inner = max(0.0, 1.0 - 1.2 * self.size / max(1.0, math.dist(*piece)))
+                    ends.append(Spot(along(piece, inner)))
+                    rows.add(line.row)
+            words = f"to {light_name(self.scene, j)}"
+            marks = self.names.label(f"light-{j}", words, ends, self.theme.text)
+            if marks:
+                found.append((frozenset(rows), marks))
+        return found
+
+
+def _wide(part: Part) -> float:
+    across = [x for face in part.faces for area in face for x, _ in area.outline]
+    return max(across) - min(across)
+
+
+def look(material: Material, theme: Theme) -> Color:
+    """A thing's own colour, paler: what its light would be, or grey where it only mirrors."""
+    strength = min(1.0, material.ambient + material.diffuse)
+    color = np.array(material.color) * strength + 0.55 * min(1.0, material.reflect)
+    encoded = np.array(as_shown(color)[:3])
+    if theme.mono:
+        encoded = np.full(3, 0.55 + 0.45 * float(encoded @ LUMINANCE))
+    r, g, b = ((1.0 - PALE) * encoded + PALE * np.array(theme.ground[:3])).tolist()
+    return (r, g, b, 1.0)
+
+
+def _between(a: Color, b: Color) -> Color:
+    red, green, blue, opacity = (0.5 * (x + y) for x, y in zip(a, b, strict=True))
+    return (red, green, blue, opacity)
+
+
+def _last(piece: Piece, length: float) -> Piece:
+    """The end of a stretch, so long."""
+    (x0, y0), (x1, y1) = piece
+    share = min(1.0, length / max(1e-9, math.dist(*piece)))
+    return (x1 - share * (x1 - x0), y1 - share * (y1 - y0)), (x1, y1)
+
+
+def _pair(places: np.ndarray) -> Piece:
+    (x0, y0), (x1, y1) = places.tolist()
+    return (x0, y0), (x1, y1)

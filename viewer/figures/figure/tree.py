@@ -1,0 +1,250 @@
+"""The ray tree as a figure: Whitted's own (CACM 23(6), 1980).
+
+The eye on top, reflected rays left, refracted ones right, dashed stubs to the lights; on each edge what the parent
+multiplies by, in each box what was met. With the eye at the left reflected rays go up, refracted ones down.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import RayTree, light_name
+from viewer.base.pictures import LUMINANCE, as_shown
+from viewer.base.theme import BLOCKED_DASH, STYLES, Color, Theme
+from viewer.figures import signs
+from viewer.figures.font import text_width
+from viewer.figures.labels import end_label, hit_label, ray_label, ray_title
+from viewer.figures.layout.folds import Fold
+from viewer.figures.layout.sizes import BARE_NOTE, LINE, MARGIN, NO_RAY, NOTE, PADDING, SIGN, SWATCH, edge_label
+from viewer.figures.layout.tree_plan import TreePlan
+from viewer.figures.legend import Entry, legend
+from viewer.figures.marks import HEIGHT, Box, Disc, Line, Mark, Point, Rectangle, Stroke, Text
+from viewer.figures.steps import Stage
+
+MOST_LIGHTS = 4  # whose names the legend has room for
+LIGHT_ENDS = {
+    "lit": "to a light",
+    "filtered": "through glass",
+    "blocked": "blocked",
+    "away": "faces away",
+}
+
+
+def tree_pages(plan: TreePlan, stages: Sequence[Stage], theme: Theme) -> list[list[Mark]]:
+    """A page a stage: of the plan's rows those that are there. What signs mean stands where no page has anything."""
+    drawn = [_Drawing(plan, stage, theme).marks for stage in stages]
+    left, right = plan.wanted.where
+    margin = MARGIN * plan.size
+    where: Rectangle = (left + margin, margin, right - margin, HEIGHT - margin)
+    signs_meant = legend(_entries(plan), [mark for marks in drawn for mark in marks], where, plan.size, theme)
+    return [[*signs_meant, *marks] for marks in drawn]
+
+
+class _Drawing:
+    def __init__(self, plan: TreePlan, stage: Stage, theme: Theme) -> None:
+        self.plan, self.stage, self.theme = plan, stage, theme
+        self.tree: RayTree = stage.tree
+        self.size = plan.size
+        self.sideways = plan.wanted.eye == "left"
+        self.marks: list[Mark] = []
+        rows = sorted(plan.rows & stage.rows)
+        hits = [i for i in rows if self.tree.nodes["kind"][i] != SHADOW]
+        folds = [fold for row, fold in sorted(plan.folds.items()) if row in stage.rows]
+        self.marks += signs.eye(plan.places.eye, self.size, theme)
+        for i in rows:
+            self._stub(i) if self.tree.nodes["kind"][i] == SHADOW else self._edge(i)
+        for fold in folds:
+            if fold.under is None:
+                self._fold_edge(fold.row)
+        for i in hits:
+            self._bar(i)
+            self._box(i)
+        for fold in folds:
+            self._fold(fold)
+
+    # --- rays ---------------------------------------------------------------------------------------------------------
+
+    def _leave(self, i: int) -> tuple[Point, str]:
+        """Where the edge to hit i begins, and the mark it leaves."""
+        parent = int(self.tree.nodes["parent"][i])
+        if parent < 0:
+            x, y = self.plan.places.eye
+            return ((x + self.size, y) if self.sideways else (x, y + 0.55 * self.size)), "eye"
+        x, y = self.plan.at[parent]
+        side = 0.5 * self.plan.box[0]
+        to_left = self.plan.at[i][0] < x
+        return (x - side if to_left else x + side, y), f"hit-{parent}"
+
+    def _reach(self, i: int, height: float) -> Point:
+        """Where the edge to the box at i, so high, ends."""
+        x, y = self.plan.at[i]
+        return (x - 0.5 * self.plan.box[0], y) if self.sideways else (x, y - 0.5 * height)
+
+    def _edge(self, i: int) -> None:
+        kind = self.tree.kind(i)
+        style, color = STYLES[kind], self.theme.ray(kind)
+        start, leaves = self._leave(i)
+        end = self._reach(i, self.plan.box[1])
+        strong = 1.8 if i == self.stage.current else 1.0
+        label = self._edge_label(i, start, end, color)
+        line = Line(
+            f"ray-{i}",
+            start,
+            end,
+            Stroke(color, strong * style.width, style.dash),
+            style.arrow,
+            0.5,
+            leaves,
+            f"hit-{i}",
+            label.box() if label.on_line else None,
+            title=ray_title(self.tree, i),
+        )
+        self.marks += [line, label]
+
+    def _edge_label(self, i: int, start: Point, end: Point, color: Color) -> Text:
+        """Above its box: there an edge from above is broken. The first ray is straight, and has its label beside it."""
+        name, content = f"ray-{i}", edge_label(self.tree, i)
+        x, y = self.plan.at[i]
+        if i and self.sideways:
+            return Text(name, (x, y - self.plan.top), content, self.size, color)
+        if i:
+            return Text(name, (x, y - self.plan.top), content, self.size, color, on_line=True)
+        if self.sideways:
+            return Text(name, (0.5 * (start[0] + end[0]), y - self.size), content, self.size, color)
+        return Text(name, (x + 0.5 * self.size, y - self.plan.top), content, self.size, color, "start")
+
+    def _stub(self, i: int) -> None:
+        """To a light: what becomes of the ray stands at its end."""
+        name, tree = f"ray-{i}", self.tree
+        parent = int(tree.nodes["parent"][i])
+        x, y = self.plan.at[parent]
+        at = self.plan.at[i]
+        end = tree.end(i)
+        color = self.theme.ray("shadow")
+        style = STYLES["shadow"]
+        dash = BLOCKED_DASH if end == "blocked" else style.dash
+        label = ray_label(tree, i)
+        sign, text = self._side_by_side(at, label)
+        start = (x + 0.6 * (sign[0] - x), y + 0.5 * self.plan.box[1])
+        stop = (sign[0], at[1] - 0.5 * self.size)
+        strong = 1.8 if i == self.stage.current else 1.0
+        self.marks.append(
+            Line(
+                name,
+                start,
+                stop,
+                Stroke(color, strong * style.width, dash),
+                leaves=f"hit-{parent}",
+                title=ray_title(tree, i),
+            )
+        )
+        self.marks += signs.light_end("away" if tree.faces_away(i) else end or "", name, sign, self.size, self.theme)
+        self.marks.append(Text(name, text, label, self.size, color, "start"))
+
+    def _side_by_side(self, at: Point, label: str) -> tuple[Point, Point]:
+        """(middle of the sign, left end of its label), together in the middle of a stub's place."""
+        left = at[0] - 0.5 * (SIGN * self.size + text_width(label, self.size))
+        return (left + 0.45 * self.size, at[1]), (left + SIGN * self.size, at[1])
+
+    def _bar(self, i: int) -> None:
+        """The refracted ray that total internal reflection does not let out."""
+        at = self.plan.places.bars.get(i)
+        if at is None or not any(c in self.stage.rows for c in self.tree.children[i] if self.tree.kind(c) == "tir"):
+            return
+        x, y = self.plan.at[i]
+        name, color = f"bar-{i}", self.theme.ray("refraction")
+        sign, text = self._side_by_side(at, NO_RAY)
+        start = (x + 0.6 * (sign[0] - x), y + 0.5 * self.plan.box[1])
+        title = "total internal reflection: no ray is refracted"
+        stop = (sign[0], at[1] - 0.15 * self.size)
+        self.marks.append(Line(name, start, stop, Stroke(color, STYLES["refraction"].width), title=title))
+        self.marks += signs.bar(name, stop, self.size, color)
+        self.marks.append(Text(name, text, NO_RAY, self.size, color, "start"))
+
+    # --- hits ---------------------------------------------------------------------------------------------------------
+
+    def _box(self, i: int) -> None:
+        name, at = f"hit-{i}", self.plan.at[i]
+        background = self.tree.end(i) == "background"
+        stroke = Stroke(self.theme.text, 2.6 if i == self.stage.current else 1.4)
+        if background:
+            stroke = Stroke(self.theme.muted, 1.4, (3.0, 3.0))
+        color = self.theme.text
+        words = hit_label(self.tree, i)
+        self.marks.append(
+            Box(name, at, self.plan.box, 0.28 * self.size, self.theme.panel, stroke, title=f"{words}, met by ray {i}")
+        )
+        middle = at
+        if self.plan.wanted.swatches:
+            left = at[0] - 0.5 * self.plan.box[0] + (PADDING + 0.5 * SWATCH) * self.size
+            if i in self.stage.summed:
+                fill = swatch(self.tree, i, self.theme)
+                radius = 0.5 * self.size
+                self.marks.append(Disc(name, (left, at[1]), radius, fill, Stroke(self.theme.text, 1.0)))
+            middle = (at[0] + 0.5 * SWATCH * self.size, at[1])
+        self.marks.append(Text(name, middle, self.plan.name(i), self.size, color, inside=name))
+        self._note(i)
+
+    def _note(self, i: int) -> None:
+        """Under a leaf: why nothing follows. Where something does follow, the end is that branch's own."""
+        words = end_label(self.tree, i)
+        if words and all(self.tree.nodes["kind"][c] == SHADOW for c in self.tree.children[i]):
+            self.marks.append(Text(f"hit-{i}", self._under(i), words, self.size, self.theme.muted))
+
+    def _under(self, i: int) -> Point:
+        """The middle of the first line under a box and the stubs that hang there."""
+        x, y = self.plan.at[i]
+        stubs = i in self.plan.places.bars or any(c in self.plan.rows for c in self._shadows(i))
+        bare = 0.5 * self.plan.box[1] + BARE_NOTE * self.size
+        return (x, y + (self.plan.hang + NOTE * self.size if stubs else bare))
+
+    def _shadows(self, i: int) -> list[int]:
+        return [c for c in self.tree.children[i] if self.tree.nodes["kind"][c] == SHADOW]
+
+    # --- folded branches ----------------------------------------------------------------------------------------------
+
+    def _fold_edge(self, row: int) -> None:
+        start, leaves = self._leave(row)
+        reach = self._reach(row, self.plan.fold_height)
+        stroke = Stroke(self.theme.muted, 1.6, (2.0, 4.0))
+        self.marks.append(Line(f"fold-{row}", start, reach, stroke, leaves=leaves, reaches=f"fold-{row}"))
+
+    def _fold(self, fold: Fold) -> None:
+        """Two lines: how many rays, how much of the weight; in a box of their own, or under the hit."""
+        name = f"fold-{fold.row}"
+        many, share = fold.words(self.stage.rows, self.plan.inside)
+        if fold.under is not None:
+            x, y = self._under(fold.under)
+            for k, words in enumerate((many, share)):
+                self.marks.append(Text(name, (x, y + k * LINE * self.size), words, self.size, self.theme.muted))
+            return
+        x, y = self.plan.at[fold.row]
+        size = (self.plan.box[0], self.plan.fold_height)
+        stroke = Stroke(self.theme.muted, 1.4, (3.0, 3.0))
+        title = f"{many} not drawn, {share} of the weight"
+        self.marks.append(Box(name, (x, y), size, 0.28 * self.size, None, stroke, title=title))
+        for words, dy in ((many, -0.6), (share, 0.6)):
+            self.marks.append(Text(name, (x, y + dy * self.size), words, self.size, self.theme.muted, inside=name))
+
+
+def _entries(plan: TreePlan) -> list[Entry]:
+    """What of the signs the figure needs words for: those that its deepest step has."""
+    tree = plan.tree
+    kinds = {tree.kind(i) for i in plan.rows}
+    entries = [Entry(kind, STYLES[kind].label) for kind in ("reflection", "refraction", "tir") if kind in kinds]
+    shadows = [i for i in plan.rows if tree.nodes["kind"][i] == SHADOW]
+    ends = {"away" if tree.faces_away(i) else tree.end(i) or "" for i in shadows}
+    entries += [Entry(end, words) for end, words in LIGHT_ENDS.items() if end in ends]
+    lights = [light_name(tree.scene, j) for j in range(len(tree.scene.lights))]
+    if ends and len(lights) <= MOST_LIGHTS:  # each hit has a stub for each, in this order
+        entries.append(Entry("lights", f"L: {', '.join(lights)}"))
+    return entries
+
+
+def swatch(tree: RayTree, i: int, theme: Theme) -> Color:
+    """What ray i sends up, as a picture shows it; a grey of the same light where there is no colour."""
+    light = tree.nodes["radiance"][i]
+    if theme.mono:
+        light = np.full(3, light @ LUMINANCE)
+    return as_shown(light)

@@ -1,0 +1,1 @@
+"""Layout: the tidy tree, placement of boxes and labels, folding of branches."""

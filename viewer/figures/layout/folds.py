@@ -1,0 +1,55 @@
+"""Branches of a tree that are not drawn ray by ray: each says how many rays it stands for, and their weight."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import RayTree
+from viewer.base.wording import shown
+
+
+@dataclass(frozen=True)
+class Fold:
+    """A branch, or two of one hit, in one box, which stands where the heavier one's first hit would.
+
+    Below the last level there is no room for one: what it says then hangs `under` the hit.
+    """
+
+    row: int
+    roots: tuple[int, ...]
+    weight: float  # of its first rays, together
+    under: int | None = None
+
+    def words(self, rows: Iterable[int], inside: dict[int, int]) -> tuple[str, str]:
+        """(how many rays, their share of the weight), as far as these rows go."""
+        count = sum(inside.get(i) == self.row for i in rows)
+        return (f"+{count} ray{'s' if count > 1 else ''}", f"{percent(self.weight)} %")
+
+
+def percent(share: float) -> str:
+    """Two digits, or what stands before the point."""
+    return f"{100.0 * share:.0f}" if share >= 0.0995 else shown(100.0 * share, 2)
+
+
+def folded(tree: RayTree, kept: set[int], last: int, lights: bool) -> tuple[set[int], dict[int, Fold], dict[int, int]]:
+    """(rows drawn each for itself, folds, folded row -> its fold): of a hit's branches that are not kept, one fold.
+
+    `last` is the level below which there are no boxes; `lights`: whether rays to lights are drawn.
+    """
+    nodes = tree.nodes
+    weights = nodes["weight"].max(axis=1)
+    rows = kept | {c for i in kept for c in tree.children[i] if lights and nodes["kind"][c] == SHADOW}
+    folds: dict[int, Fold] = {}
+    inside: dict[int, int] = {}
+    for i in sorted(kept):
+        roots = tuple(c for c in tree.children[i] if c not in kept and nodes["kind"][c] != SHADOW)
+        if roots:
+            row = max(roots, key=lambda c: (weights[c], -c))
+            under = i if nodes["depth"][i] >= last else None
+            folds[row] = Fold(row, roots, float(sum(weights[c] for c in roots)), under)
+            inside |= dict.fromkeys(roots, row)
+    for i in range(len(tree)):  # a parent stands before its children
+        parent = int(nodes["parent"][i])
+        if parent in inside and i not in inside:
+            inside[i] = inside[parent]
+    return rows, folds, inside

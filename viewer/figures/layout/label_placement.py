@@ -1,0 +1,103 @@
+"""Where names go in a figure of the scene: beside what they name, not over one another, over as few rays as can be."""
+
+import math
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from viewer.base.theme import Color, Theme, faded
+from viewer.figures.font import text_box
+from viewer.figures.marks import Disc, Line, Mark, Piece, Point, Rectangle, Shape, Stroke, Text, shares_within
+
+BACKING, SOLID = 0.7, 0.9  # opacity of the paper behind a label, and where a line runs behind it
+RINGS = (0.75, 1.3, 2.0, 2.9, 3.8)  # how far from its spot a name may stand, in sizes of the text
+LED = 2.0  # from there on a thin line leads to it
+APART = 0.2  # between two names side by side
+TURNS = 12  # directions in which
+
+
+@dataclass(frozen=True)
+class Spot:
+    """Where a name may stand: beside a point, `upon` it, its middle there; `spare` is a line that it may cover."""
+
+    at: Point
+    upon: bool = False
+    spare: str = ""
+
+
+class Names:
+    """What is taken already, and what had better stay free."""
+
+    def __init__(self, where: Rectangle, size: float, theme: Theme) -> None:
+        self.where, self.size, self.theme = where, size, theme
+        self.taken: list[Rectangle] = []  # by names and signs
+        self.ways: list[tuple[str, Piece]] = []  # of rays, by the names of their marks
+
+    def take(self, at: Point, wide: float) -> None:
+        x, y = at
+        self.taken.append((x - 0.5 * wide, y - 0.5 * wide, x + 0.5 * wide, y + 0.5 * wide))
+
+    def label(
+        self, name: str, content: str, spots: Sequence[Spot], color: Color, most: int = sys.maxsize, lead: bool = False
+    ) -> list[Mark]:
+        """At one of these spots, the earlier the better; nothing where there is no room at any but over `most` rays.
+
+        Where it stands so far off that it could be another's, a thin line leads to its spot; with `lead` in any case.
+        """
+        best, ring = None, 0.0
+        for order, spot in enumerate(spots):
+            for cost, at, anchor in self._around(spot):
+                box = text_box(at, content, self.size, anchor)
+                if not self.free(box):
+                    continue
+                crossed = sum(way != spot.spare and shares_within(p, box) is not None for way, p in self.ways)
+                if best is None or (crossed, *cost, order) < best[0]:
+                    best, ring = ((crossed, *cost, order), at, anchor, box, spot), cost[0]
+        if best is None or best[0][0] > most:
+            return []
+        _, at, anchor, box, spot = best
+        left, top, right, bottom = box
+        self.taken.append((left - APART * self.size, top, right + APART * self.size, bottom))
+        corners = ((left - 2.0, top), (right + 2.0, top), (right + 2.0, bottom), (left - 2.0, bottom))
+        backing = SOLID if spot.spare else BACKING
+        paper = Shape(f"{name}-label", corners, faded(self.theme.ground, backing), None)
+        text = Text(f"{name}-label", at, content, self.size, color, anchor)
+        return [*(self._leader(name, box, spot.at) if (lead or ring >= LED) and not spot.upon else []), paper, text]
+
+    def fits(self, content: str, spots: Sequence[Spot]) -> bool:
+        """Whether there is room at any of these spots."""
+        boxes = (text_box(at, content, self.size, anchor) for spot in spots for _, at, anchor in self._around(spot))
+        return any(self.free(box) for box in boxes)
+
+    def free(self, box: Rectangle) -> bool:
+        return _within(box, self.where) and not any(_overlap(box, other) for other in self.taken)
+
+    def _leader(self, name: str, box: Rectangle, to: Point) -> list[Mark]:
+        """From the nearest point of a name's box."""
+        left, top, right, bottom = box
+        start = (min(max(to[0], left), right), min(max(to[1], top), bottom))
+        ink = self.theme.text
+        line = Line(f"{name}-label", start, to, Stroke(ink, 1.0))
+        return [line, Disc(f"{name}-label", to, 0.11 * self.size, ink, None)]
+
+    def _around(self, spot: Spot) -> list[tuple[tuple[float, int], Point, str]]:
+        """(how good, where, which end of the text stands there), the nearest first."""
+        if spot.upon:
+            return [((0.0, 0), spot.at, "middle")]
+        found = []
+        for ring in RINGS:
+            for turn in range(TURNS):
+                angle = 2.0 * math.pi * turn / TURNS
+                right, down = math.cos(angle), math.sin(angle)
+                anchor = "middle" if abs(right) < 0.3 else "start" if right > 0.0 else "end"
+                at = (spot.at[0] + ring * self.size * right, spot.at[1] + ring * self.size * down)
+                found.append(((ring, turn), at, anchor))
+        return found
+
+
+def _overlap(a: Rectangle, b: Rectangle) -> bool:
+    return min(a[2], b[2]) > max(a[0], b[0]) and min(a[3], b[3]) > max(a[1], b[1])
+
+
+def _within(a: Rectangle, b: Rectangle) -> bool:
+    return a[0] >= b[0] and a[1] >= b[1] and a[2] <= b[2] and a[3] <= b[3]

@@ -1,0 +1,164 @@
+"""A tree's boxes on its part of the canvas, growing down from an eye on top or to the right from an eye at the left.
+
+Either way what stands side by side never comes closer than its size, and edges run where nothing else stands: down
+from a box's sides, past the stubs that hang under it; or from its right side through the free column to the next level.
+"""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import RayTree
+from viewer.figures.layout.sizes import BOX, LINE, MARGIN, NOTE, STUB, Sizes
+from viewer.figures.layout.tidy_tree import Layout, Room, layout
+from viewer.figures.marks import HEIGHT, Point
+
+# In sizes of the text.
+GAP = 0.7  # between two boxes side by side, at least
+GAP_BELOW = 0.3  # between two boxes one below the other with all that hangs on them, at least
+SPREAD = 1.6  # how much farther apart they stand where there is room
+EYE = 0.75  # from the upper rim to the eye
+EYE_WIDE = 0.95  # from the left rim to the eye, and from there to where the first ray begins
+FIRST = 4.8  # from the eye down to the first hit
+FIRST_RIGHT = 3.4  # from the eye to the first hit's box
+CLEAR = 6.3  # from level to level, at least, where a leaf's note may hang beside what is on the next level
+PITCH, TALLEST = 4.85, 8.0  # from level to level down, at least and at most
+CORRIDOR, WIDEST = 2.4, 6.0  # between the boxes of two levels side by side, at least and at most
+
+EYES = ("top", "left")
+
+
+@dataclass(frozen=True)
+class Places:
+    """Middles of boxes and of signs at stubs' ends; where total internal reflection ends the refracted ray; the eye."""
+
+    at: dict[int, Point]
+    bars: dict[int, Point]
+    eye: Point
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is to be placed: these rows and boxes of folds, with text of that size between that left and right."""
+
+    tree: RayTree
+    rows: Collection[int]
+    folds: Collection[int]
+    sizes: Sizes
+    size: float
+    where: tuple[float, float]
+    hung: bool  # whether folds hang under the last level
+
+    @property
+    def levels(self) -> int:
+        """Below the first."""
+        return max(int(self.tree.nodes["depth"][i]) for i in (*self.rows, *self.folds))
+
+
+def levels_down(size: float, hung: bool) -> int:
+    """How many levels there may be below the first, at most; `hung`: with folds under the last."""
+    return int(_room_below(size, hung) / (PITCH * size))
+
+
+def levels_right(sizes: Sizes, size: float, where: tuple[float, float]) -> int:
+    return int(_room_right(sizes, size, where) / (sizes.column + CORRIDOR * size))
+
+
+def _first(size: float) -> float:
+    """How far down the first hit stands."""
+    return (MARGIN + EYE + FIRST) * size
+
+
+def _room_below(size: float, hung: bool) -> float:
+    """From the first hit to the last level's."""
+    return HEIGHT - _first(size) - (0.5 * BOX + STUB + NOTE + LINE * hung + 0.5 + MARGIN) * size
+
+
+def downwards(task: Task, anyhow: bool) -> Places | None:
+    """None where it does not fit."""
+    tree, size, sizes, where = task.tree, task.size, task.sizes, task.where
+    margin, gap = MARGIN * size, GAP * size
+    unit = sizes.column + gap
+    stub = sizes.slot / unit
+    first, free, levels = _first(size), _room_below(size, task.hung), task.levels
+    crowded = CLEAR * size * levels > free
+    room = Room(0.5, 0.5, stub, 0.5 * stub, sides=True, passes=0.9, crowded=crowded, bars=True)
+    laid = layout(tree, {*task.rows, *task.folds}, room)
+    rim = (where[0] + margin - 0.5 * gap, where[1] - margin + 0.5 * gap)
+    across = _across(laid, (0.5, 0.5), unit, rim)
+    if across is None or PITCH * size * levels > free:
+        if not anyhow:
+            return None
+        across = across or (0.5 * (where[0] + where[1]), 1.0)
+    middle, spread = across
+    pitch = min(TALLEST * size, free / levels) if levels else 0.0
+    kinds, depth, parents = (tree.nodes[name] for name in ("kind", "depth", "parent"))
+    at = {
+        i: (middle + place.x * unit * spread, first + pitch * float(depth[i]))
+        for i, place in laid.places.items()
+        if kinds[i] != SHADOW
+    }
+
+    def hanging(parent: int, x: float) -> Point:
+        """A stub keeps its distance from its hit, however far apart hits are."""
+        x0, y0 = at[parent]
+        return (x0 + (x - laid.places[parent].x) * unit, y0 + 0.5 * sizes.box + STUB * size)
+
+    at |= {i: hanging(int(parents[i]), place.x) for i, place in laid.places.items() if kinds[i] == SHADOW}
+    bars = {i: hanging(i, place.x) for i, place in laid.bars.items()}
+    return Places(at, bars, (at[0][0], margin + EYE * size))
+
+
+def _room_right(sizes: Sizes, size: float, where: tuple[float, float]) -> float:
+    """From the first hit to the last level's."""
+    return where[1] - where[0] - (2.0 * MARGIN + EYE_WIDE + FIRST_RIGHT) * size - sizes.column
+
+
+def rightwards(task: Task, anyhow: bool) -> Places | None:
+    """None where it does not fit. Reflected rays go up, refracted ones down."""
+    tree, size, sizes, where = task.tree, task.size, task.sizes, task.where
+    margin, kinds = MARGIN * size, tree.nodes["kind"]
+    unit = sizes.up + sizes.down + GAP_BELOW * size
+    extent = ((sizes.up + 0.5 * GAP_BELOW * size) / unit, (sizes.down + 0.5 * GAP_BELOW * size) / unit)
+    hits = {i for i in task.rows if kinds[i] != SHADOW}
+    laid = layout(tree, hits | set(task.folds), Room(*extent, 0.0, 0.0))
+    rim = (margin - 0.5 * GAP_BELOW * size, HEIGHT - margin + 0.5 * GAP_BELOW * size)
+    across = _across(laid, extent, unit, rim)
+    free, levels = _room_right(sizes, size, where), task.levels
+    if across is None or (sizes.column + CORRIDOR * size) * levels > free:
+        if not anyhow:
+            return None
+        across = across or (0.5 * HEIGHT, 1.0)
+    middle, spread = across
+    pitch = min(sizes.column + WIDEST * size, free / levels) if levels else 0.0
+    eye = where[0] + margin + EYE_WIDE * size
+    first = eye + FIRST_RIGHT * size + 0.5 * sizes.column
+    depth = tree.nodes["depth"]
+    at = {i: (first + pitch * float(depth[i]), middle + place.x * unit * spread) for i, place in laid.places.items()}
+    bars: dict[int, Point] = {}
+    for i in sorted(hits):
+        stubs = [c for c in tree.children[i] if c in task.rows and kinds[c] == SHADOW]
+        barred = any(c in task.rows and tree.kind(c) == "tir" for c in tree.children[i])
+        (x, y), count = at[i], len(stubs) + barred
+        ends = [(x + sizes.slot * (k - 0.5 * (count - 1)), y + 0.5 * sizes.box + STUB * size) for k in range(count)]
+        if barred:
+            bars[i] = ends.pop()
+        at |= dict(zip(stubs, ends, strict=True))
+    return Places(at, bars, (eye, at[0][1]))
+
+
+def _across(
+    laid: Layout, extent: tuple[float, float], unit: float, rim: tuple[float, float]
+) -> tuple[float, float] | None:
+    """(where the first hit stands, by how much all is spread) between two rims; None where there is no room.
+
+    The first hit stands in the middle, where the tree leaves room for that.
+    """
+    low = min(place.x for place in laid.places.values()) - extent[0]
+    high = max(place.x for place in laid.places.values()) + extent[1]
+    widest = (rim[1] - rim[0]) / (high - low)
+    if unit > widest:
+        return None
+    spread = min(widest, SPREAD * unit) / unit
+    middle = min(max(0.5 * (rim[0] + rim[1]), rim[0] - low * unit * spread), rim[1] - high * unit * spread)
+    return middle, spread

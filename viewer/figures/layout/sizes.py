@@ -1,0 +1,108 @@
+"""How much room what stands in a tree figure takes: boxes of one size, wide enough for all that any of them holds."""
+
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
+
+from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import RayTree
+from viewer.figures.font import text_width
+from viewer.figures.labels import end_label, factor_label, hit_label, ray_label
+from viewer.figures.layout.folds import Fold
+from viewer.figures.marks import WIDTH
+
+# In sizes of the text.
+MARGIN = 0.6
+PADDING = 0.5  # on either side of a name in its box
+SWATCH = 1.5  # of a box, for the colour that is sent up
+BOX = 1.55  # its height
+FOLD = 2.7  # the height of a box for a folded branch, which has two lines
+SIGN = 0.95  # the width of a sign at a stub's end; its label follows
+SLOT = 0.4  # between two stubs' labels
+STUB = 1.1  # from a box to the sign at a stub's end
+NOTE = 1.2  # from there to the middle of a leaf's note
+BARE_NOTE = 0.8  # from a box without stubs to the middle of its note
+LINE = 1.3  # from line to line
+EDGE_LABEL = 1.1  # from a box up to the middle of its ray's label
+ABOVE, BELOW = 0.42, 0.61  # from the middle of a line of text to its ascenders and descenders
+
+NO_RAY = "no T"  # what total internal reflection leaves of the refracted ray
+LONG, SHORT = 24, 14  # characters of a name, where there is room for it and where there is not; longer ones are cut
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is asked of a plan: `fold` is the weight below which branches are folded in any case."""
+
+    size: float  # of the text, in points
+    swatches: bool = False  # in each box the colour that is sent up
+    fold: float = 0.0
+    where: tuple[float, float] = (0.0, WIDTH)  # left and right of its part of the canvas
+    eye: str = "top"  # or left
+    lights: bool = True  # whether rays to lights are drawn
+    longest: int = LONG  # characters of a name
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """In points: a box's width and height, a stub's place, and how far up and down of a box's middle things stand."""
+
+    column: float
+    box: float
+    slot: float
+    up: float
+    down: float
+
+    @staticmethod
+    def of(
+        trees: Sequence[RayTree],
+        rows: Collection[int],
+        folds: dict[int, Fold],
+        inside: dict[int, int],
+        wanted: Wanted,
+    ) -> "Sizes":
+        """Of all that stands in, over or under any box at any step, the deepest last."""
+        tree, size = trees[-1], wanted.size
+        kinds = tree.nodes["kind"]
+        names, loose, stubs, shares = [""], [""], [""], [""]
+        hung = {fold.under for fold in folds.values()}
+        most, down = 0, 0.5 * (FOLD if len(hung - {None}) < len(folds) else BOX)
+        for i in rows:
+            if kinds[i] == SHADOW:
+                stubs.append(ray_label(tree, i))
+                continue
+            names.append(name_in_box(tree, i, wanted.longest))
+            loose.append(edge_label(tree, i))
+            notes = [end_label(step, i) for step in trees if i < len(step)]
+            loose += notes
+            thrown_back = any(tree.kind(c) == "tir" for c in tree.children[i])
+            hanging = sum(kinds[c] == SHADOW and c in rows for c in tree.children[i]) + thrown_back
+            most = max(most, hanging)
+            stubs += [NO_RAY] * thrown_back
+            lines = 2 if i in hung else 1 if any(notes) else 0
+            reach = (STUB if hanging else 0.0) + ((NOTE if hanging else BARE_NOTE) + LINE * (lines - 1)) * (lines > 0)
+            down = max(down, 0.5 * BOX + reach + (BELOW if reach else 0.0))
+        for fold in folds.values():
+            shares += fold.words(range(len(tree)), inside)
+        around = 2 * PADDING * size
+        widest = max(
+            _widest(names, size) + around + SWATCH * size * wanted.swatches,
+            _widest(shares, size) + around,
+            _widest(loose, size),
+        )
+        slot = _widest(stubs, size) + (SIGN + SLOT) * size
+        up = 0.5 * BOX + EDGE_LABEL + ABOVE
+        return Sizes(max(widest, most * slot), BOX * size, slot, up * size, down * size)
+
+
+def _widest(labels: Iterable[str], size: float) -> float:
+    return max(text_width(label, size) for label in labels)
+
+
+def name_in_box(tree: RayTree, i: int, longest: int) -> str:
+    name = hit_label(tree, i)
+    return name if len(name) <= longest else name[: longest - 1].rstrip() + "…"
+
+
+def edge_label(tree: RayTree, i: int) -> str:
+    """On the way to hit i: which ray, and what its parent multiplies it by."""
+    return f"{ray_label(tree, i)} {factor_label(tree, i)}" if i else ray_label(tree, i)

@@ -1,0 +1,149 @@
+"""Where the nodes of a ray tree stand: the tidy tree of Reingold & Tilford, IEEE Trans. Softw. Eng. 7(2), 1981.
+
+Reflected rays go to the left of their hit, refracted ones to the right, and the hit stands over their middle. Between
+them, half a level down, short stubs lead to the lights, as in Whitted's figure. Nothing of one level comes closer than
+its width; the same subtree looks the same wherever it stands.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracer.kernel.nodes import REFRACTION, SHADOW, TIR
+from tracer.tree.raytree import RayTree
+
+
+@dataclass(frozen=True)
+class Room:
+    """What a node and its stubs take, in node widths."""
+
+    left: float  # of a node's middle
+    right: float
+    stub_gap: float  # between two stubs
+    stub_half: float
+    lean: float = 0.5  # how far to its side an only child stands
+    edge: float = 0.2  # between a stub and the edges beside it
+    sides: bool = False  # rays leave at a node's sides, not from its middle, and what hangs on it is as wide as itself
+    passes: float = 0.5  # how far down to the next level it hangs: there its neighbours' edges must have parted from it
+    crowded: bool = False  # it hangs so far down that it must not come near what the next level has in its place
+    bars: bool = False  # whether total internal reflection has a stub for the ray that does not go on
+
+
+NAMES_BESIDE = Room(left=0.32, right=0.92, stub_gap=0.32, stub_half=0.16)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a node stands: x in node widths, y in levels (a stub to a light stands half a level below its hit)."""
+
+    x: float
+    y: float
+
+
+@dataclass(frozen=True)
+class Layout:
+    places: dict[int, Place]
+    bars: dict[int, Place]  # by the row where light is thrown back totally: the end of its stub
+
+
+@dataclass
+class _Subtree:
+    """Positions relative to its root, and how far it reaches left and right at each half level below the root."""
+
+    offsets: dict[int, float]
+    bars: dict[int, float]
+    left: list[float]
+    right: list[float]
+
+
+def layout(tree: RayTree, rows: set[int], room: Room = NAMES_BESIDE) -> Layout:
+    """Places of these rows (with every row its parent must be there); the root at x = 0."""
+    subtrees: dict[int, _Subtree] = {}
+    for i in sorted(rows, reverse=True):
+        if tree.nodes["kind"][i] != SHADOW:
+            subtrees[i] = _join(tree, i, [child for child in tree.children[i] if child in rows], subtrees, room)
+    depth = tree.nodes["depth"].astype(float)
+    level = depth + 0.5 * (tree.nodes["kind"] == SHADOW)
+    return Layout(
+        {i: Place(x, float(level[i])) for i, x in subtrees[0].offsets.items()},
+        {i: Place(x, float(depth[i]) + 0.5) for i, x in subtrees[0].bars.items()},
+    )
+
+
+def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtree], room: Room) -> _Subtree:
+    """The subtree of row i from those of the rays it sends out, which are used up."""
+    kinds = tree.nodes["kind"]
+    stubs = [child for child in children if kinds[child] == SHADOW]
+    thrown_back = [child for child in children if kinds[child] not in (SHADOW, REFRACTION)]
+    let_through = [child for child in children if kinds[child] == REFRACTION]
+    rays = [*thrown_back, *let_through]
+    barred = room.bars and any(kinds[child] == TIR for child in thrown_back)
+    count = len(stubs) + barred
+    shifts = _apart([subtrees[child] for child in rays])
+    if thrown_back and let_through:
+        # The edges must leave room for the stubs where they pass them, halfway down.
+        between = count > 0 and not room.sides
+        wanted = 4.0 * (0.5 * room.stub_gap * max(count - 1, 0) + room.edge) if between else 0.0
+        grow = max(0.0, wanted - (shifts[-1] - shifts[0]))
+        shifts = [shift + (grow if k >= len(thrown_back) else 0.0) for k, shift in enumerate(shifts)]
+        middle = 0.5 * (shifts[0] + shifts[-1])
+    elif rays:
+        middle = shifts[-1] + room.lean if thrown_back else shifts[0] - room.lean
+    else:
+        middle = 0.0
+    shifts = [shift - middle for shift in shifts]
+    offsets, bars = {i: 0.0}, {}
+    left, right = ([-room.left] * 2, [room.right] * 2) if room.sides else ([-room.left, 0.0], [room.right, 0.0])
+    places = _stub_places(count, bool(thrown_back), bool(let_through), room)
+    for x in places:
+        left[1], right[1] = min(left[1], x - room.stub_half), max(right[1], x + room.stub_half)
+    if barred:
+        bars[i] = places.pop()  # where the refracted ray would be: on the right
+    offsets |= dict(zip(stubs, places, strict=True))
+    for child, shift in zip(rays, shifts, strict=True):
+        sub = subtrees.pop(child)
+        offsets |= {row: x + shift for row, x in sub.offsets.items()}
+        bars |= {row: x + shift for row, x in sub.bars.items()}
+        passed = room.passes * shift
+        if room.crowded:
+            passed = shift + (-room.left if shift < 0.0 else room.right)
+        elif room.sides:
+            passed += (1.0 - room.passes) * (-room.left if shift < 0.0 else room.right)
+        left[1], right[1] = min(left[1], passed), max(right[1], passed)
+        for level, (low, high) in enumerate(zip(sub.left, sub.right, strict=True), start=2):
+            if level == len(left):
+                left.append(low + shift)
+                right.append(high + shift)
+            left[level], right[level] = min(left[level], low + shift), max(right[level], high + shift)
+    return _Subtree(offsets, bars, left, right)
+
+
+def _apart(subtrees: list[_Subtree]) -> list[float]:
+    """Shifts that put subtrees side by side, each as far left as the outlines of those before it allow."""
+    shifts: list[float] = []
+    edge: list[float] = []
+    for sub in subtrees:
+        shift = max((edge[level] - reach for level, reach in enumerate(sub.left[: len(edge)])), default=0.0)
+        shifts.append(shift)
+        for level, reach in enumerate(sub.right):
+            if level == len(edge):
+                edge.append(reach + shift)
+            edge[level] = max(edge[level], reach + shift)
+    return shifts
+
+
+def _stub_places(count: int, ray_left: bool, ray_right: bool, room: Room) -> list[float]:
+    """Where the stubs to the lights hang: in the middle, or on the side where no ray goes."""
+    if ray_left != ray_right and not room.sides:
+        sign = 1.0 if ray_left else -1.0
+        return sorted(sign * (0.5 * room.edge + room.stub_gap * k) for k in range(count))
+    return [room.stub_gap * (k - 0.5 * (count - 1)) for k in range(count)]
+
+
+def with_parents_only(parents: np.ndarray, wanted: set[int]) -> set[int]:
+    """Rows whose every ancestor is wanted too: a branch that is switched off takes what hangs on it along."""
+    kept: set[int] = set()
+    for i in sorted(wanted):
+        if i == 0 or int(parents[i]) in kept:
+            kept.add(i)
+    return kept

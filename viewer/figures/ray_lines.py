@@ -1,0 +1,97 @@
+"""From a ray tree to the lines that show it, in the 3D view as in the pick that finds a line under the mouse."""
+
+import math
+from collections.abc import Set
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracer.kernel.nodes import BLOCKED, FILTERED, KINDS, SHADOW
+from tracer.tree.raytree import RayTree
+from viewer.base.orbit import Frame
+from viewer.base.theme import BLOCKED_DASH, ESCAPE, FILTERED_DASH, STYLES
+
+
+@dataclass(frozen=True)
+class RayLine:
+    """One row of the tree as a line, its ends in the frame."""
+
+    row: int
+    kind: str
+    start: np.ndarray
+    end: np.ndarray
+    dash: tuple[float, float]
+    escapes: bool  # it leaves the scene and is drawn for a while only
+    blocked: bool
+
+
+def ray_lines(tree: RayTree, rows: int, frame: Frame, kinds: Set[str]) -> list[RayLine]:
+    """Lines of the first `rows` rows, of those kinds only; a shadow ray that its own surface blocks has no length."""
+    nodes = tree.nodes[:rows]
+    starts = frame.inside(nodes["origin"])
+    points = frame.inside(nodes["point"])
+    found = []
+    for i in range(len(nodes)):
+        code = nodes["kind"][i]
+        kind = KINDS[code]
+        if kind not in kinds or (code == SHADOW and nodes["t"][i] == 0.0):
+            continue
+        start, end = starts[i], points[i]
+        escapes = bool(np.isnan(end).any())
+        if escapes:
+            end = _escape(start, nodes["direction"][i])
+        dash, blocked = STYLES[kind].dash, False
+        if code == SHADOW:
+            blocked = nodes["end"][i] == BLOCKED
+            if blocked:
+                dash = BLOCKED_DASH
+            elif nodes["end"][i] == FILTERED:
+                dash = FILTERED_DASH
+        found.append(RayLine(i, kind, start, end, dash, escapes, bool(blocked)))
+    return found
+
+
+def _escape(start: np.ndarray, direction: np.ndarray) -> np.ndarray:
+    """Where a ray that hits nothing is drawn to: past the edge of the scene's ball, if it goes through it."""
+    b = float(start @ direction)
+    root = b * b - (float(start @ start) - 1.0)
+    leaving = -b + math.sqrt(root) if root > 0.0 else 0.0
+    return start + (max(leaving, 0.0) * 0.35 + ESCAPE) * direction
+
+
+def family(tree: RayTree, row: int) -> set[int]:
+    """A ray, those it came from, and all that came from it: what stays bright while it is selected."""
+    kept = set()
+    i = row
+    while i >= 0:
+        kept.add(i)
+        i = int(tree.nodes["parent"][i])
+    waiting = [row]
+    while waiting:
+        i = waiting.pop()
+        kept.add(i)
+        waiting += tree.children[i]
+    return kept
+
+
+def nearest_row(
+    lines: list[RayLine], places: np.ndarray, depths: np.ndarray, mouse: tuple[float, float], reach: float
+) -> int | None:
+    """The row of the line nearest to the mouse, at most `reach` away; of several, the one nearest to the eye.
+
+    `places` (n, 2, 2) are the lines' ends on the screen, `depths` (n, 2) how far before the eye they are.
+    """
+    best = None
+    for line, (a, b), (za, zb) in zip(lines, places, depths, strict=True):
+        if za <= 0.0 or zb <= 0.0:
+            continue
+        along = b - a
+        size = float(along @ along)
+        t = min(1.0, max(0.0, float((np.array(mouse) - a) @ along) / size)) if size > 0.0 else 0.0
+        away = float(np.hypot(*(a + t * along - mouse)))
+        if away <= reach:
+            # Nearer than three pixels is a hit on either line: then the one in front counts.
+            key = (round(away / 3.0), za + t * (zb - za))
+            if best is None or key < best[0]:
+                best = (key, line.row)
+    return None if best is None else best[1]

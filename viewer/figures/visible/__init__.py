@@ -1,0 +1,1 @@
+"""Visible surfaces of a scene as outlines, for the scene figure."""

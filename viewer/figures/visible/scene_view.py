@@ -1,0 +1,80 @@
+"""A scene from one eye within one part of the canvas: what is where, and what of a ray is seen.
+
+Worked out once for all steps of a figure. Whether a point of a ray is hidden, a ray of the tracer from the eye says.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import tracer
+from tracer.kernel.world import World
+from viewer.base.orbit import Frame, Orbit, project
+from viewer.figures.marks import Rectangle
+from viewer.figures.ray_lines import RayLine
+from viewer.figures.visible.scenery import blockers, camera_of, scenery
+
+PIECES = 24  # in which a ray is asked for whether it is seen; borders are then halved
+HALVINGS = 7
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A part of a ray's line on the canvas, from share `begin` to share `end` of its length."""
+
+    begin: float
+    end: float
+    seen: bool
+
+
+class SceneView:
+    """A scene from one eye within one rectangle: worked out once for all steps of a figure."""
+
+    def __init__(self, world: World, orbit: Orbit, where: Rectangle) -> None:
+        self.world, self.where = world, where
+        self.frame = Frame.of(world)
+        self.camera = camera_of(orbit, self.frame)
+        self.size = (where[2] - where[0], where[3] - where[1])
+        self.matrix = orbit.matrix(self.size[0] / self.size[1])
+        self.seen = scenery(world, self.camera, where)
+        self.blockers = blockers(world, self.camera)
+        self.stretches: dict[tuple, list[Stretch]] = {}
+
+    def at(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(places on the canvas, depths) of points of the frame (n, 3)."""
+        places, depths = project(points, self.matrix, self.size)
+        return places + self.where[:2], depths
+
+    def hidden(self, point: np.ndarray) -> bool:
+        """Whether something opaque stands between the eye and a point of the frame."""
+        if self.blockers is None:
+            return False
+        eye = np.array(self.camera.position)
+        gaze = self.frame.middle + self.frame.radius * point - eye
+        far = float(np.linalg.norm(gaze))
+        tree = tracer.trace(self.blockers, ray=(eye.tolist(), gaze.tolist()), depth=0)
+        return bool(tree.nodes["t"][0] < far * (1.0 - 1e-6))
+
+    def parts(self, line: RayLine) -> list[Stretch]:
+        """Where a ray is seen and where not. Shares are of its length in space."""
+        key = (*line.start, *line.end)
+        if key not in self.stretches:
+            self.stretches[key] = self._parts(line)
+        return self.stretches[key]
+
+    def _parts(self, line: RayLine) -> list[Stretch]:
+        def hidden(share: float) -> bool:
+            return self.hidden(line.start + share * (line.end - line.start))
+
+        shares = [(k + 0.5) / PIECES for k in range(PIECES)]
+        states = [hidden(share) for share in shares]
+        borders, found = [0.0], []
+        for k in range(PIECES - 1):
+            if states[k] != states[k + 1]:
+                low, high = shares[k], shares[k + 1]
+                for _ in range(HALVINGS):
+                    middle = 0.5 * (low + high)
+                    low, high = (middle, high) if hidden(middle) == states[k] else (low, middle)
+                found.append(Stretch(borders[-1], 0.5 * (low + high), not states[k]))
+                borders.append(0.5 * (low + high))
+        return [*found, Stretch(borders[-1], 1.0, not states[-1])]

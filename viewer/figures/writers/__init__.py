@@ -1,0 +1,1 @@
+"""Writers: marks to SVG, PDF, PNG, TikZ, PPTX; the node table to CSV and DOT."""

@@ -1,0 +1,33 @@
+"""The node table as CSV: a line a ray, vectors a column a component, the names of the JSON."""
+
+import csv
+import io
+from typing import Any
+
+from tracer.tree.raytree import RayTree
+
+AXES = ("x", "y", "z")
+CHANNELS = ("r", "g", "b")
+COLORS = ("factor", "weight", "local", "radiance")
+VECTORS = ("origin", "direction", "point", "normal")
+
+
+def write_csv(tree: RayTree) -> str:
+    nodes = tree.to_dict()["nodes"]
+    rows = [_flat(node) for node in nodes]
+    buffer = io.StringIO()
+    writer = csv.DictWriter(buffer, fieldnames=list(rows[0]), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return buffer.getvalue()
+
+
+def _flat(node: dict[str, Any]) -> dict[str, Any]:
+    row: dict[str, Any] = {}
+    for name, value in node.items():
+        if name in VECTORS or name in COLORS:
+            parts = CHANNELS if name in COLORS else AXES
+            row |= {f"{name}_{part}": None if value is None else value[k] for k, part in enumerate(parts)}
+        else:
+            row[name] = value
+    return row

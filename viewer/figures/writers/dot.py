@@ -1,0 +1,33 @@
+"""The ray tree as a graph for Graphviz: hits are nodes, rays are edges, dashed where they run to a light."""
+
+from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import RayTree
+from tracer.tree.text import number, triple, why
+
+
+def write_dot(tree: RayTree) -> str:
+    lines = [
+        "digraph raytree {",
+        '  node [shape=box, style=rounded, fontname="sans-serif"];',
+        '  edge [fontname="sans-serif"];',
+        "  eye [shape=plaintext];",
+    ]
+    for i in range(len(tree)):
+        row = tree.nodes[i]
+        met = tree.object_name(i) or tree.end(i) or ""
+        label = f"{met}\n{triple(row['radiance'])}"
+        style = "dashed" if row["kind"] == SHADOW else "solid"
+        if row["kind"] == SHADOW:
+            label = f"{tree.light_name(i)}\n{why(tree, i)}" + (
+                f" by {met}" if tree.end(i) == "blocked" and not tree.faces_away(i) else ""
+            )
+        parent = "eye" if row["parent"] < 0 else f"n{row['parent']}"
+        factor = "" if row["parent"] < 0 or row["kind"] == SHADOW else f" × {number(row['factor'].max())}"
+        lines.append(f"  n{i} [label={_quoted(label)}];")
+        lines.append(f"  {parent} -> n{i} [label={_quoted(tree.kind(i) + factor)}, style={style}];")
+    return "\n".join([*lines, "}"]) + "\n"
+
+
+def _quoted(text: str) -> str:
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+    return f'"{escaped}"'

@@ -1,0 +1,124 @@
+"""Figures as PDF, a page a figure: lines as lines, text that can be selected, in a font that the file carries."""
+
+import datetime
+import math
+from collections.abc import Sequence
+
+from viewer.base.theme import Color, in_bytes
+from viewer.figures.font import BASELINE, FAMILY, FONT, boxed
+from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.writers.arrows import heads
+
+UNDATED = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)  # the same figure is the same file on every day
+ROUND = 0.5522847498  # how far a quarter circle's control points stand from its ends, in radii
+
+
+def write_pdf(figures: Sequence[Figure]) -> bytes:
+    from fpdf import FPDF
+
+    first = figures[0]
+    pdf = FPDF(unit="pt", format=(first.width, first.height))
+    pdf.set_auto_page_break(False)
+    pdf.set_margin(0)
+    pdf.c_margin = 0
+    pdf.set_creation_date(UNDATED)
+    pdf.set_title(first.title)
+    pdf.set_subject(first.description)
+    pdf.set_keywords(first.command)
+    pdf.set_creator("raytree")
+    pdf.set_lang("en")
+    pdf.add_font(FAMILY, "", FONT)
+    for figure in figures:
+        pdf.add_page(format=(figure.width, figure.height))
+        page = _Page(pdf, figure.height)
+        if figure.ground:
+            corners = ((0.0, 0.0), (figure.width, 0.0), (figure.width, figure.height), (0.0, figure.height))
+            page.path(corners, True, figure.paper, None)
+        for mark in figure.marks:
+            page.draw(mark)
+    return bytes(pdf.output())
+
+
+class _Page:
+    """Marks as PDF's own operators (ISO 32000-1, 8.5), which know any dash and any outline."""
+
+    def __init__(self, pdf, height: float) -> None:
+        self.pdf, self.height = pdf, height
+
+    def draw(self, mark: Mark) -> None:
+        match mark:
+            case Box():
+                self._box(mark)
+            case Disc():
+                self._disc(mark)
+            case Shape() if mark.holes:
+                rings = [self._ring(ring, True) for ring in (mark.corners, *mark.holes)]
+                self._paint([move for ring in rings for move in ring], mark.fill, mark.stroke, "*")
+            case Shape():
+                self.path(mark.corners, mark.closed, mark.fill, mark.stroke)
+            case Line():
+                for a, b in mark.pieces():
+                    self.path((a, b), False, None, mark.stroke)
+                for corners, filled in heads(mark):
+                    color = mark.stroke.color
+                    self.path(
+                        corners, filled, color if filled else None, None if filled else Stroke(color, mark.stroke.width)
+                    )
+            case Text():
+                self._text(mark)
+            case _:
+                raise TypeError(f"no PDF for {type(mark).__name__}")
+
+    def path(self, corners: Sequence[Point], closed: bool, fill: Color | None, stroke: Stroke | None) -> None:
+        self._paint(self._ring(corners, closed), fill, stroke)
+
+    def _ring(self, corners: Sequence[Point], closed: bool) -> list[str]:
+        moves = [f"{self._point(corner)} {'l' if k else 'm'}" for k, corner in enumerate(corners)]
+        return [*moves, *(["h"] if closed else [])]
+
+    def _paint(self, moves: list[str], fill: Color | None, stroke: Stroke | None, rule: str = "") -> None:
+        if fill is None and stroke is None:
+            return
+        opacity = (fill[3] if fill else 1.0, stroke.color[3] if stroke else 1.0)
+        with self.pdf.local_context(fill_opacity=opacity[0], stroke_opacity=opacity[1]):
+            setup = ["0 J 1 j"]
+            if fill:
+                setup.append(f"{_rgb(fill)} rg")
+            if stroke:
+                dash = " ".join(_n(x) for x in stroke.dash) if any(stroke.dash) else ""
+                setup.append(f"{_rgb(stroke.color)} RG {_n(stroke.width)} w [{dash}] 0 d")
+            end = f"B{rule}" if fill and stroke else f"f{rule}" if fill else "S"
+            self.pdf._out(" ".join([*setup, *moves, end]))
+
+    def _box(self, box: Box) -> None:
+        (x, y), (w, h), r = box.center, box.size, box.radius
+        left, top, right, bottom, k = x - w / 2, y - h / 2, x + w / 2, y + h / 2, (1.0 - ROUND) * box.radius
+        p = self._point
+        moves = [
+            f"{p((left + r, top))} m {p((right - r, top))} l",
+            f"{p((right - k, top))} {p((right, top + k))} {p((right, top + r))} c {p((right, bottom - r))} l",
+            f"{p((right, bottom - k))} {p((right - k, bottom))} {p((right - r, bottom))} c {p((left + r, bottom))} l",
+            f"{p((left + k, bottom))} {p((left, bottom - k))} {p((left, bottom - r))} c {p((left, top + r))} l",
+            f"{p((left, top + k))} {p((left + k, top))} {p((left + r, top))} c h",
+        ]
+        self._paint(moves, box.fill, box.stroke)
+
+    def _disc(self, disc: Disc) -> None:
+        self._box(Box(disc.name, disc.center, (2 * disc.radius, 2 * disc.radius), disc.radius, disc.fill, disc.stroke))
+
+    def _text(self, text: Text) -> None:
+        with self.pdf.local_context(fill_opacity=text.color[3]):
+            self.pdf.set_font(FAMILY, size=text.size)
+            self.pdf.set_text_color(*in_bytes(text.color))
+            self.pdf.text(text.box()[0], text.at[1] + BASELINE * text.size, boxed(text.content))
+
+    def _point(self, p: Point) -> str:
+        return f"{_n(p[0])} {_n(self.height - p[1])}"
+
+
+def _rgb(color: Color) -> str:
+    return " ".join(f"{x:.4f}" for x in color[:3])
+
+
+def _n(x: float) -> str:
+    return f"{x:.2f}" if math.isfinite(x) else "0"

@@ -1,0 +1,102 @@
+"""Figures as SVG: text as text, marks of one name in a group of that name, attributes that every program reads."""
+
+from xml.sax.saxutils import escape, quoteattr
+
+from viewer.base.theme import Color, in_bytes
+from viewer.figures.font import BASELINE, FALLBACK, FAMILY
+from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.writers.arrows import heads
+
+
+def write_svg(figure: Figure) -> bytes:
+    w, h = _n(figure.width), _n(figure.height)
+    lines = [
+        '<?xml version="1.0" encoding="UTF-8"?>',
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{w}pt" height="{h}pt" viewBox="0 0 {w} {h}" role="img"'
+        f" font-family={quoteattr(', '.join((_quoted(FAMILY), *FALLBACK)))}>",
+        f"<title>{escape(figure.title)}</title>",
+        f"<desc>{escape(figure.description)}</desc>",
+        f"<metadata>{escape(figure.command)}</metadata>",
+    ]
+    if figure.ground:
+        lines.append(f'<rect width="{w}" height="{h}"{_fill(figure.paper)}/>')
+    known: set[str] = set()
+    for name, title, group in figure.groups():
+        # A name comes once a file; what is drawn of it later has it as its class.
+        lines.append(f"<g {'class' if name in known else 'id'}={quoteattr(name)}>")
+        known.add(name)
+        if title:
+            lines.append(f"<title>{escape(title)}</title>")
+        for mark in group:
+            lines += _element(mark)
+        lines.append("</g>")
+    return "\n".join([*lines, "</svg>", ""]).encode("utf-8")
+
+
+def _element(mark: Mark) -> list[str]:
+    match mark:
+        case Box():
+            (x, y), (w, h) = mark.center, mark.size
+            place = f'x="{_n(x - 0.5 * w)}" y="{_n(y - 0.5 * h)}" width="{_n(w)}" height="{_n(h)}"'
+            return [f'<rect {place} rx="{_n(mark.radius)}"{_fill(mark.fill)}{_stroke(mark.stroke)}/>']
+        case Disc():
+            place = f'cx="{_n(mark.center[0])}" cy="{_n(mark.center[1])}" r="{_n(mark.radius)}"'
+            return [f"<circle {place}{_fill(mark.fill)}{_stroke(mark.stroke)}/>"]
+        case Shape() if mark.holes:
+            path = " ".join(f"M{' L'.join(map(_point, ring))} Z" for ring in (mark.corners, *mark.holes))
+            return [f'<path d="{path}" fill-rule="evenodd"{_fill(mark.fill)}{_stroke(mark.stroke)}/>']
+        case Shape():
+            points = " ".join(_point(corner) for corner in mark.corners)
+            element = "polygon" if mark.closed else "polyline"
+            return [f'<{element} points="{points}"{_fill(mark.fill)}{_stroke(mark.stroke)}/>']
+        case Line():
+            return _line(mark)
+        case Text():
+            place = f'x="{_n(mark.at[0])}" y="{_n(mark.at[1] + BASELINE * mark.size)}" font-size="{_n(mark.size)}"'
+            return [f'<text {place} text-anchor="{mark.anchor}"{_fill(mark.color)}>{escape(mark.content)}</text>']
+        case _:
+            raise TypeError(f"no SVG for {type(mark).__name__}")
+
+
+def _line(line: Line) -> list[str]:
+    pieces = " ".join(f"M{_point(a)} L{_point(b)}" for a, b in line.pieces())
+    found = [f'<path d="{pieces}" fill="none"{_stroke(line.stroke)}/>']
+    for corners, filled in heads(line):
+        path = f"M{_point(corners[0])} L{_point(corners[1])} L{_point(corners[2])}"
+        if filled:
+            found.append(f'<path d="{path} Z"{_fill(line.stroke.color)}/>')
+        else:
+            solid = Stroke(line.stroke.color, line.stroke.width)
+            found.append(f'<path d="{path}" fill="none"{_stroke(solid)}/>')
+    return found
+
+
+def _fill(color: Color | None) -> str:
+    return ' fill="none"' if color is None else _paint("fill", color)
+
+
+def _stroke(stroke: Stroke | None) -> str:
+    if stroke is None:
+        return ""
+    dash = f' stroke-dasharray="{_n(stroke.dash[0])} {_n(stroke.dash[1])}"' if any(stroke.dash) else ""
+    return f'{_paint("stroke", stroke.color)} stroke-width="{_n(stroke.width)}"{dash}'
+
+
+def _paint(what: str, color: Color) -> str:
+    r, g, b = in_bytes(color)
+    opacity = f' {what}-opacity="{_n(color[3])}"' if color[3] < 1.0 else ""
+    return f' {what}="#{r:02X}{g:02X}{b:02X}"{opacity}'
+
+
+def _point(p: Point) -> str:
+    return f"{_n(p[0])},{_n(p[1])}"
+
+
+def _n(x: float) -> str:
+    """Two decimals: a fiftieth of a pixel on a large screen."""
+    text = f"{x:.2f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def _quoted(family: str) -> str:
+    return f"'{family}'"

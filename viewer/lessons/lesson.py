@@ -1,0 +1,113 @@
+"""Lessons: a folder each under `lessons/`, written without touching Python.
+
+`lesson.md` begins with its data between two lines `+++` (TOML), then says in Markdown what there is to see:
+
+    +++
+    title = "Mirror balls"
+    scene = "scene.toml"
+    pixel = [400, 300]      # which it opens with
+    depth = 3
+    [view]                  # of the 3D scene, optional: degrees about and above the scene, distance in scene sizes
+    azimuth = 35
+    elevation = 20
+    distance = 2.5
+    +++
+    What to look at.
+"""
+
+import tomllib
+from dataclasses import dataclass, field
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from tracer import fields
+from viewer.base.files import Unusable
+from viewer.base.orbit import AZIMUTH, DISTANCE, ELEVATION
+
+MARK = "+++"
+
+
+@dataclass(frozen=True)
+class LessonView:
+    """From where the 3D scene is seen at first."""
+
+    azimuth: float = field(default=AZIMUTH, metadata=fields.number())  # degrees from the camera's own side
+    elevation: float = field(default=ELEVATION, metadata=fields.number(above=-90, below=90))  # degrees
+    distance: float = field(default=DISTANCE, metadata=fields.number(above=0))  # in radii of the scene
+    target: tuple[float, float, float] | None = field(default=None, metadata=fields.point())  # None: its middle
+
+
+@dataclass(frozen=True)
+class Lesson:
+    name: str
+    title: str
+    scene: Path
+    text: str
+    pixel: tuple[int, int] | None
+    depth: int | None
+    view: LessonView
+
+
+def folder() -> Path:
+    return Path(str(files("lessons")))
+
+
+def names() -> list[str]:
+    """All lessons, in the order in which they are taught: the folder's ORDER file, then the others by name."""
+    found = {path.parent.name for path in folder().glob("*/lesson.md")}
+    order = (folder() / "ORDER").read_text("utf-8").split()
+    return [name for name in order if name in found] + sorted(found - set(order))
+
+
+def read(name: str) -> Lesson:
+    """One lesson by name. Unusable: every fault of its file, one line each."""
+    path = folder() / name / "lesson.md"
+    if not path.is_file():
+        raise Unusable(f'no lesson "{name}"{fields.nearest(name, names())} (known: {", ".join(names())})')
+    return read_file(path)
+
+
+def read_file(path: Path) -> Lesson:
+    """A lesson that need not be one of ours."""
+    text = path.read_text("utf-8")
+    if text.count(f"{MARK}\n") < 2 or not text.startswith(MARK):
+        raise Unusable(f"{path}: a lesson begins with its data between two lines {MARK}")
+    _, head, body = text.split(f"{MARK}\n", 2)
+    try:
+        data = tomllib.loads(head)
+    except tomllib.TOMLDecodeError as error:
+        raise Unusable(f"{path}: not TOML: {error}") from None
+    faults: list[str] = []
+    view = fields.read_fields(LessonView, data.pop("view", {}), faults)
+    values = fields.read_fields(_Head, data, faults)
+    if faults:
+        raise Unusable(*(f"{path}: {fault}" for fault in faults))
+    head_values = _Head(**values)
+    return Lesson(
+        name=path.absolute().parent.name,
+        title=head_values.title,
+        scene=path.parent / head_values.scene,
+        text=body.strip(),
+        pixel=head_values.pixel,
+        depth=head_values.depth,
+        view=LessonView(**view),
+    )
+
+
+def _pixel() -> Any:
+    def read(value: Any) -> tuple[int, int]:
+        whole = isinstance(value, list) and len(value) == 2 and all(type(item) is int for item in value)
+        if not whole or min(value) < 0:
+            raise fields.Refused("two whole numbers [x, y] >= 0")
+        return (value[0], value[1])
+
+    return fields.rule(read)
+
+
+@dataclass(frozen=True)
+class _Head:
+    title: str = field(metadata=fields.text())
+    scene: str = field(default="scene.toml", metadata=fields.text())
+    pixel: tuple[int, int] | None = field(default=None, metadata=_pixel())
+    depth: int | None = field(default=None, metadata=fields.whole(0, 1000))

@@ -1,0 +1,1 @@
+"""The window: frame loop, GLFW and imgui backend, key bindings, style."""

@@ -1,0 +1,223 @@
+"""The one file that knows glfw and imgui's backend: a window on a screen, or the same without one.
+
+Both give a GL context, feed imgui, and present what it drew. `imgui_bundle` is imported before `glfw`, so that on
+systems where each brings its own copy of that library, both use the same.
+"""
+
+import ctypes
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+# isort: off
+import imgui_bundle  # before glfw
+import glfw
+
+# isort: on
+import moderngl
+import numpy as np
+from imgui_bundle import imgui, implot
+from imgui_bundle.imgui import backends
+
+from viewer.base.theme import FONT_SIZE
+
+GLSL = "#version 330"
+SMALLEST = (480, 320)  # of a window, in its own units
+
+
+class NoWindow(Exception):
+    """No window can be opened, or not even a picture be drawn without one; the text says why."""
+
+
+NO_GRAPHICS = "OpenGL 3.3 is not to be had (on Debian: the packages libegl1, libgl1 and libgl1-mesa-dri)"
+
+
+class Surface:
+    """What window and offscreen share: imgui's context, and reading back what was drawn."""
+
+    ctx: moderngl.Context
+
+    def _start_imgui(self, ini: Path | None) -> None:
+        imgui.create_context()
+        implot.create_context()
+        io = imgui.get_io()
+        io.set_ini_filename(str(ini) if ini else "")
+        io.config_flags |= imgui.ConfigFlags_.docking_enable
+        io.config_windows_move_from_title_bar_only = True
+        io.config_error_recovery_enable_assert = True
+        _load_fonts()
+
+    def grab(self) -> np.ndarray:
+        """What imgui drew last as 8-bit RGB (height, width, 3), top row first; drawn again into a buffer of our own."""
+        data = imgui.get_draw_data()
+        width = max(1, int(data.display_size.x * data.framebuffer_scale.x))
+        height = max(1, int(data.display_size.y * data.framebuffer_scale.y))
+        before = self.ctx.fbo or self.ctx.detect_framebuffer()  # in a tiny window nothing has used one yet
+        buffer = self.ctx.simple_framebuffer((width, height), components=4)
+        try:
+            buffer.use()
+            buffer.clear(0.0, 0.0, 0.0, 1.0)
+            backends.opengl3_render_draw_data(data)
+            content = buffer.read(components=3, alignment=1)
+        finally:
+            before.use()  # first: GL objects to losing the buffer that is in use
+            buffer.release()
+        return np.frombuffer(content, np.uint8).reshape(height, width, 3)[::-1]
+
+
+class Window(Surface):
+    """A window on the screen. NoWindow where there is none."""
+
+    def __init__(self, title: str, size: tuple[int, int], ini: Path | None = None, visible: bool = True) -> None:
+        self.dropped: list[Path] = []
+        self.on_refresh: Callable[[], None] = lambda: None
+        glfw.set_error_callback(lambda code, text: None)  # what fails says so by its result
+        if not glfw.init():
+            raise NoWindow("There is no display to open a window on")
+        for hint, value in (
+            (glfw.CONTEXT_VERSION_MAJOR, 3),
+            (glfw.CONTEXT_VERSION_MINOR, 3),
+            (glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE),
+            (glfw.OPENGL_FORWARD_COMPAT, True),
+            (glfw.VISIBLE, visible),
+            (glfw.SCALE_TO_MONITOR, True),
+        ):
+            glfw.window_hint(hint, value)
+        self.window = glfw.create_window(*size, title, None, None)
+        if not self.window:
+            glfw.terminate()
+            raise NoWindow(f"No window can be opened: {NO_GRAPHICS}")
+        glfw.set_window_size_limits(self.window, *SMALLEST, glfw.DONT_CARE, glfw.DONT_CARE)
+        glfw.make_context_current(self.window)
+        glfw.swap_interval(1)
+        self.ctx = moderngl.create_context(require=330)
+        self._start_imgui(ini)
+        # Ours first: imgui's backend calls on to what it finds.
+        glfw.set_drop_callback(self.window, self._drop)  # type: ignore[arg-type]  # its stub says int for a list
+        glfw.set_window_refresh_callback(self.window, lambda _: self.on_refresh())
+        address = ctypes.cast(self.window, ctypes.c_void_p).value
+        assert address is not None
+        backends.glfw_init_for_opengl(address, True)
+        backends.opengl3_init(GLSL)
+
+    def _drop(self, _: object, paths: list[str]) -> None:
+        self.dropped += [Path(path) for path in paths]
+
+    @property
+    def scale(self) -> float:
+        """How much larger than on a plain screen things are to be drawn (HiDPI).
+
+        macOS and Wayland do that themselves and say so by more pixels than units; elsewhere the content scale tells.
+        """
+        content, _ = glfw.get_window_content_scale(self.window)
+        width, _ = glfw.get_window_size(self.window)
+        pixels, _ = glfw.get_framebuffer_size(self.window)
+        return content * width / pixels if pixels else 1.0
+
+    @property
+    def closing(self) -> bool:
+        return bool(glfw.window_should_close(self.window))
+
+    @property
+    def minimised(self) -> bool:
+        return 0 in glfw.get_framebuffer_size(self.window) or bool(glfw.get_window_attrib(self.window, glfw.ICONIFIED))
+
+    def close_requested(self) -> None:
+        glfw.set_window_should_close(self.window, True)
+
+    def set_title(self, title: str) -> None:
+        glfw.set_window_title(self.window, title)
+
+    def wait(self, seconds: float) -> None:
+        """Sleep until something happens; not at all for 0."""
+        if seconds > 0.0:
+            glfw.wait_events_timeout(seconds)
+        else:
+            glfw.poll_events()
+
+    def wake(self) -> None:
+        """End `wait`, from any thread."""
+        glfw.post_empty_event()
+
+    def begin(self) -> None:
+        backends.opengl3_new_frame()
+        backends.glfw_new_frame()
+        imgui.new_frame()
+
+    def present(self) -> None:
+        imgui.render()
+        # The size moderngl keeps for the screen is the one at the start: it is not asked.
+        self.ctx.screen.use()
+        self.ctx.screen.clear(0.0, 0.0, 0.0, 1.0)
+        backends.opengl3_render_draw_data(imgui.get_draw_data())
+        glfw.swap_buffers(self.window)
+
+    def close(self) -> None:
+        backends.opengl3_shutdown()
+        backends.glfw_shutdown()
+        implot.destroy_context()
+        imgui.destroy_context()
+        self.ctx.release()
+        glfw.destroy_window(self.window)
+        glfw.terminate()
+
+
+class Offscreen(Surface):
+    """The same without a screen: for screenshots, and for tests, which send events by imgui's own queue."""
+
+    def __init__(self, size: tuple[int, int]) -> None:
+        self.dropped: list[Path] = []
+        options: dict[str, Any] = {"backend": "egl"} if sys.platform.startswith("linux") else {}
+        try:
+            self.ctx = moderngl.create_context(standalone=True, require=330, **options)
+        except Exception as error:  # each platform's own kind
+            raise NoWindow(f"Nothing can be drawn: {NO_GRAPHICS}; {error}") from None
+        self._start_imgui(None)
+        backends.opengl3_init(GLSL)
+        self.resize(size)
+        self.closing = False
+        self.minimised = False
+        self.scale = 1.0
+
+    def resize(self, size: tuple[int, int]) -> None:
+        imgui.get_io().display_size = imgui.ImVec2(*size)
+
+    def close_requested(self) -> None:
+        self.closing = True
+
+    def set_title(self, title: str) -> None:
+        self.title = title
+
+    def wait(self, seconds: float) -> None:
+        """Nothing ever comes from outside."""
+
+    def wake(self) -> None:
+        """See `wait`."""
+
+    def begin(self) -> None:
+        imgui.get_io().delta_time = 1 / 60
+        backends.opengl3_new_frame()
+        imgui.new_frame()
+
+    def present(self) -> None:
+        imgui.render()
+
+    def close(self) -> None:
+        backends.opengl3_shutdown()
+        implot.destroy_context()
+        imgui.destroy_context()
+        with self.ctx:  # leaving it unbinds it from this thread, where a window may want to be next
+            pass
+        self.ctx.release()
+
+
+def _load_fonts() -> None:
+    """Roboto, and from DejaVu Sans the arrows and subscripts it lacks."""
+    main = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "Roboto" / "Roboto-Regular.ttf"
+    symbols = Path(__file__).parent.parent / "fonts" / "DejaVuSans-symbols.ttf"
+    fonts = imgui.get_io().fonts
+    fonts.add_font_from_file_ttf(str(main), FONT_SIZE)
+    config = imgui.ImFontConfig()
+    config.merge_mode = True
+    fonts.add_font_from_file_ttf(str(symbols), 0.86 * FONT_SIZE, config)
