@@ -9,7 +9,7 @@ import numpy as np
 import tracer
 from benchmarks.figure import Figure, compared, in_turn
 from benchmarks.task import Options, Task
-from tracer.accel.bvh import FLAT
+from tracer.accel.bvh import MAX_UNBOXED
 from tracer.formulas.vector import as_floats
 from tracer.scene import Camera, Light, Material, Object, Scene
 from tracer.shapes.box import Box
@@ -28,7 +28,7 @@ def flat(options: Options) -> list[Task]:
     def measure(kind: str) -> list[Figure]:
         found = []
         for where, radius in RADII.items():
-            for count in (FLAT, FLAT + 1, 2 * FLAT):
+            for count in (MAX_UNBOXED, MAX_UNBOXED + 1, 2 * MAX_UNBOXED):
                 scene = some(kind, count, radius)
                 worlds = [tracer.prepare(scene, hierarchy) for hierarchy in (True, False)]
                 boxes, none = in_turn(options.runs, *(lambda world=world: seconds(world) for world in worlds))

@@ -12,7 +12,7 @@ import tracer
 from tests import ROOT
 from tracer.formulas.media import INDICES
 from tracer.scene import Camera, Image, Light, Material, Object, Tracing
-from tracer.tree.text import outline
+from tracer.tree.text import tree_text
 from viewer.cli.main import make_parser
 from viewer.lessons import lesson
 
@@ -32,7 +32,7 @@ def test_traced_tree() -> None:
     command, said = example.split("\n", 1)
     options = make_parser().parse_args(shlex.split(command)[2:])
     tree = tracer.trace(tracer.prepare(tracer.load(lesson.read(options.scene).scene)), options.pixel)
-    assert said == outline(tree).rstrip("\n")
+    assert said == tree_text(tree).rstrip("\n")
 
 
 def test_every_command_is_understood() -> None:

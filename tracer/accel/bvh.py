@@ -11,15 +11,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tracer.accel.sah import Room, add, clear, halve, next_of
-from tracer.compile.jit import compiled, kernel
+from tracer.accel.sah import BuildSpace, add_surface, clear_part, next_part, split_part
+from tracer.compile.jit import inlined, kernel
 from tracer.compile.simd import WIDTH
 
 # Of eight boxes in their order: `planes` low x, high x, low y, ...; `child` what is in each: KINDS times its number
 # and its kind. An empty box is met by no ray.
 NODE = np.dtype([("planes", np.float32, (6, WIDTH)), ("child", np.int32, WIDTH)], align=True)
-KINDS = 4
-BOXES, SURFACE, TRIANGLES = range(3)
+CHILD_KINDS = 4
+NODE_CHILD, SURFACE_CHILD, BLOCK_CHILD = range(3)
 
 # Eight triangles in their order: `corners` x, y and z of the first corners, of the second, of the third, seen from
 # `anchor`, in the hierarchy's unit. They only say where the ray may pass inside: at most `doubt` is rounded off them.
@@ -37,9 +37,9 @@ BLOCK = np.dtype(
 )
 
 # What a search has put off, and where the ray enters its box.
-WAITING = np.dtype([("child", np.int64), ("near", np.float64)])
+STACK_ENTRY = np.dtype([("child", np.int64), ("near", np.float64)])
 
-FLAT = 3  # so few surfaces are tried one by one: measured, `python -m benchmarks flat`
+MAX_UNBOXED = 3  # so few surfaces are tried one by one: measured, `python -m benchmarks flat`
 
 
 class Hierarchy(NamedTuple):
@@ -48,7 +48,7 @@ class Hierarchy(NamedTuple):
     unit: float
 
 
-def unit_of(bounds: np.ndarray) -> float:
+def length_unit(bounds: np.ndarray) -> float:
     """The power of two above every coordinate."""
     return math.ldexp(1.0, min(math.frexp(float(np.abs(bounds).max(initial=0.0)))[1], 1023))
 
@@ -60,7 +60,7 @@ def build(bounds: np.ndarray, triangles: np.ndarray | None = None, which: np.nda
     order = (np.arange(n) if which is None else np.flatnonzero(which)).astype(np.int32)
     if len(order) == 0:
         return Hierarchy(np.zeros(0, NODE), np.zeros(0, BLOCK), 1.0)
-    unit = unit_of(bounds[order])
+    unit = length_unit(bounds[order])
     other = np.ones(n, np.bool_) if triangles is None else np.isnan(triangles[:, 0, 0])
     reach, middles = np.zeros((n, 8), np.float32), np.zeros((n, 8), np.float32)
     with np.errstate(under="ignore", over="ignore", invalid="ignore"):
@@ -70,21 +70,31 @@ def build(bounds: np.ndarray, triangles: np.ndarray | None = None, which: np.nda
         middles[:, 4:7] = -middles[:, 0:3]
     nodes, blocks = np.zeros(len(order), NODE), np.zeros(len(order) - np.count_nonzero(other[order]), BLOCK)
     corners = np.full((n, 3, 3), np.nan) if triangles is None else triangles
-    room = Room.make()
+    room = BuildSpace.make()
     with np.errstate(under="ignore"):
-        part_all(reach, middles, other, corners, unit, nodes.view(np.recarray), blocks.view(np.recarray), order, room)
+        build_nodes(
+            reach, middles, other, corners, unit, nodes.view(np.recarray), blocks.view(np.recarray), order, room
+        )
     return Hierarchy(nodes[: room.used[0]].copy(), blocks[: room.used[1]].copy(), unit)
 
 
 @kernel
-def part_all(
-    reach: Any, middles: Any, other: Any, corners: Any, unit: float, nodes: Any, blocks: Any, order: Any, room: Room
+def build_nodes(
+    reach: Any,
+    middles: Any,
+    other: Any,
+    corners: Any,
+    unit: float,
+    nodes: Any,
+    blocks: Any,
+    order: Any,
+    room: BuildSpace,
 ) -> None:
     """Fill `nodes` and `blocks`, permute `order`."""
     todo, parts, used = room.todo, room.parts, room.used
-    clear(todo[0])
+    clear_part(todo[0])
     for s in order:
-        add(todo[0], reach, middles, other, s)
+        add_surface(todo[0], reach, middles, other, s)
     todo[0].last = len(order)
     waiting = 1
     used[0] = 1
@@ -94,10 +104,10 @@ def part_all(
         parts[0] = todo[waiting]
         count = 1
         while count < WIDTH:
-            k = next_of(parts, count)
+            k = next_part(parts, count)
             if k < 0:
                 break
-            halve(reach, middles, other, order, level, parts[k], parts[count], room)
+            split_part(reach, middles, other, order, level, parts[k], parts[count], room)
             count += 1
         box = nodes[node]
         for k in range(WIDTH):
@@ -107,21 +117,21 @@ def part_all(
         for k in range(count):
             first, n = parts[k].first, parts[k].last - parts[k].first
             if n == 1:
-                box.child[k] = KINDS * order[first] + SURFACE
+                box.child[k] = CHILD_KINDS * order[first] + SURFACE_CHILD
             elif n <= WIDTH and parts[k].others == 0:
-                box.child[k] = KINDS * used[1] + TRIANGLES
-                fill(blocks[used[1]], corners, unit, order, first, n)
+                box.child[k] = CHILD_KINDS * used[1] + BLOCK_CHILD
+                fill_block(blocks[used[1]], corners, unit, order, first, n)
                 used[1] += 1
             else:
-                box.child[k] = KINDS * used[0] + BOXES
+                box.child[k] = CHILD_KINDS * used[0] + NODE_CHILD
                 parts[k].node, parts[k].level = used[0], level + 1
                 todo[waiting] = parts[k]
                 waiting += 1
                 used[0] += 1
 
 
-@compiled
-def fill(block: Any, corners: Any, unit: float, order: Any, first: int, count: int) -> None:
+@inlined
+def fill_block(block: Any, corners: Any, unit: float, order: Any, first: int, count: int) -> None:
     """Put `count` triangles into a block; the first of them stands in the lanes left, too, but is not asked there."""
     block.lanes = (1 << count) - 1
     size = 0.0

@@ -10,14 +10,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tracer.compile.jit import compiled
+from tracer.compile.jit import inlined
 from tracer.compile.simd import WIDTH
 
 BINS = 16
-FILL = 6  # triangles that a block will hardly have fewer of
-HALVING = 24  # the level from which on surfaces are parted by their number: so no hierarchy is deeper than
-DEEPEST = 48  # levels
-MOST_WAITING = DEEPEST * (WIDTH - 1) + 1
+BLOCK_FILL = 6  # triangles that a block will hardly have fewer of
+MEDIAN_LEVEL = 24  # the level from which on surfaces are parted by their number: so no hierarchy is deeper than
+MAX_LEVELS = 48  # levels
+MAX_STACK = MAX_LEVELS * (WIDTH - 1) + 1
 
 # Some surfaces: they stand in the order from `first` to before `last`. `reach` is the box about them, `middles` that
 # about their boxes' middles, twofold; both as low x y z, 0, -high x y z, 0, so that joining takes eight minima.
@@ -35,7 +35,7 @@ PART = np.dtype(
 )
 
 
-class Room(NamedTuple):
+class BuildSpace(NamedTuple):
     """Room to work in, since kernels make no arrays of their own."""
 
     todo: np.ndarray
@@ -47,9 +47,9 @@ class Room(NamedTuple):
     used: np.ndarray  # nodes and blocks made so far
 
     @staticmethod
-    def make() -> "Room":
-        return Room(
-            np.zeros(MOST_WAITING, PART).view(np.recarray),
+    def make() -> "BuildSpace":
+        return BuildSpace(
+            np.zeros(MAX_STACK, PART).view(np.recarray),
             np.zeros(WIDTH, PART).view(np.recarray),
             np.zeros((3, BINS), PART).view(np.recarray),
             np.zeros(3),
@@ -59,8 +59,8 @@ class Room(NamedTuple):
         )
 
 
-@compiled
-def clear(this: Any) -> None:
+@inlined
+def clear_part(this: Any) -> None:
     for k in range(8):
         this.reach[k] = math.inf
         this.middles[k] = math.inf
@@ -69,30 +69,30 @@ def clear(this: Any) -> None:
     this.others = 0
 
 
-@compiled
-def join(box: Any, another: Any) -> None:
+@inlined
+def grow_box(box: Any, another: Any) -> None:
     """Make a box cover another one, too."""
     for k in range(8):
         box[k] = min(box[k], another[k])
 
 
-@compiled
-def add(this: Any, reach: Any, middles: Any, other: Any, s: int) -> None:
-    join(this.reach, reach[s])
-    join(this.middles, middles[s])
+@inlined
+def add_surface(this: Any, reach: Any, middles: Any, other: Any, s: int) -> None:
+    grow_box(this.reach, reach[s])
+    grow_box(this.middles, middles[s])
     this.others += other[s]
 
 
-@compiled
-def merge(this: Any, bins: Any, start: int, stop: int) -> None:
-    clear(this)
+@inlined
+def merge_bins(this: Any, bins: Any, start: int, stop: int) -> None:
+    clear_part(this)
     for b in range(start, stop):
-        join(this.reach, bins[b].reach)
-        join(this.middles, bins[b].middles)
+        grow_box(this.reach, bins[b].reach)
+        grow_box(this.middles, bins[b].middles)
         this.others += bins[b].others
 
 
-@compiled
+@inlined
 def half_area(reach: Any) -> float:
     x = -(float(reach[0]) + float(reach[4]))
     y = -(float(reach[1]) + float(reach[5]))
@@ -100,8 +100,8 @@ def half_area(reach: Any) -> float:
     return x * y + y * z + z * x
 
 
-@compiled
-def next_of(parts: Any, count: int) -> int:
+@inlined
+def next_part(parts: Any, count: int) -> int:
     """The part to be halved next; -1 for none.
 
     First those that can be dissolved into the lanes left, for that saves a node: the most area for the lanes it takes.
@@ -111,7 +111,7 @@ def next_of(parts: Any, count: int) -> int:
     dissolving = False
     for k in range(count):
         n = parts[k].last - parts[k].first
-        lanes = n if parts[k].others > 0 else (n + FILL - 1) // FILL
+        lanes = n if parts[k].others > 0 else (n + BLOCK_FILL - 1) // BLOCK_FILL
         if (n > WIDTH or parts[k].others > 0) and lanes > 1:
             fits = lanes - 1 <= WIDTH - count
             size = half_area(parts[k].reach) / (lanes - 1 if fits else 1)
@@ -120,13 +120,15 @@ def next_of(parts: Any, count: int) -> int:
     return best
 
 
-@compiled
-def halve(reach: Any, middles: Any, other: Any, order: Any, level: int, this: Any, second: Any, room: Room) -> None:
+@inlined
+def split_part(
+    reach: Any, middles: Any, other: Any, order: Any, level: int, this: Any, second: Any, room: BuildSpace
+) -> None:
     """Leave some of the surfaces in `this`, and put the others into `second`."""
     first, last = this.first, this.last
     count = min(BINS, last - first + 2)
     axis, split = -1, 0
-    if level < HALVING:
+    if level < MEDIAN_LEVEL:
         fill_bins(reach, middles, other, order, this, count, room)
         axis, split = best_split(room, count, WIDTH if this.others == 0 else 1)
     if axis >= 0:
@@ -137,45 +139,45 @@ def halve(reach: Any, middles: Any, other: Any, order: Any, level: int, this: An
             if bin_of(middles[s, axis], start, rate, count) < split:
                 order[k], order[cut] = order[cut], s
                 cut += 1
-        merge(this, room.bins[axis], 0, split)
-        merge(second, room.bins[axis], split, count)
+        merge_bins(this, room.bins[axis], 0, split)
+        merge_bins(second, room.bins[axis], split, count)
     else:
         cut = (first + last) // 2
-        clear(this)
-        clear(second)
+        clear_part(this)
+        clear_part(second)
         for k in range(first, cut):
-            add(this, reach, middles, other, order[k])
+            add_surface(this, reach, middles, other, order[k])
         for k in range(cut, last):
-            add(second, reach, middles, other, order[k])
+            add_surface(second, reach, middles, other, order[k])
     this.first, this.last = first, cut
     second.first, second.last = cut, last
 
 
-@compiled
+@inlined
 def bin_of(middle: float, start: float, rate: float, count: int) -> int:
     return min(count - 1, int(rate * (middle - start)))
 
 
-@compiled
-def fill_bins(reach: Any, middles: Any, other: Any, order: Any, this: Any, count: int, room: Room) -> None:
+@inlined
+def fill_bins(reach: Any, middles: Any, other: Any, order: Any, this: Any, count: int, room: BuildSpace) -> None:
     """Sort a part's surfaces into equal bins along each axis, by the middles of their boxes."""
     bins, rates = room.bins, room.rates
     for axis in range(3):
         extent = -(float(this.middles[axis]) + float(this.middles[4 + axis]))
         rates[axis] = count / extent if extent > 0.0 else 0.0
         for b in range(count):
-            clear(bins[axis, b])
+            clear_part(bins[axis, b])
     for k in range(this.first, this.last):
         s = order[k]
         for axis in range(3):
             if rates[axis] > 0.0:
                 b = bin_of(middles[s, axis], float(this.middles[axis]), rates[axis], count)
-                add(bins[axis, b], reach, middles, other, s)
+                add_surface(bins[axis, b], reach, middles, other, s)
                 bins[axis, b].last += 1
 
 
-@compiled
-def best_split(room: Room, count: int, grain: int) -> tuple[int, int]:
+@inlined
+def best_split(room: BuildSpace, count: int, grain: int) -> tuple[int, int]:
     """(axis, first bin of the second half) where area times work, summed over both halves, is least; axis -1 where all
     middles are one. Both halves hold some.
 
@@ -186,17 +188,17 @@ def best_split(room: Room, count: int, grain: int) -> tuple[int, int]:
     for a in range(3):
         if room.rates[a] > 0.0:
             bins = room.bins[a]
-            clear(half)
+            clear_part(half)
             n = 0
             for b in range(count - 1, 0, -1):
                 n += bins[b].last
-                join(half.reach, bins[b].reach)
+                grow_box(half.reach, bins[b].reach)
                 above[b] = (n + grain - 1) // grain * half_area(half.reach) if n > 0 else math.inf
-            clear(half)
+            clear_part(half)
             n = 0
             for b in range(1, count):
                 n += bins[b - 1].last
-                join(half.reach, bins[b - 1].reach)
+                grow_box(half.reach, bins[b - 1].reach)
                 if n > 0 and above[b] < math.inf:
                     cost = (n + grain - 1) // grain * half_area(half.reach) + above[b]
                     if cost < best:

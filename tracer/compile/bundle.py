@@ -34,17 +34,19 @@ class Bundle:
         self._fields = fields
         self._options = (writable, ragged)
         table: list[int] = []
-        entries: list[Entry] = []
+        entries: list[FieldLayout] = []
         for name, value in fields._asdict().items():
             if isinstance(value, np.ndarray):
                 if not value.flags.c_contiguous:
                     raise TypeError(f"{name} must be C-contiguous")
                 kind = array_type(value.dtype, value.ndim, writable)
                 tail = (None,) * (value.ndim - 1) if name in ragged else value.shape[1:]
-                entries.append(Entry(name, kind, len(table), tail))
+                entries.append(FieldLayout(name, kind, len(table), tail))
                 table += [value.ctypes.data, *value.shape]
             else:
-                entries.append(Entry(name, types.boolean if isinstance(value, bool) else types.int64, len(table), ()))
+                entries.append(
+                    FieldLayout(name, types.boolean if isinstance(value, bool) else types.int64, len(table), ())
+                )
                 table.append(int(value))
         self._table = np.array(table, np.int64)
         self.address = self._table.ctypes.data
@@ -52,7 +54,7 @@ class Bundle:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """In another process it has other addresses: it is made anew, of what it was made of."""
-        return (_received, (self._fields, *self._options))
+        return (_rebuilt, (self._fields, *self._options))
 
     def __getattr__(self, name: str) -> Any:
         value = getattr(self._fields, name)
@@ -60,7 +62,7 @@ class Bundle:
         return value.view(np.recarray) if isinstance(value, np.ndarray) and value.dtype.names else value
 
 
-def _received(fields: NamedTuple, writable: bool, ragged: tuple[str, ...]) -> Bundle:
+def _rebuilt(fields: NamedTuple, writable: bool, ragged: tuple[str, ...]) -> Bundle:
     """A Bundle of arrays that came over a wire: they lie at any address, and kernels count on aligned ones."""
     aligned = {
         name: np.require(a, requirements="A") for name, a in fields._asdict().items() if isinstance(a, np.ndarray)
@@ -68,7 +70,7 @@ def _received(fields: NamedTuple, writable: bool, ragged: tuple[str, ...]) -> Bu
     return Bundle(fields._replace(**aligned), writable, ragged)
 
 
-class Entry(NamedTuple):
+class FieldLayout(NamedTuple):
     """What a kernel has to know of one field."""
 
     name: str
@@ -78,13 +80,13 @@ class Entry(NamedTuple):
 
 
 class BundleType(types.Type):
-    def __init__(self, entries: tuple[Entry, ...]) -> None:
+    def __init__(self, entries: tuple[FieldLayout, ...]) -> None:
         self.entries = entries
         super().__init__(f"Bundle({entries})")
 
 
 @cache
-def bundle_type(entries: tuple[Entry, ...]) -> BundleType:
+def bundle_type(entries: tuple[FieldLayout, ...]) -> BundleType:
     """Found once, too: its name has those of all arrays in it."""
     return BundleType(entries)
 

@@ -12,29 +12,29 @@ from numba.extending import lower_builtin, type_callable
 CACHE_LINE = 64  # bytes
 
 
-def data_of(context: Any, builder: Any, kind: Any, array: Any) -> Any:
+def data_pointer(context: Any, builder: Any, kind: Any, array: Any) -> Any:
     """Where an array begins. What that needs of Numba is loaded only where something is compiled."""
     from numba.np.arrayobj import make_array
 
     return make_array(kind)(context, builder, array).data
 
 
-def stay_apart() -> None:
+def noinline() -> None:
     """As a function's first line: do not copy it into its callers. For what is large and seldom needed."""
 
 
-@type_callable(stay_apart)
-def _type_stay_apart(context: Any) -> Any:
+@type_callable(noinline)
+def _type_noinline(context: Any) -> Any:
     return lambda: types.none
 
 
-@lower_builtin(stay_apart)
-def _lower_stay_apart(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+@lower_builtin(noinline)
+def _lower_noinline(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     builder.function.attributes.add("noinline")
     return context.get_dummy_value()
 
 
-def natural(number: int) -> int:
+def as_unsigned(number: int) -> int:
     """A number that is never negative: as an index it is taken as it is, and not asked whether it counts from the end.
 
     For what waits for it, as a search for its next box does, the question would cost a tenth of the time.
@@ -42,30 +42,30 @@ def natural(number: int) -> int:
     return number
 
 
-@type_callable(natural)
-def _type_natural(context: Any) -> Any:
+@type_callable(as_unsigned)
+def _type_as_unsigned(context: Any) -> Any:
     return lambda number: types.uint64
 
 
-@lower_builtin(natural, types.Integer)
-def _lower_natural(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+@lower_builtin(as_unsigned, types.Integer)
+def _lower_as_unsigned(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     return context.cast(builder, arguments[0], signature.args[0], types.uint64)
 
 
-def soon(rows: Any, number: int) -> None:
+def prefetch(rows: Any, number: int) -> None:
     """This row of an array will be asked for: it can be fetched from memory meanwhile."""
 
 
-@type_callable(soon)
-def _type_soon(context: Any) -> Any:
+@type_callable(prefetch)
+def _type_prefetch(context: Any) -> Any:
     return lambda rows, number: types.none
 
 
-@lower_builtin(soon, types.Array, types.Integer)
-def _lower_soon(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+@lower_builtin(prefetch, types.Array, types.Integer)
+def _lower_prefetch(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     kind = signature.args[0]
     size, byte, word, short = kind.dtype.size, ir.IntType(8).as_pointer(), ir.IntType(64), ir.IntType(32)
-    data = builder.bitcast(data_of(context, builder, kind, arguments[0]), byte)
+    data = builder.bitcast(data_pointer(context, builder, kind, arguments[0]), byte)
     number = context.cast(builder, arguments[1], signature.args[1], types.int64)
     row = builder.gep(data, [builder.mul(number, word(size))])
     prefetch = builder.module.declare_intrinsic(

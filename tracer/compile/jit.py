@@ -33,16 +33,16 @@ OPTIONS = {
     "error_model": "numpy",  # x/0 is inf, as IEEE 754 says, and costs no branch
 }
 
-KEPT_CACHES = 3  # folders of earlier versions that stay, so that switching between two checkouts stays quick
+MAX_OLD_CACHES = 3  # folders of earlier versions that stay, so that switching between two checkouts stays quick
 
 
-class NoMemory:
+class NoEnvironment:
     @staticmethod
     def set_env(name: str, environment: object) -> None:
         """What Python's exceptions in machine code would need: there is none to raise them."""
 
 
-class Part(JITCodeLibrary):
+class IrLibrary(JITCodeLibrary):
     """The code of a function that only kernels call: it becomes part of theirs.
 
     As LLVM's, for them to link and to optimise; machine code of its own would be for nobody. Numba's way, to optimise
@@ -58,27 +58,27 @@ class Part(JITCodeLibrary):
     @property
     def codegen(self) -> Any:
         """As far as it is asked for by whoever would call machine code: an object that takes its environment."""
-        return NoMemory
+        return NoEnvironment
 
 
-class PartCompiler(Compiler):
+class IrCompiler(Compiler):
     """Numba's compiler, for functions that only kernels call."""
 
     def compile_extra(self, func: Any) -> Any:
-        self.state.library = Part(self.state.targetctx.codegen(), func.__qualname__)
+        self.state.library = IrLibrary(self.state.targetctx.codegen(), func.__qualname__)
         return super().compile_extra(func)
 
 
-def compiled(function: Callable[P, R]) -> Callable[P, R]:
+def inlined(function: Callable[P, R]) -> Callable[P, R]:
     """Mark a function that kernels may call; from Python it stays what it is."""
-    return register_jitable(forceinline=True, pipeline_class=PartCompiler, **OPTIONS)(function)
+    return register_jitable(forceinline=True, pipeline_class=IrCompiler, **OPTIONS)(function)
 
 
-def routine(function: Callable[P, R]) -> Callable[P, R]:
-    return register_jitable(forceinline=False, pipeline_class=PartCompiler, **OPTIONS)(function)
+def compiled(function: Callable[P, R]) -> Callable[P, R]:
+    return register_jitable(forceinline=False, pipeline_class=IrCompiler, **OPTIONS)(function)
 
 
-class Kept(FunctionCache):
+class KernelCache(FunctionCache):
     """The machine code of one kernel on disk.
 
     To load it Numba first fills its tables of all that it can compile, which takes longer than the loading; nothing is
@@ -97,11 +97,11 @@ class Kept(FunctionCache):
 def kernel(function: Callable[P, R]) -> Callable[P, R]:
     """Mark an entry point: compiled at its first call with these types, then loaded from `cache_folder`."""
     entry: Any = numba.njit(**OPTIONS)(function)
-    keep_in(entry, cache_folder())
+    cache_in(entry, cache_folder())
     return entry
 
 
-def keep_in(entry: Any, folder: Path) -> None:
+def cache_in(entry: Any, folder: Path) -> None:
     """Where an entry point's machine code is loaded from and left."""
     if not hasattr(entry, "py_func"):
         return  # compiling is switched off
@@ -109,7 +109,7 @@ def keep_in(entry: Any, folder: Path) -> None:
     numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        entry._cache = Kept(entry.py_func)
+        entry._cache = KernelCache(entry.py_func)
     finally:
         numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
 
@@ -172,17 +172,17 @@ def cache_folder() -> Path:
         except OSError:
             continue
         os.utime(folder)
-        _forget_old(parent, folder)
+        _remove_old_caches(parent, folder)
         return folder
     return Path(tempfile.mkdtemp(prefix="raytree-"))
 
 
-def _forget_old(parent: Path, current: Path) -> None:
+def _remove_old_caches(parent: Path, current: Path) -> None:
     """Remove the folders of versions not used lately; another process may be doing the same."""
     try:
         others = [folder for folder in parent.glob("kernels-*") if folder != current]
         others.sort(key=lambda folder: folder.stat().st_mtime, reverse=True)
     except OSError:
         return
-    for folder in others[KEPT_CACHES:]:
+    for folder in others[MAX_OLD_CACHES:]:
         shutil.rmtree(folder, ignore_errors=True)

@@ -24,8 +24,8 @@ import numpy as np
 
 from tracer import fields
 from tracer.formats.words import Fault, Word, Words
-from tracer.formulas.double_double import exact_difference, pair_cross
-from tracer.formulas.vector import Vector, as_floats, tame, unit
+from tracer.formulas.double_double import dd_cross, exact_difference
+from tracer.formulas.vector import Vector, as_floats, rescale, unit
 from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, SceneError, Shape
 from tracer.shapes.cone import Cone
 from tracer.shapes.mesh import Geometry, Mesh
@@ -67,7 +67,7 @@ class Patches:
         normals = np.array(self.normals).reshape(-1, 3) if self.smooth else None
         faces = np.arange(len(corners)).reshape(-1, 3)
         a, b, c = (tuple(corners[k::3].T) for k in range(3))
-        area = pair_cross(exact_difference(b, a), exact_difference(c, a))
+        area = dd_cross(exact_difference(b, a), exact_difference(c, a))
         faces = faces[np.any([high != 0.0 for high, _ in area], axis=0)]
         return Mesh(Geometry(corners, faces, normals)) if len(faces) else None
 
@@ -216,7 +216,7 @@ class Reader:
         for k in range(1, len(points) - 1):
             self.run.corners += [points[0], points[k], points[k + 1]]
             if smooth:
-                self.run.normals += [unit(tame(normals[i])) for i in (0, k, k + 1)]
+                self.run.normals += [unit(rescale(normals[i])) for i in (0, k, k + 1)]
 
     def _end_run(self) -> None:
         if self.run and (mesh := self.run.mesh()):

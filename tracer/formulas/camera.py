@@ -11,12 +11,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tracer.compile.jit import compiled
-from tracer.formulas.vector import Vector, add, cross, scale, subtract, tame, unit
+from tracer.compile.jit import inlined
+from tracer.formulas.vector import Vector, add, cross, rescale, scale, subtract, unit
 from tracer.scene import Scene
 
-AHEAD = 64  # pixels of a line whose directions are worked out together
-BESIDE = 1.1  # how much more than the whole scene a framing camera sees
+BATCH = 64  # pixels of a line whose directions are worked out together
+MARGIN = 1.1  # how much more than the whole scene a framing camera sees
 
 
 class View(NamedTuple):
@@ -34,11 +34,11 @@ def make_view(eye: Vector, look_at: Vector, up: Vector, fov: float, size: tuple[
     """`fov` in degrees; `size` in pixels, width first."""
     eye = _vector(eye)  # floats, whatever the author wrote: kernels are compiled for one type
     gaze = subtract(look_at, eye)
-    forward = unit(tame(gaze)) if any(gaze) else (0.0, 0.0, -1.0)
-    aside = cross(forward, tame(up))
+    forward = unit(rescale(gaze)) if any(gaze) else (0.0, 0.0, -1.0)
+    aside = cross(forward, rescale(up))
     if not any(aside):  # a view straight along `up`, which only a camera can have that its author left open
         aside = cross(forward, (0.0, 0.0, 1.0) if abs(forward[2]) < 0.5 else (1.0, 0.0, 0.0))
-    right = unit(tame(aside))
+    right = unit(rescale(aside))
     half = math.tan(math.radians(fov) / 2)
     return View(eye, forward, scale(half, right), scale(half, cross(right, forward)), *size)
 
@@ -54,13 +54,13 @@ def scene_view(scene: Scene, extent: tuple[Vector, float], size: tuple[int, int]
         narrow = math.radians(camera.fov) / 2
         if width < height:
             narrow = math.atan(math.tan(narrow) * width / height)
-        up = unit(tame(camera.up))
+        up = unit(rescale(camera.up))
         aside = unit(cross(up, (0.0, 0.0, 1.0) if abs(up[2]) < 0.9 else (1.0, 0.0, 0.0)))
         ahead = cross(aside, up)
         away = unit(add(add(scale(0.35, up), scale(0.45, aside)), ahead))
         # Of a speck far from the origin no camera can come near: its place has no digits for that.
         least = 2.0**-40 * max(map(abs, look_at))
-        position = add(look_at, scale(BESIDE * (max(radius, least) or 1.0) / math.sin(narrow), away))
+        position = add(look_at, scale(MARGIN * (max(radius, least) or 1.0) / math.sin(narrow), away))
     return make_view(position, look_at, camera.up, camera.fov, (width, height))
 
 
@@ -68,7 +68,7 @@ def _vector(array: Sequence[float] | np.ndarray) -> Vector:
     return (float(array[0]), float(array[1]), float(array[2]))
 
 
-@compiled
+@inlined
 def pixel_direction(view: View, x: float, y: float) -> Vector:
     """Unit direction of the ray through the image at (x, y), in pixels."""
     u = (2.0 * x - view.width) / view.height
@@ -76,14 +76,14 @@ def pixel_direction(view: View, x: float, y: float) -> Vector:
     return unit(add(view.forward, add(scale(u, view.right), scale(v, view.up))))
 
 
-@compiled
-def look_ahead(view: View, x: int, y: int, step: int, right: int, ahead: Any) -> None:
+@inlined
+def pixel_directions(view: View, x: int, y: int, step: int, right: int, ahead: Any) -> None:
     """Directions through the centres of pixels x, x + step ... of a line, before `right` and no more than AHEAD.
 
     They go into the columns of `ahead` (3, AHEAD). The processor takes four roots or quotients at once, and none of
     them is waited for.
     """
-    for k in range(min(AHEAD, -((x - right) // step))):
+    for k in range(min(BATCH, -((x - right) // step))):
         d = pixel_direction(view, x + k * step + 0.5, y + 0.5)
         ahead[0, k] = d[0]
         ahead[1, k] = d[1]

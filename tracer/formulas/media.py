@@ -10,7 +10,7 @@ changes nothing the second time, and what changes nothing is no interface.
 
 from typing import Any
 
-from tracer.compile.jit import compiled
+from tracer.compile.jit import inlined
 
 VACUUM = 1.0  # index of refraction of empty space
 
@@ -35,13 +35,13 @@ INDICES = {
 WORD = 32  # solids a word of the set holds: half of what fits, so that no shift meets the sign
 
 
-@compiled
+@inlined
 def contains(solids: Any, rank: int) -> bool:
     return (solids[rank >> 5] >> (rank & 31)) & 1 != 0
 
 
-@compiled
-def put(solids: Any, rank: int, inside: bool) -> None:
+@inlined
+def set_inside(solids: Any, rank: int, inside: bool) -> None:
     """Set or clear a solid's bit."""
     bit = 1 << (rank & 31)
     if inside:
@@ -50,7 +50,7 @@ def put(solids: Any, rank: int, inside: bool) -> None:
         solids[rank >> 5] &= ~bit
 
 
-@compiled
+@inlined
 def medium(solids: Any) -> int:
     """Rank of the solid that fills this space, -1 for empty space."""
     for k in range(len(solids)):
@@ -64,6 +64,6 @@ def medium(solids: Any) -> int:
     return -1
 
 
-@compiled
+@inlined
 def index_of(world: Any, rank: int) -> float:
     return world.indices[rank] if rank >= 0 else VACUUM

@@ -11,43 +11,55 @@ nearly match, 1 - R at grazing incidence. Each is written here as an equal produ
 
 import math
 
-from tracer.compile.jit import compiled
-from tracer.formulas.vector import Vector, VectorLike, add, cross, dot, length, nearly_unit, scale, subtract, tame, unit
+from tracer.compile.jit import inlined
+from tracer.formulas.vector import (
+    Vector,
+    VectorLike,
+    add,
+    cross,
+    dot,
+    length,
+    renormalize,
+    rescale,
+    scale,
+    subtract,
+    unit,
+)
 
 
-@compiled
+@inlined
 def mirrored(v: Vector, n: Vector) -> Vector:
     """r = v - 2 (n.v) n for a unit v. 2 - n.n stands for 1/n.n: the last digit of n's length is not to turn r."""
-    return nearly_unit(subtract(v, scale(2.0 * (dot(n, v) * (2.0 - dot(n, n))), n)))
+    return renormalize(subtract(v, scale(2.0 * (dot(n, v) * (2.0 - dot(n, n))), n)))
 
 
-@compiled
+@inlined
 def cosine(v: Vector, n: Vector) -> float:
     """c1 = -v.n for a unit v."""
     return -dot(v, n)
 
 
-@compiled
+@inlined
 def sine(v: Vector, n: Vector) -> float:
     """s1 = |v x n| for a unit v: exact to the last digits where sqrt(1 - c1^2) has none left."""
     return length(cross(v, n))
 
 
-@compiled
+@inlined
 def radicand(s1: float, n1: float, n2: float) -> float:
     """1 - eta^2 (1 - c1^2), what the slide takes the root of: total internal reflection where it is <= 0."""
     s2 = n1 / n2 * s1
     return (1.0 - s2) * (1.0 + s2)
 
 
-@compiled
+@inlined
 def transmission(v: Vector, n: Vector, n1: float, n2: float, c1: float, c2: float) -> Vector:
     """t = eta v + (eta c1 - c2) n for a unit v, the second bracket as (n1^2 - n2^2) / (n2 (n1 c1 + n2 c2))."""
     bend = (n1 - n2) * (n1 + n2) / (n2 * (n1 * c1 + n2 * c2))
     return unit(add(scale(n1 / n2, v), scale(bend, n)))
 
 
-@compiled
+@inlined
 def fresnel_shares(c1: float, s1: float, c2: float, n1: float, n2: float) -> tuple[float, float]:
     """(R, T): the unpolarised shares of the reflected and the refracted ray, each computed for itself.
 
@@ -67,7 +79,7 @@ def fresnel_shares(c1: float, s1: float, c2: float, n1: float, n2: float) -> tup
     return (r, 1.0 - r) if r < t else (1.0 - t, t)
 
 
-@compiled
+@inlined
 def angle(a: Vector, b: Vector) -> float:
     """The angle between two directions in radians, 0 to pi, with all its digits at both ends (no acos)."""
     return math.atan2(length(cross(a, b)), dot(a, b))
@@ -78,12 +90,12 @@ def angle(a: Vector, b: Vector) -> float:
 
 def reflect(v: VectorLike, n: VectorLike) -> Vector:
     """The mirror direction, a unit vector."""
-    return mirrored(unit(tame(v)), unit(tame(n)))
+    return mirrored(unit(rescale(v)), unit(rescale(n)))
 
 
 def refract(v: VectorLike, n: VectorLike, n1: float, n2: float) -> Vector | None:
     """The unit direction behind the surface, or None on total internal reflection."""
-    d, n = unit(tame(v)), unit(tame(n))
+    d, n = unit(rescale(v)), unit(rescale(n))
     s1 = sine(d, n)
     root = radicand(s1, n1, n2)
     if root <= 0.0:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracer.compile.jit import compiled
+from tracer.compile.jit import inlined
 
 UNIT = 2.0**-32
 LOW = np.uint64(0xFFFFFFFF)
@@ -49,20 +49,20 @@ def make_samples(count: int, sampler: str = SAMPLERS[SOBOL]) -> Samples:
     return Samples(0, count, SAMPLERS.index(sampler), side)
 
 
-@compiled
-def hashed(x: int, y: int) -> np.uint64:
+@inlined
+def pixel_hash(x: int, y: int) -> np.uint64:
     """64 mixed bits of a pixel (Steele, Lea & Flood, "Fast Splittable Pseudorandom Number Generators", 2014)."""
-    return mixed_up(((np.uint64(x) << np.uint64(32)) ^ np.uint64(y)) + GOLDEN)
+    return mix64(((np.uint64(x) << np.uint64(32)) ^ np.uint64(y)) + GOLDEN)
 
 
-@compiled
-def mixed_up(z: np.uint64) -> np.uint64:
+@inlined
+def mix64(z: np.uint64) -> np.uint64:
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
     return z ^ (z >> np.uint64(31))
 
 
-@compiled
+@inlined
 def sobol(x: int, y: int, k: int) -> tuple[float, float]:
     """The k-th point of pixel (x, y) that fills the square evenly."""
     first, second = np.uint64(0), np.uint64(0)
@@ -76,25 +76,25 @@ def sobol(x: int, y: int, k: int) -> tuple[float, float]:
         bit >>= np.uint64(1)
         turn ^= turn >> np.uint64(1)
         rest >>= np.uint64(1)
-    mixed = hashed(x, y)
+    mixed = pixel_hash(x, y)
     return (np.float64(first ^ (mixed & LOW)) * UNIT, np.float64(second ^ (mixed >> np.uint64(32))) * UNIT)
 
 
-@compiled
+@inlined
 def random_point(x: int, y: int, k: int) -> tuple[float, float]:
     """The k-th point of pixel (x, y), anywhere in the square."""
-    mixed = mixed_up(hashed(x, y) + np.uint64(k) * GOLDEN)
+    mixed = mix64(pixel_hash(x, y) + np.uint64(k) * GOLDEN)
     return (np.float64(mixed & LOW) * UNIT, np.float64(mixed >> np.uint64(32)) * UNIT)
 
 
-@compiled
+@inlined
 def jittered(x: int, y: int, k: int, side: int) -> tuple[float, float]:
     """The k-th point of pixel (x, y): anywhere in the k-th cell of a grid of `side` by `side`, row by row."""
     u, v = random_point(x, y, k)
     return ((k % side + u) / side, (k // side + v) / side)
 
 
-@compiled
+@inlined
 def sample_offset(x: int, y: int, k: int, sampler: int, side: int) -> tuple[float, float]:
     """The k-th point of pixel (x, y), both coordinates in [0, 1). `side` counts for jittered points only."""
     if sampler == RANDOM:

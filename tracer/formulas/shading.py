@@ -10,17 +10,17 @@ from typing import Any
 
 import numpy as np
 
-from tracer.compile.jit import compiled
+from tracer.compile.jit import inlined
 from tracer.formulas.vector import Vector, add, dot, multiply, negate, scale, subtract, vector
 
 
-@compiled
+@inlined
 def ambient(material: Any, color: Vector, world_ambient: Vector) -> Vector:
     """ambient * ka * C."""
     return scale(material.ambient, multiply(world_ambient, color))
 
 
-@compiled
+@inlined
 def phong(material: Any, color: Vector, light: Vector, n: Vector, to_light: Vector, v: Vector) -> Vector:
     """L (kd C (N.L) + ks (R.V)^p): one unshadowed light's share; `to_light` a unit vector with N.L > 0, v the ray."""
     n_l = dot(n, to_light)
@@ -33,7 +33,7 @@ def phong(material: Any, color: Vector, light: Vector, n: Vector, to_light: Vect
     return multiply(light, share)
 
 
-@compiled
+@inlined
 def surface_color(material: Any, surface: Any, point: Vector) -> Vector:
     """C: the material's colour, or its checker's second one where the squares' indices add up to an odd number.
 

@@ -17,20 +17,22 @@ from typing import Any
 
 import numpy as np
 
-from tracer.compile.jit import compiled, kernel
+from tracer.compile.jit import inlined, kernel
 from tracer.formulas.sampler import JITTERED, RANDOM
 from tracer.formulas.vector import Vector, scale, vector
 from tracer.kernel.entry import Area, Begun
 
-OWN = 0.8  # of a pixel's measure that is its own; the rest is its neighbours'
-FIRST = 0.25  # of a doubling, that the contrast to its neighbours counts as
+OWN_SHARE = 0.8  # of a pixel's measure that is its own; the rest is its neighbours'
+CONTRAST_WEIGHT = 0.25  # of a doubling, that the contrast to its neighbours counts as
 GROWTH = 0.2  # of all samples so far, that a round adds at least where there is a choice
-AGAIN = 5.0  # by how much more than its own square error a mean of 4 N new samples differs from that of N, at least
+RESTART_FACTOR = (
+    5.0  # by how much more than its own square error a mean of 4 N new samples differs from that of N, at least
+)
 RANKS = 4 * 2400  # steps of a quarter of an octave, which gains are told apart by: all that a double can be
 FLAT, MIDDLE, STEEP = 2.0**-0.75, 2.0**-0.5, 2.0**-0.25
 
 
-class Sampled:
+class PixelStatistics:
     """The pixels of an image in the making, and what is known of their errors. Arrays are (height, width, ...)."""
 
     def __init__(self, width: int, height: int, sampler: int, adaptive: bool) -> None:
@@ -80,8 +82,8 @@ class Sampled:
 
     def take_in(self, area: Area, plan: np.ndarray, sums: np.ndarray) -> None:
         """The new sums of an area whose samples went by this plan."""
-        again = AGAIN if self.renews else 1.0
-        take_in(area, plan, sums, again, self.power, self.sums, self.counts, self.moved, self.spread)
+        again = RESTART_FACTOR if self.renews else 1.0
+        update_statistics(area, plan, sums, again, self.power, self.sums, self.counts, self.moved, self.spread)
 
     def _worthwhile(self, most: int) -> np.ndarray:
         """Pixels that gain most by a sample, as many as add GROWTH to the samples so far."""
@@ -96,7 +98,7 @@ class Sampled:
 
 
 @kernel
-def take_in(
+def update_statistics(
     area: Area, plan: Any, new: Any, again: float, power: float, sums: Any, counts: Any, moved: Any, spread: Any
 ) -> None:
     """`Sampled.take_in`: each pixel's sums and how far its mean has moved."""
@@ -106,9 +108,9 @@ def take_in(
             if want <= plan[y, x, 0]:
                 continue
             if have > 0:
-                square = apart(mean(new[y, x], want), mean(sums[y, x], have)) / again
+                square = mean_square_difference(mean_color(new[y, x], want), mean_color(sums[y, x], have)) / again
                 moved[y, x] = square
-                spread[y, x, 0] += square * raised(want, power)
+                spread[y, x, 0] += square * count_power(want, power)
                 spread[y, x, 1] += 1.0
             for k in range(4):
                 sums[y, x, k] = new[y, x, k]
@@ -121,12 +123,12 @@ def add_contrast(sums: Any, counts: Any, power: float, spread: Any) -> None:
     height, width = counts.shape
     for y in range(height):
         for x in range(width):
-            here, total = mean(sums[y, x], counts[y, x]), 0.0
+            here, total = mean_color(sums[y, x], counts[y, x]), 0.0
             for j in range(max(y - 1, 0), min(y + 2, height)):
                 for i in range(max(x - 1, 0), min(x + 2, width)):
-                    total += apart(mean(sums[j, i], counts[j, i]), here)
-            spread[y, x, 0] += FIRST * (total / 16.0) * raised(counts[y, x], power)
-            spread[y, x, 1] += FIRST
+                    total += mean_square_difference(mean_color(sums[j, i], counts[j, i]), here)
+            spread[y, x, 0] += CONTRAST_WEIGHT * (total / 16.0) * count_power(counts[y, x], power)
+            spread[y, x, 1] += CONTRAST_WEIGHT
 
 
 @kernel
@@ -147,7 +149,7 @@ def rank_gains(counts: Any, spread: Any, power: float, most: int, ranks: Any, sp
                     around += spread[j, i, 0] / spread[j, i, 1]
                     some += 1
             around = (around - own) / some if some > 0 else own
-            gain = (OWN * own + (1.0 - OWN) * max(around, 0.0)) / (raised(count, power) * count)
+            gain = (OWN_SHARE * own + (1.0 - OWN_SHARE) * max(around, 0.0)) / (count_power(count, power) * count)
             if 0.0 < gain < math.inf:
                 part, octave = math.frexp(gain)
                 step = (1 if part >= FLAT else 0) + (1 if part >= MIDDLE else 0) + (1 if part >= STEEP else 0)
@@ -155,24 +157,24 @@ def rank_gains(counts: Any, spread: Any, power: float, most: int, ranks: Any, sp
                 spent[ranks[y, x]] += count
 
 
-@compiled
-def raised(count: int, power: float) -> float:
+@inlined
+def count_power(count: int, power: float) -> float:
     """N or N^3/2: what square errors fall with."""
     return count * math.sqrt(count) if power > 1.0 else 1.0 * count
 
 
-@compiled
-def mean(sums: Any, count: int) -> Vector:
+@inlined
+def mean_color(sums: Any, count: int) -> Vector:
     return scale(1.0 / count, vector(sums))
 
 
-@compiled
-def apart(a: Vector, b: Vector) -> float:
+@inlined
+def mean_square_difference(a: Vector, b: Vector) -> float:
     """Mean square over the components."""
     return ((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2) / 3.0
 
 
-def busy(areas: list[Area], plan: np.ndarray) -> list[Area]:
+def unfinished_tiles(areas: list[Area], plan: np.ndarray) -> list[Area]:
     """Those in which some pixel is to have more samples."""
     more = plan[..., 1] > plan[..., 0]
     return [area for area in areas if more[area.top : area.bottom, area.left : area.right].any()]

@@ -13,18 +13,18 @@ import numpy as np
 
 from tracer.formulas.camera import View
 from tracer.formulas.sampler import Samples
-from tracer.image.adaptive import Sampled, busy
+from tracer.image.adaptive import PixelStatistics, unfinished_tiles
 from tracer.image.job import SMALL_TILE, Cancelled, Job, never, tiles
 from tracer.image.passes import Finished, trace_passes
 from tracer.kernel.entry import Area
 from tracer.kernel.limits import Limits
 from tracer.kernel.world import World
 
-MOST = 4096  # samples of a pixel, where no one asks for more or fewer
+MAX_SAMPLES = 4096  # samples of a pixel, where no one asks for more or fewer
 SIDE = 2 * SMALL_TILE  # of a tile: pixels with many samples lie together
 
 
-class Reached(NamedTuple):
+class RoundStats(NamedTuple):
     """How far an image has come."""
 
     seconds: float  # of tracing and choosing
@@ -35,15 +35,15 @@ class Reached(NamedTuple):
     error: float  # estimated: root mean square over pixels and components, in linear light; NaN: not yet known
 
 
-class Converging:
+class ConvergingImage:
     """An image that gets more samples from round to round: where its error is, or everywhere."""
 
     def __init__(
-        self, world: World, view: View, limits: Limits, sampler: int, adaptive: bool = True, most: int = MOST
+        self, world: World, view: View, limits: Limits, sampler: int, adaptive: bool = True, most: int = MAX_SAMPLES
     ) -> None:
         self.world, self.view, self.limits = world, view, limits
         self.sampler, self.most = sampler, most
-        self.sampled = Sampled(view.width, view.height, sampler, adaptive)
+        self.sampled = PixelStatistics(view.width, view.height, sampler, adaptive)
         self.job = self._job(1)
         self.all = tiles(view.width, view.height, SIDE, 1, 0)
         self.seconds = 0.0
@@ -54,10 +54,10 @@ class Converging:
         return job
 
     @property
-    def reached(self) -> Reached:
+    def reached(self) -> RoundStats:
         counts = self.sampled.counts
         rays = int(self.job.rays.sum())
-        return Reached(
+        return RoundStats(
             self.seconds, rays, float(counts.mean()), int(counts.min()), int(counts.max()), self.sampled.error
         )
 
@@ -67,7 +67,7 @@ class Converging:
         threads: int,
         finished: Finished = lambda area, share: None,
         cancelled: Cancelled = never,
-    ) -> Iterator[Reached]:
+    ) -> Iterator[RoundStats]:
         """Round after round, until nothing is to be gained. Stopped where `cancelled` turns true."""
         while True:
             began = time.perf_counter()
@@ -85,7 +85,7 @@ class Converging:
                 finished(area, share)
 
             try:
-                trace_passes(self.job, [busy(self.all, plan)], executor, threads, take_in, cancelled)
+                trace_passes(self.job, [unfinished_tiles(self.all, plan)], executor, threads, take_in, cancelled)
             finally:
                 self.seconds += time.perf_counter() - began
             yield self.reached

@@ -13,7 +13,7 @@ import numpy as np
 
 from tracer.compile.jit import is_compiled
 from tracer.formulas.sampler import JITTERED, SAMPLERS, SOBOL, make_samples
-from tracer.image.converge import MOST, Converging, Reached
+from tracer.image.converge import MAX_SAMPLES, ConvergingImage, RoundStats
 from tracer.image.job import SMALL_TILE, TILE, Cancelled, Job, Remote, never, passes
 from tracer.image.passes import Stopped, trace_passes
 from tracer.kernel.entry import trace_area
@@ -22,7 +22,7 @@ from tracer.kernel.nodes import KINDS
 from tracer.kernel.world import World, prepare
 from tracer.scene import Material, Object, Scene
 from tracer.shapes.sphere import Sphere
-from tracer.tree.bounds import brightest
+from tracer.tree.bounds import radiance_bound
 from tracer.tree.raytree import checked_size, trace
 
 BALL = Scene((Object(Sphere((0.0, 0.0, -1.0), 0.5), Material()),))  # what kernels are warmed up with
@@ -47,7 +47,7 @@ class Image:
     bound: float  # no component of a pixel lacks more than this for rays that were cut; infinite: nothing bounds it
     left_out: list[str]
     counts: np.ndarray | None = None  # (height, width) samples, where pixels have as many as their error asks for
-    reached: Reached | None = None  # and how far they came
+    reached: RoundStats | None = None  # and how far they came
     ended: str = ""  # by what: "error", "seconds", or "samples" where no pixel could have any more
 
     def __repr__(self) -> str:
@@ -129,7 +129,7 @@ def render(
     began = time.perf_counter()
     with nullcontext(executor) if executor else ThreadPoolExecutor(threads) as pool:
         if goal:
-            made = Converging(world, view, limits, points.sampler, most=samples or MOST)
+            made = ConvergingImage(world, view, limits, points.sampler, most=samples or MAX_SAMPLES)
             ended = _converge(made, replace(goal, began=began), pool, threads, progress, cancelled)
             job, pixels, residual, reached = made.job, made.sampled.means(), made.residual(), made.reached
         else:
@@ -148,7 +148,7 @@ def render(
         samples=reached.most if reached else points.count,
         depth=limits.depth if depth is not None or tolerance is None else None,
         tolerance=tolerance,
-        bound=residual["max"] * brightest(world.scene) if residual["max"] > 0.0 else 0.0,
+        bound=residual["max"] * radiance_bound(world.scene) if residual["max"] > 0.0 else 0.0,
         left_out=world.left_out,
         counts=made.sampled.counts if made else None,
         reached=reached,
@@ -157,7 +157,7 @@ def render(
 
 
 def _converge(
-    made: Converging, goal: Goal, executor: Executor, threads: int, progress: Progress, cancelled: Cancelled
+    made: ConvergingImage, goal: Goal, executor: Executor, threads: int, progress: Progress, cancelled: Cancelled
 ) -> str:
     """Round after round up to the goal; by what it ended. Time is up when it is, but every pixel has two samples."""
 

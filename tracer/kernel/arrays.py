@@ -16,7 +16,10 @@ SURFACE = np.dtype(
         ("count", np.int32),  # corners of a flat face, 1 for a sphere, 0 for what has none
         ("form", np.int32),  # which shape, as CODES numbers them
         ("object", np.int32),
-        ("twin", np.int32),  # the first surface that is curved the very same way in the same place: for most, itself
+        (
+            "coincident",
+            np.int32,
+        ),  # the first surface that is curved the very same way in the same place: for most, itself
         ("smooth", np.int32),  # row of `smooth`, -1 for none
     ],
     align=True,
@@ -76,4 +79,4 @@ class Arrays(NamedTuple):
     unboxed: np.ndarray  # surfaces that every ray is tested against: those without end, and all where they are few
     nodes: np.ndarray  # of the hierarchy of boxes over the others
     blocks: np.ndarray  # of triangles in it
-    per_unit: np.ndarray  # (1,) of the hierarchy, one over its unit of length
+    inverse_unit: np.ndarray  # (1,) of the hierarchy, one over its unit of length

@@ -12,15 +12,15 @@ from typing import Any
 
 import numpy as np
 
-from tracer.compile.jit import compiled, routine
-from tracer.formulas.double_double import plus
-from tracer.formulas.vector import largest, vector
+from tracer.compile.jit import compiled, inlined
+from tracer.formulas.double_double import dd_add
+from tracer.formulas.vector import max_component, vector
 from tracer.kernel.limits import Limits
 from tracer.kernel.nodes import NODES, NONE, SURFACE, TOLERANCE
-from tracer.kernel.scatter import cut_at_once, split, start_branch
-from tracer.kernel.trace import gather_light, sum_up, trace_ray
+from tracer.kernel.scatter import cut_reason, scatter, start_child
+from tracer.kernel.trace import accumulate_radiance, direct_light, trace_ray
 
-OPEN = np.dtype(
+OPEN_RAY = np.dtype(
     [
         ("weight", np.float64),  # its largest component
         ("number", np.int64),  # of equal ones the first to be created is followed first
@@ -31,8 +31,8 @@ OPEN = np.dtype(
 )
 
 
-@routine
-def trace_heaviest_first(world: Any, limits: Limits, space: Any) -> int:
+@compiled
+def trace_best_first(world: Any, limits: Limits, space: Any) -> int:
     """Rows of the tree whose camera ray stands in row 0, in the order of tracing, each with its shadow rays behind it;
     -1 where the table is too short for it."""
     table, heap = space.table, space.open
@@ -45,20 +45,20 @@ def trace_heaviest_first(world: Any, limits: Limits, space: Any) -> int:
         if count + lights + 1 > len(table):
             return -1
         trace_ray(world, space, i)
-        count = gather_light(world, limits, space, i, count)
+        count = direct_light(world, limits, space, i, count)
         row = table[i]
         if row.surface >= 0:
-            rays = split(world, limits, row)
+            rays = scatter(world, limits, row)
             if rays.reflected == 0.0 and rays.refracted == 0.0:
                 row.end = SURFACE
             for refracted in (False, True):
                 factor = rays.refracted if refracted else rays.reflected
                 if factor > 0.0:
-                    weight = largest(vector(row.weight)) * factor
-                    left = plus(left, (weight, 0.0))
-                    reason = cut_at_once(limits, row, rays, refracted, weight)
+                    weight = max_component(vector(row.weight)) * factor
+                    left = dd_add(left, (weight, 0.0))
+                    reason = cut_reason(limits, row, rays, refracted, weight)
                     if reason == NONE:
-                        put_in(heap, waiting, weight, created, i, refracted)
+                        heap_push(heap, waiting, weight, created, i, refracted)
                         waiting += 1
                         created += 1
                     else:
@@ -70,55 +70,55 @@ def trace_heaviest_first(world: Any, limits: Limits, space: Any) -> int:
             stopped_by = NODES
             break
         parent, refracted = heap[0].parent, heap[0].refracted
-        left = plus(left, (-heap[0].weight, 0.0))
+        left = dd_add(left, (-heap[0].weight, 0.0))
         waiting -= 1
-        take_out(heap, waiting)
+        heap_pop(heap, waiting)
         i = count
         planned += 1 + lights
-        start_branch(world, limits, space, parent, split(world, limits, table[parent]), refracted, i)
+        start_child(world, limits, space, parent, scatter(world, limits, table[parent]), refracted, i)
         count += 1
     for k in range(waiting):
         row = table[heap[k].parent]
         row.end = stopped_by
         row.cut += heap[k].weight
-    sum_up(table, count)
+    accumulate_radiance(table, count)
     return count
 
 
-@compiled
-def goes_before(heap: Any, a: int, b: int) -> bool:
+@inlined
+def precedes(heap: Any, a: int, b: int) -> bool:
     if heap[a].weight != heap[b].weight:
         return heap[a].weight > heap[b].weight
     return heap[a].number < heap[b].number
 
 
-@compiled
-def put_in(heap: Any, size: int, weight: float, number: int, parent: int, refracted: bool) -> None:
+@inlined
+def heap_push(heap: Any, size: int, weight: float, number: int, parent: int, refracted: bool) -> None:
     """A ray more in a heap of this size."""
     k = size
     heap[k].weight, heap[k].number, heap[k].parent, heap[k].refracted = weight, number, parent, refracted
-    while k > 0 and goes_before(heap, k, (k - 1) // 2):
-        exchange(heap, k, (k - 1) // 2)
+    while k > 0 and precedes(heap, k, (k - 1) // 2):
+        heap_swap(heap, k, (k - 1) // 2)
         k = (k - 1) // 2
 
 
-@compiled
-def take_out(heap: Any, size: int) -> None:
+@inlined
+def heap_pop(heap: Any, size: int) -> None:
     """The first out of the heap, of which this many are left."""
-    exchange(heap, 0, size)
+    heap_swap(heap, 0, size)
     k = 0
     while 2 * k + 1 < size:
         below = 2 * k + 1
-        if below + 1 < size and goes_before(heap, below + 1, below):
+        if below + 1 < size and precedes(heap, below + 1, below):
             below += 1
-        if not goes_before(heap, below, k):
+        if not precedes(heap, below, k):
             return
-        exchange(heap, below, k)
+        heap_swap(heap, below, k)
         k = below
 
 
-@compiled
-def exchange(heap: Any, a: int, b: int) -> None:
+@inlined
+def heap_swap(heap: Any, a: int, b: int) -> None:
     weight, number, parent, refracted = heap[a].weight, heap[a].number, heap[a].parent, heap[a].refracted
     heap[a].weight, heap[a].number = heap[b].weight, heap[b].number
     heap[a].parent, heap[a].refracted = heap[b].parent, heap[b].refracted

@@ -10,16 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from tracer.accel.traversal import walker
-from tracer.compile.intrinsics import natural
-from tracer.compile.jit import compiled, routine
+from tracer.accel.traversal import make_traversal
+from tracer.compile.intrinsics import as_unsigned
+from tracer.compile.jit import compiled, inlined
 from tracer.formulas.double_double import SMALLEST
 from tracer.rays import Ray
-from tracer.shapes import again, intersect
+from tracer.shapes import intersect, next_hit
 
 
-@compiled
-def distance(
+@inlined
+def hit_distance(
     world: Any, s: int, ray: Ray, floor: float, floor_id: int, above: float, ceiling: float, exactly: bool
 ) -> float:
     """Distance to surface s, if it comes after the hit (floor, floor_id) and not beyond the ceiling.
@@ -27,20 +27,20 @@ def distance(
     `above` is the number after `floor`. Not `exactly`: only whether there is one will be asked.
     """
     least = floor if s > floor_id else above
-    surface = world.surfaces[natural(s)]
-    if surface.twin == ray.start:
-        t = again(world, surface, ray)
+    surface = world.surfaces[as_unsigned(s)]
+    if surface.coincident == ray.start:
+        t = next_hit(world, surface, ray)
         return t if t >= least else math.inf
     return intersect(world, surface, ray, least, ceiling, exactly)
 
 
-@compiled
+@inlined
 def closest(world: Any, ray: Ray, floor: float, floor_id: int, space: Any) -> tuple[float, int, bool]:
     """(t, surface, tied): the first hit after (floor, floor_id); surface -1 for none, tied: another is as close."""
     return closest_within(world, ray, floor, floor_id, math.inf, space)
 
 
-@routine
+@compiled
 def closest_within(
     world: Any, ray: Ray, floor: float, floor_id: int, limit: float, space: Any
 ) -> tuple[float, int, bool]:
@@ -49,21 +49,21 @@ def closest_within(
     return search_nearest(world, ray, (floor, floor_id, above), (limit, -1, False), space)
 
 
-@compiled
+@inlined
 def try_surface(
     world: Any, s: int, ray: Ray, after: tuple[float, int, float], known: tuple[float, int, bool], space: Any
 ) -> tuple[float, int, bool]:
     space.tests[0] += 1
     best, found, tied = known
-    t = distance(world, s, ray, after[0], after[1], after[2], best, True)
-    return nearer(t, s, best, found, tied)
+    t = hit_distance(world, s, ray, after[0], after[1], after[2], best, True)
+    return update_closest(t, s, best, found, tied)
 
 
-search_nearest = walker(try_surface, nearest_first=True)
+search_nearest = make_traversal(try_surface, nearest_first=True)
 
 
-@compiled
-def nearer(t: float, s: int, best: float, found: int, tied: bool) -> tuple[float, int, bool]:
+@inlined
+def update_closest(t: float, s: int, best: float, found: int, tied: bool) -> tuple[float, int, bool]:
     """What is known after surface s was found at t (infinite: not): of several at one distance, the first surface."""
     if t < best or (t == best and found < 0 and t < math.inf):
         return (t, s, False)
@@ -72,6 +72,6 @@ def nearer(t: float, s: int, best: float, found: int, tied: bool) -> tuple[float
     return (best, found, tied)
 
 
-@compiled
+@inlined
 def transmit(world: Any, s: int) -> float:
     return world.materials[world.objects[world.surfaces[s].object].material].transmit

@@ -9,20 +9,20 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tracer.accel.bvh import WAITING
-from tracer.accel.sah import MOST_WAITING
+from tracer.accel.bvh import STACK_ENTRY
+from tracer.accel.sah import MAX_STACK
 from tracer.compile.bundle import Bundle
-from tracer.compile.jit import compiled, kernel
+from tracer.compile.jit import inlined, kernel
 from tracer.compile.simd import WIDTH
-from tracer.formulas.camera import AHEAD, View, look_ahead, pixel_direction
-from tracer.formulas.double_double import plus
+from tracer.formulas.camera import BATCH, View, pixel_direction, pixel_directions
+from tracer.formulas.double_double import dd_add
 from tracer.formulas.sampler import Samples, sample_offset
 from tracer.formulas.vector import Vector, add, store, vector
-from tracer.kernel.best_first import OPEN, trace_heaviest_first
+from tracer.kernel.best_first import OPEN_RAY, trace_best_first
 from tracer.kernel.limits import Limits
 from tracer.kernel.node_rows import start_row
 from tracer.kernel.nodes import CAMERA, KINDS, NODE, SHADOW
-from tracer.kernel.shadows import CROSSING, MOST_CROSSINGS
+from tracer.kernel.shadows import CROSSING, MAX_CROSSINGS
 from tracer.kernel.trace import trace_tree
 
 
@@ -77,11 +77,11 @@ class Workspace:
         self.arrays = Space(
             np.zeros(rows, NODE),
             np.zeros((rows, 2, words), np.int64),
-            np.zeros(2 * rows, OPEN),
-            np.zeros(MOST_WAITING, WAITING),
+            np.zeros(2 * rows, OPEN_RAY),
+            np.zeros(MAX_STACK, STACK_ENTRY),
             np.zeros(WIDTH),
-            np.zeros(MOST_CROSSINGS, CROSSING),
-            np.zeros((3, AHEAD)),
+            np.zeros(MAX_CROSSINGS, CROSSING),
+            np.zeros((3, BATCH)),
             np.zeros(len(KINDS), np.int64),
             np.zeros(1, np.int64),
             np.zeros(2),
@@ -92,7 +92,7 @@ class Workspace:
     def grow(self) -> None:
         rows, words = 4 * len(self.arrays.table), self.arrays.solids.shape[2]
         self.arrays = self.arrays._replace(
-            table=np.zeros(rows, NODE), solids=np.zeros((rows, 2, words), np.int64), open=np.zeros(2 * rows, OPEN)
+            table=np.zeros(rows, NODE), solids=np.zeros((rows, 2, words), np.int64), open=np.zeros(2 * rows, OPEN_RAY)
         )
         self.bundle = Bundle(self.arrays, writable=True, ragged=("solids",))
 
@@ -144,8 +144,8 @@ def trace_area(
         column = -1
         for x in range(area.left, area.right, area.step):
             column += 1
-            if samples.first < 0 and column % AHEAD == 0:
-                look_ahead(view, x, y, area.step, area.right, ahead)
+            if samples.first < 0 and column % BATCH == 0:
+                pixel_directions(view, x, y, area.step, area.right, ahead)
             number += 1
             if number <= resume:
                 continue
@@ -160,7 +160,7 @@ def trace_area(
                 total, residual = vector(before), before[3]
             if is_enough(rays):
                 return number - 1
-            k = column % AHEAD
+            k = column % BATCH
             gaze = (ahead[0, k], ahead[1, k], ahead[2, k])
             total, residual = trace_pixel(
                 world, view, limits, samples, x, y, gaze, k0, k1, total, residual, eye_solids, space
@@ -184,7 +184,7 @@ def trace_area(
     return number
 
 
-@compiled
+@inlined
 def is_enough(rays: Any) -> bool:
     """Asked kind by kind: all at once would have to wait until what was just counted is in memory."""
     kind = 0
@@ -193,7 +193,7 @@ def is_enough(rays: Any) -> bool:
     return kind < len(rays)
 
 
-@compiled
+@inlined
 def trace_pixel(
     world: Bundle,
     view: View,
@@ -229,10 +229,8 @@ def trace_pixel(
         for word in range(solids.shape[2]):
             solids[0, 0, word] = eye_solids[word]
             solids[0, 1, word] = eye_solids[word]
-        if limits.tolerance >= 0.0:
-            count = trace_heaviest_first(world, limits, space)
-        else:
-            count = trace_tree(world, limits, space)
+        is_best_first = limits.tolerance >= 0.0
+        count = trace_best_first(world, limits, space) if is_best_first else trace_tree(world, limits, space)
         if count < 0:
             space.tree[0] = -1
             return (total, -1.0)
@@ -244,7 +242,7 @@ def trace_pixel(
     return (total, lost)
 
 
-@compiled
+@inlined
 def count_rays(space: Bundle, count: int) -> float:
     """Count the rays that have a row. The sum of the weights that were cut, rounded once."""
     cut = (0.0, 0.0)
@@ -252,7 +250,7 @@ def count_rays(space: Bundle, count: int) -> float:
         row = space.table[i]
         space.rays[row.kind] += 1
         if row.kind != SHADOW and row.cut > 0.0:
-            cut = plus(cut, (row.cut, 0.0))
+            cut = dd_add(cut, (row.cut, 0.0))
     return cut[0] + cut[1]
 
 

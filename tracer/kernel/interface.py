@@ -7,23 +7,23 @@ hidden: no row, no depth, no shading. A thin sheet bounds no medium and is alway
 
 from typing import Any
 
-from tracer.compile.jit import compiled, routine
-from tracer.formulas.media import contains, medium, put
+from tracer.compile.jit import compiled, inlined
+from tracer.formulas.media import contains, medium, set_inside
 from tracer.formulas.vector import dot, vector
 from tracer.kernel.closest_hit import closest, closest_within, transmit
 from tracer.rays import Ray
-from tracer.shapes import locate
-from tracer.shapes.planar import NEAR
+from tracer.shapes import interaction
+from tracer.shapes.planar import PLANE_ERROR
 
 
-@compiled
+@inlined
 def is_entering(world: Any, s: int, ray: Ray, t: float) -> bool:
-    _, n, _ = locate(world, world.surfaces[s], ray, t)
+    _, n, _ = interaction(world, world.surfaces[s], ray, t)
     return dot(n, ray.direction) < 0.0
 
 
-@compiled
-def meet_interface(world: Any, ray: Ray, solids: Any, space: Any) -> tuple[float, int]:
+@inlined
+def next_interface(world: Any, ray: Ray, solids: Any, space: Any) -> tuple[float, int]:
     """(t, surface) of the first interface the ray shows; surface -1 for none.
 
     `solids`: (2, words); the set the ray is in just before that interface, and just behind it. Hidden surfaces on the
@@ -34,7 +34,7 @@ def meet_interface(world: Any, ray: Ray, solids: Any, space: Any) -> tuple[float
     while s >= 0:
         if not tied and transmit(world, s) == 0.0:
             return (t, s)
-        shown, last_t, last = cross(world, ray, t, s, tied, before, behind, space)
+        shown, last_t, last = cross_surfaces(world, ray, t, s, tied, before, behind, space)
         if shown >= 0:
             return (t, shown)
         for k in range(len(before)):
@@ -43,8 +43,8 @@ def meet_interface(world: Any, ray: Ray, solids: Any, space: Any) -> tuple[float
     return (t, s)
 
 
-@routine
-def cross(
+@compiled
+def cross_surfaces(
     world: Any, ray: Ray, t: float, s: int, tied: bool, before: Any, behind: Any, space: Any
 ) -> tuple[int, float, int]:
     """(surface shown or -1, t and surface last passed): goes through all surfaces at t, solid by solid.
@@ -74,7 +74,7 @@ def cross(
             entering = is_entering(world, s, ray, here)
             enters, leaves = enters or entering, leaves or not entering
         # What lies behind matters only as far as rounding could have pulled it there.
-        limit = t + (doubt(world, last, ray) if solid >= 0 else 0.0)
+        limit = t + (distance_uncertainty(world, last, ray) if solid >= 0 else 0.0)
         if not tied and limit == t:
             break
         here, s, _ = closest_within(world, ray, last_t, last, limit, space)
@@ -92,16 +92,16 @@ def cross(
     return (shown, last_t, last)
 
 
-@compiled
-def doubt(world: Any, s: int, ray: Ray) -> float:
+@inlined
+def distance_uncertainty(world: Any, s: int, ray: Ray) -> float:
     """How far apart two faces of a mesh may come out along the ray where they really meet; 0 for other shapes."""
     surface = world.surfaces[s]
     if surface.count != 3:
         return 0.0
-    return 2.0 * NEAR * (surface.r + ray.reach) / abs(dot(vector(surface.normal), ray.direction))
+    return 2.0 * PLANE_ERROR * (surface.r + ray.reach) / abs(dot(vector(surface.normal), ray.direction))
 
 
-@compiled
+@inlined
 def change_medium(ray: Ray, solid: int, closed: bool, enters: bool, leaves: bool, before: Any, behind: Any) -> None:
     """Put a solid in or out of the set behind the surface.
 
@@ -110,5 +110,5 @@ def change_medium(ray: Ray, solid: int, closed: bool, enters: bool, leaves: bool
     if enters and leaves:
         return
     if leaves and not closed and not contains(before, solid):
-        put(before, solid, True)
-    put(behind, solid, enters)
+        set_inside(before, solid, True)
+    set_inside(behind, solid, enters)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tracer.accel.bvh import FLAT
+from tracer.accel.bvh import MAX_UNBOXED
 from tracer.compile.simd import WIDTH
 from tracer.shapes.cone import Cone
 from tracer.shapes.disc import Disc
@@ -137,7 +137,7 @@ def _filter_reason(scene: Scene, glass: list) -> str:
 def _hierarchy(surfaces: int, nodes: int, blocks: int) -> str:
     count = _count(surfaces, "surface")
     if not nodes:
-        return f"{count}: up to {FLAT} with an end are quicker tried one by one"
+        return f"{count}: up to {MAX_UNBOXED} with an end are quicker tried one by one"
     triangles = f" and {_count(blocks, 'block')} of triangles" if blocks else ""
     return f"{count} in {_count(nodes, 'node')} of {WIDTH} boxes{triangles}"
 

@@ -11,8 +11,8 @@ MODELS = ("whitted", "fresnel")
 
 
 MAX_NODES = 10**6  # rays of a tree, where no one asks for more or fewer
-ANY_DEPTH = 2**31 - 1  # what a row's depth can count to
-LEVEL_BY_LEVEL = -1.0  # instead of a tolerance
+MAX_DEPTH = 2**31 - 1  # what a row's depth can count to
+BREADTH_FIRST = -1.0  # instead of a tolerance
 
 
 class Limits(NamedTuple):
@@ -40,10 +40,10 @@ def make_limits(
     """The kernel's limits, with the scene's own values where none are given; ValueError for what can be none."""
     tracing = world.scene.tracing
     if depth is None:
-        depth = tracing.depth if tolerance is None else ANY_DEPTH
+        depth = tracing.depth if tolerance is None else MAX_DEPTH
     model = model or tracing.model
-    if not (isinstance(depth, Integral) and 0 <= depth <= ANY_DEPTH):
-        raise ValueError(f"depth must be a whole number, 0 .. {ANY_DEPTH}, got {depth!r}")
+    if not (isinstance(depth, Integral) and 0 <= depth <= MAX_DEPTH):
+        raise ValueError(f"depth must be a whole number, 0 .. {MAX_DEPTH}, got {depth!r}")
     if not (isinstance(min_weight, Real) and min_weight >= 0.0):
         raise ValueError(f"min_weight must be a number >= 0, got {min_weight!r}")
     if tolerance is not None and not (isinstance(tolerance, Real) and tolerance >= 0.0):
@@ -52,6 +52,6 @@ def make_limits(
         raise ValueError(f"max_nodes must be a whole number >= 1, got {max_nodes!r}")
     if model not in MODELS:
         raise ValueError(f"model must be one of {', '.join(MODELS)}, got {model!r}")
-    least = LEVEL_BY_LEVEL if tolerance is None else float(tolerance)
+    least = BREADTH_FIRST if tolerance is None else float(tolerance)
     blocks = tracing.shadows == "block"
     return Limits(int(depth), float(min_weight), int(max_nodes), least, MODELS.index(model), blocks, records)

@@ -3,16 +3,16 @@
 import math
 from typing import Any
 
-from tracer.compile.jit import compiled, routine
+from tracer.compile.jit import compiled, inlined
 from tracer.formulas.vector import Vector, add, dot, multiply, scale, store, vector
 from tracer.kernel.closest_hit import transmit
 from tracer.kernel.limits import Limits
 from tracer.kernel.nodes import BLOCKED, FILTERED, LIT, NONE, SHADOW
-from tracer.kernel.shadows import light_through, occluder
+from tracer.kernel.shadows import nearest_occluder, transmittance
 from tracer.rays import Ray, make_ray
 
 
-@compiled
+@inlined
 def start_row(
     limits: Limits, table: Any, i: int, parent: int, kind: int, depth: int, factor: Vector, weight: Vector
 ) -> Any:
@@ -46,7 +46,7 @@ def start_row(
     return row
 
 
-@routine
+@compiled
 def record_shadow(
     world: Any,
     limits: Limits,
@@ -63,13 +63,13 @@ def record_shadow(
     """Row i: a shadow ray to a light at distance `far`, with what stands in its way by name."""
     t, met, end = far, glass, FILTERED if glass >= 0 else LIT
     if visible == 0.0:
-        nearest, s = occluder(world, ray, far, limits.glass_blocks, space)
+        nearest, s = nearest_occluder(world, ray, far, limits.glass_blocks, space)
         if nearest < far:  # else it was so much glass that nothing is left
             t, met, end = nearest, s, BLOCKED
     write_shadow(world, limits, space.table, i, parent, light, ray, t, met, end, visible, share)
 
 
-@routine
+@compiled
 def record_unlit(
     world: Any, limits: Limits, space: Any, i: int, parent: int, light: int, to_light: Vector, far: float
 ) -> None:
@@ -82,16 +82,16 @@ def record_unlit(
     faces_it = dot(vector(row.face), to_light) > 0.0
     own = 1.0 if faces_it else transmit(world, s)
     side = row.hit_side if faces_it else -row.hit_side
-    ray = make_ray(vector(row.point), to_light, world.surfaces[s].twin, side, way_length(row))
+    ray = make_ray(vector(row.point), to_light, world.surfaces[s].coincident, side, rounding_scale(row))
     if own == 0.0 or (limits.glass_blocks and not faces_it):
         write_shadow(world, limits, space.table, i, parent, light, ray, 0.0, s, BLOCKED, 0.0, nothing)
         return
-    visible, glass = light_through(world, ray, far, limits.glass_blocks, space)
+    visible, glass = transmittance(world, ray, far, limits.glass_blocks, space)
     first = glass if faces_it else s
     record_shadow(world, limits, space, i, parent, light, ray, far, own * visible, first, nothing)
 
 
-@compiled
+@inlined
 def write_shadow(
     world: Any,
     limits: Limits,
@@ -124,8 +124,8 @@ def write_shadow(
         store(row.point, add(ray.origin, scale(t, ray.direction)))
 
 
-@compiled
-def way_length(row: Any) -> float:
+@inlined
+def rounding_scale(row: Any) -> float:
     """How large the numbers are that a hit was computed from: its rounding errors are small beside this.
 
     What the ray's own start was computed from counts too: a ray in a corner meets the next wall where it starts.

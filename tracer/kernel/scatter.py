@@ -7,15 +7,15 @@ the angle. On total internal reflection one ray gets both weights; where the ind
 import math
 from typing import Any, NamedTuple
 
-from tracer.compile.jit import compiled, routine
+from tracer.compile.jit import compiled, inlined
 from tracer.formulas.optics import cosine, fresnel_shares, mirrored, radicand, sine, transmission
-from tracer.formulas.vector import Vector, largest, multiply, store, vector
+from tracer.formulas.vector import Vector, max_component, multiply, store, vector
 from tracer.kernel.limits import WHITTED, Limits
-from tracer.kernel.node_rows import start_row, way_length
+from tracer.kernel.node_rows import rounding_scale, start_row
 from tracer.kernel.nodes import DEPTH, INVALID, NODES, NONE, REFLECTION, REFRACTION, SURFACE, TIR, WEIGHT
 
 
-class Split(NamedTuple):
+class Scattered(NamedTuple):
     """The rays that a hit sends out; a factor of 0 stands for none."""
 
     kind: int  # of the reflected ray: total internal reflection is one, too
@@ -24,41 +24,41 @@ class Split(NamedTuple):
     through: Vector  # the refracted ray's direction
 
 
-@compiled
-def split(world: Any, limits: Limits, row: Any) -> Split:
+@inlined
+def scatter(world: Any, limits: Limits, row: Any) -> Scattered:
     """What becomes of a ray at its hit."""
     material = world.materials[world.objects[row.object].material]
     kr, kt = material.reflect, material.transmit
     d = vector(row.direction)
     if kt == 0.0:
-        return Split(REFLECTION, kr, 0.0, d)
+        return Scattered(REFLECTION, kr, 0.0, d)
     thin = world.objects[row.object].solid < 0
     if row.n1 == row.n2 and not thin:
-        return Split(REFLECTION, 0.0, kt, d)
+        return Scattered(REFLECTION, 0.0, kt, d)
     if row.radicand <= 0.0 and not thin:
-        return Split(TIR, kr + kt, 0.0, d)
-    reflected, refracted, through = bend(limits, row, material, thin)
-    return Split(REFLECTION, reflected, refracted, through)
+        return Scattered(TIR, kr + kt, 0.0, d)
+    reflected, refracted, through = dielectric_shares(limits, row, material, thin)
+    return Scattered(REFLECTION, reflected, refracted, through)
 
 
-@compiled
-def spawn(world: Any, limits: Limits, space: Any, i: int, count: int, planned: int) -> tuple[int, int]:
+@inlined
+def append_children(world: Any, limits: Limits, space: Any, i: int, count: int, planned: int) -> tuple[int, int]:
     """(rows, rows planned) after the rays that row i sends out: each a row, or in row i's `end` why it is cut."""
     row = space.table[i]
     if row.surface < 0:
         return (count, planned)
-    rays = split(world, limits, row)
+    rays = scatter(world, limits, row)
     if rays.reflected == 0.0 and rays.refracted == 0.0:
         row.end = SURFACE
     if rays.reflected > 0.0:
-        count, planned = send(world, limits, space, i, rays, False, count, planned)
+        count, planned = append_child(world, limits, space, i, rays, False, count, planned)
     if rays.refracted > 0.0:
-        count, planned = send(world, limits, space, i, rays, True, count, planned)
+        count, planned = append_child(world, limits, space, i, rays, True, count, planned)
     return (count, planned)
 
 
-@compiled
-def bend(limits: Limits, row: Any, material: Any, thin: bool) -> tuple[float, float, Vector]:
+@inlined
+def dielectric_shares(limits: Limits, row: Any, material: Any, thin: bool) -> tuple[float, float, Vector]:
     """(weight of the reflected ray, of the refracted ray, its direction) where a transparent surface splits the ray.
 
     A thin sheet sends it straight on, and reflects as a single surface of its material does.
@@ -77,27 +77,27 @@ def bend(limits: Limits, row: Any, material: Any, thin: bool) -> tuple[float, fl
     return (kr + kt * r, kt * t, through)
 
 
-@routine
-def send(
-    world: Any, limits: Limits, space: Any, i: int, rays: Split, refracted: bool, count: int, planned: int
+@compiled
+def append_child(
+    world: Any, limits: Limits, space: Any, i: int, rays: Scattered, refracted: bool, count: int, planned: int
 ) -> tuple[int, int]:
     """(rows, rows planned): one of the rays that row i sends out, or in its `end` and `cut` that it is not followed."""
     parent = space.table[i]
-    heaviest = largest(vector(parent.weight)) * (rays.refracted if refracted else rays.reflected)
+    heaviest = max_component(vector(parent.weight)) * (rays.refracted if refracted else rays.reflected)
     room = 1 + len(world.lights)
-    reason = cut_at_once(limits, parent, rays, refracted, heaviest)
+    reason = cut_reason(limits, parent, rays, refracted, heaviest)
     if reason == NONE and planned + room > limits.max_nodes:
         reason = NODES
     if reason != NONE:
         parent.end = reason
         parent.cut += heaviest
         return (count, planned)
-    start_branch(world, limits, space, i, rays, refracted, count)
+    start_child(world, limits, space, i, rays, refracted, count)
     return (count + 1, planned + room)
 
 
-@compiled
-def cut_at_once(limits: Limits, parent: Any, rays: Split, refracted: bool, heaviest: float) -> int:
+@inlined
+def cut_reason(limits: Limits, parent: Any, rays: Scattered, refracted: bool, heaviest: float) -> int:
     """Why a ray is not followed, whatever else is: its end; -1 where it may be."""
     through = rays.through
     if refracted and not math.isfinite(through[0] + through[1] + through[2]):
@@ -109,8 +109,8 @@ def cut_at_once(limits: Limits, parent: Any, rays: Split, refracted: bool, heavi
     return NONE
 
 
-@compiled
-def start_branch(world: Any, limits: Limits, space: Any, i: int, rays: Split, refracted: bool, count: int) -> None:
+@inlined
+def start_child(world: Any, limits: Limits, space: Any, i: int, rays: Scattered, refracted: bool, count: int) -> None:
     """Row `count`: one of the rays that row i sends out, as it is before it is traced."""
     table, solids = space.table, space.solids
     parent = table[i]
@@ -121,9 +121,9 @@ def start_branch(world: Any, limits: Limits, space: Any, i: int, rays: Split, re
     row = start_row(limits, table, count, i, kind, parent.depth + 1, factor, multiply(vector(parent.weight), factor))
     store(row.origin, vector(parent.point))
     store(row.direction, rays.through if refracted else mirrored(d, n))
-    row.start = world.surfaces[parent.surface].twin
+    row.start = world.surfaces[parent.surface].coincident
     row.side = -parent.hit_side if refracted else parent.hit_side
-    row.reach = way_length(parent)
+    row.reach = rounding_scale(parent)
     own = 1 if refracted else 0
     for k_word in range(solids.shape[2]):
         solids[count, 0, k_word] = solids[i, own, k_word]

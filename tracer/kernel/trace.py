@@ -8,23 +8,23 @@ The sums then run back up. An image keeps the first row's radiance of every tabl
 import math
 from typing import Any
 
-from tracer.compile.intrinsics import stay_apart
-from tracer.compile.jit import compiled, routine
+from tracer.compile.intrinsics import noinline
+from tracer.compile.jit import compiled, inlined
 from tracer.formulas.media import index_of, medium
 from tracer.formulas.optics import cosine, mirrored, radicand, sine, transmission
 from tracer.formulas.shading import ambient, phong, surface_color
 from tracer.formulas.vector import Vector, add, dot, multiply, scale, store, vector
-from tracer.kernel.interface import meet_interface
+from tracer.kernel.interface import next_interface
 from tracer.kernel.limits import Limits
-from tracer.kernel.node_rows import record_shadow, record_unlit, way_length
+from tracer.kernel.node_rows import record_shadow, record_unlit, rounding_scale
 from tracer.kernel.nodes import BACKGROUND, SHADOW
-from tracer.kernel.scatter import spawn
-from tracer.kernel.shadows import light_through, towards_light
+from tracer.kernel.scatter import append_children
+from tracer.kernel.shadows import light_direction, transmittance
 from tracer.rays import make_ray
-from tracer.shapes import locate
+from tracer.shapes import interaction
 
 
-@compiled
+@inlined
 def trace_tree(world: Any, limits: Limits, space: Any) -> int:
     """Rows of the tree whose camera ray stands in row 0; -1 where the table is too short for it.
 
@@ -41,20 +41,20 @@ def trace_tree(world: Any, limits: Limits, space: Any) -> int:
             trace_ray(world, space, i)
         count = end
         for i in range(first, end):
-            count = gather_light(world, limits, space, i, count)
+            count = direct_light(world, limits, space, i, count)
         next_first = count
         for i in range(first, end):
-            count, planned = spawn(world, limits, space, i, count, planned)
-        if end == first + 1 and not limits.records and passes_on(table, first):
-            count = move_up(space, first, count)
+            count, planned = append_children(world, limits, space, i, count, planned)
+        if end == first + 1 and not limits.records and is_pass_through(table, first):
+            count = replace_by_child(space, first, count)
             next_first = first
         first, end = next_first, count
-    sum_up(table, end)
+    accumulate_radiance(table, end)
     return end
 
 
-@compiled
-def passes_on(table: Any, i: int) -> bool:
+@inlined
+def is_pass_through(table: Any, i: int) -> bool:
     """Whether a ray adds nothing to what its only child brings, and takes nothing from it."""
     row = table[i]
     if row.child < 0 or row.cut > 0.0 or table[row.child].sibling >= 0:
@@ -63,13 +63,13 @@ def passes_on(table: Any, i: int) -> bool:
     return dark and table[row.child].factor[0] == 1.0
 
 
-@routine
-def move_up(space: Any, i: int, count: int) -> int:
+@compiled
+def replace_by_child(space: Any, i: int, count: int) -> int:
     """Put row i's only child, the last row, in its place: a million mirrors in a row take no more room than one.
 
     The rows it takes with it are counted here. The number of rows that are left.
     """
-    stay_apart()
+    noinline()
     table, solids = space.table, space.solids
     for k in range(i, count - 1):
         space.rays[table[k].kind] += 1
@@ -83,21 +83,21 @@ def move_up(space: Any, i: int, count: int) -> int:
     return i + 1
 
 
-@routine
+@compiled
 def trace_ray(world: Any, space: Any, i: int) -> None:
     """Find what ray i meets and write it into its row."""
     row = space.table[i]
     solids = space.solids
     d = vector(row.direction)
     ray = make_ray(vector(row.origin), d, row.start, row.side, row.reach)
-    t, s = meet_interface(world, ray, solids[i], space)
+    t, s = next_interface(world, ray, solids[i], space)
     n1 = index_of(world, medium(solids[i, 0]))
     row.n1 = n1
     if s < 0:
         row.end = BACKGROUND
         store(row.local, vector(world.background))
         return
-    point, n, shading_n = locate(world, world.surfaces[s], ray, t)
+    point, n, shading_n = interaction(world, world.surfaces[s], ray, t)
     side = 1.0 if dot(n, d) < 0.0 else -1.0
     n, shading_n = scale(side, n), scale(side, shading_n)
     row.t = t
@@ -121,7 +121,7 @@ def trace_ray(world: Any, space: Any, i: int) -> None:
     store(row.normal, shading_n)
 
 
-@routine
+@compiled
 def is_usable(d: Vector, n: Vector, shading_n: Vector, n1: float, n2: float) -> bool:
     """Whether an interpolated normal sends the reflected ray to the front of the face and the refracted one behind."""
     if dot(d, shading_n) >= 0.0 or dot(mirrored(d, shading_n), n) <= 0.0:
@@ -132,8 +132,8 @@ def is_usable(d: Vector, n: Vector, shading_n: Vector, n1: float, n2: float) -> 
     return dot(transmission(d, shading_n, n1, n2, cosine(d, shading_n), math.sqrt(root)), n) < 0.0
 
 
-@routine
-def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> int:
+@compiled
+def direct_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> int:
     """Row i's local term, light by light; the number of rows after its shadow rays, which only a reader has use for.
 
     What cannot add to the local term is followed only for the reader, too.
@@ -153,10 +153,10 @@ def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> 
         face_n = vector(row.face)
         for j in range(len(world.lights)):
             light = world.lights[j]
-            to_light, far = towards_light(light, point)
+            to_light, far = light_direction(light, point)
             if shines and dot(n, to_light) > 0.0 and dot(face_n, to_light) > 0.0:
-                ray = make_ray(point, to_light, world.surfaces[s].twin, row.hit_side, way_length(row))
-                visible, glass = light_through(world, ray, far, limits.glass_blocks, space)
+                ray = make_ray(point, to_light, world.surfaces[s].coincident, row.hit_side, rounding_scale(row))
+                visible, glass = transmittance(world, ray, far, limits.glass_blocks, space)
                 share = (0.0, 0.0, 0.0)
                 if visible > 0.0:
                     share = scale(visible, phong(material, color, vector(light.color), n, to_light, d))
@@ -173,8 +173,8 @@ def gather_light(world: Any, limits: Limits, space: Any, i: int, count: int) -> 
     return count
 
 
-@compiled
-def sum_up(table: Any, count: int) -> None:
+@inlined
+def accumulate_radiance(table: Any, count: int) -> None:
     """Colour flows back: radiance = local + sum of factor * radiance over the children, in row order."""
     for i in range(count - 1, -1, -1):
         row = table[i]

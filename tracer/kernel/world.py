@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from tracer.accel.bvh import FLAT, build
+from tracer.accel.bvh import MAX_UNBOXED, build
 from tracer.compile.bundle import Bundle
 from tracer.formulas.camera import View, scene_view
-from tracer.formulas.vector import Vector, as_floats, cross, tame, unit
+from tracer.formulas.vector import Vector, as_floats, cross, rescale, unit
 from tracer.kernel.arrays import LIGHT, MATERIAL, OBJECT, SURFACE, Arrays
 from tracer.kernel.left_out import Need, hidden_solids, is_open, needs, open_notes
 from tracer.scene import Material, Object, Scene, SceneError, Shape
@@ -20,7 +20,7 @@ from tracer.shapes import CODES
 from tracer.shapes.cone import Cone
 from tracer.shapes.disc import Disc
 from tracer.shapes.mesh import Mesh
-from tracer.shapes.planar import NEAR
+from tracer.shapes.planar import PLANE_ERROR
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
@@ -88,7 +88,7 @@ def prepare(scene: Scene, hierarchy: bool | None = None) -> World:
     ranks = {k: rank for rank, k in enumerate(solids)}
     surfaces, corners, smooth, bounds = _surfaces(scene)
     finite = np.asarray(np.isfinite(bounds).all(axis=(1, 2)))
-    boxed = finite & (np.count_nonzero(finite) > FLAT if hierarchy is None else hierarchy)
+    boxed = finite & (np.count_nonzero(finite) > MAX_UNBOXED if hierarchy is None else hierarchy)
     nodes, blocks, unit = build(_padded(bounds), _triangles(surfaces), boxed)
     arrays = Arrays(
         surfaces=surfaces,
@@ -106,7 +106,7 @@ def prepare(scene: Scene, hierarchy: bool | None = None) -> World:
         unboxed=np.flatnonzero(~boxed).astype(np.int32),
         nodes=nodes,
         blocks=blocks,
-        per_unit=np.array([1.0 / unit]),
+        inverse_unit=np.array([1.0 / unit]),
     )
     found = needs(scene, len(surfaces), len(nodes), len(blocks))
     return World(scene, Bundle(arrays), bounds[finite], _extent(scene, bounds[finite]), found, tuple(solids))
@@ -136,9 +136,9 @@ def _surfaces(scene: Scene) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndar
         boxes = shape.bounds()
         rows = np.zeros(1 if boxes is None else len(boxes), SURFACE)
         rows["object"], rows["first"], rows["smooth"] = k, -1, -1
-        rows["twin"] = count + np.arange(len(rows))
+        rows["coincident"] = count + np.arange(len(rows))
         if isinstance(shape, Sphere | Cone):  # flat faces find each other by their planes
-            rows["twin"] = first_such.setdefault(shape, count)
+            rows["coincident"] = first_such.setdefault(shape, count)
         count += len(rows)
         rows["form"] = CODES["triangle" if isinstance(shape, Mesh) else _name(shape)]
         shape.pack(rows)
@@ -164,7 +164,7 @@ def _triangles(surfaces: np.ndarray) -> np.ndarray:
 
 def _padded(boxes: np.ndarray) -> np.ndarray:
     """Boxes with room for a ray that starts on the surface inside, but for rounding beside it."""
-    pad = 4.0 * NEAR * np.abs(boxes).sum(axis=2).max(axis=1, initial=0.0)
+    pad = 4.0 * PLANE_ERROR * np.abs(boxes).sum(axis=2).max(axis=1, initial=0.0)
     return np.stack([boxes[:, 0] - pad[:, None], boxes[:, 1] + pad[:, None]], axis=1)
 
 
@@ -182,7 +182,7 @@ def _object(item: Object, material: int, rank: int) -> tuple[Any, ...]:
 def _flat_normal(shape: Any) -> Vector | None:
     """The normal of a shape whose checker is flat."""
     if isinstance(shape, Plane | Disc):
-        return unit(tame(shape.normal))
+        return unit(rescale(shape.normal))
     if isinstance(shape, Polygon):
         row = np.zeros(1, SURFACE)
         shape.pack(row)
@@ -227,7 +227,7 @@ def _lights(scene: Scene) -> np.ndarray:
         row["color"] = light.color
         row["distant"] = light.direction is not None
         if light.direction is not None:
-            x, y, z = unit(tame(light.direction))
+            x, y, z = unit(rescale(light.direction))
             row["towards"] = (-x, -y, -z)
         elif light.position is not None:
             row["position"] = light.position

@@ -14,7 +14,7 @@ from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
-from tracer.compile.jit import compiled
+from tracer.compile.jit import inlined
 from tracer.formulas.vector import Vector
 from tracer.rays import Ray
 from tracer.shapes import box, cone, disc, plane, polygon, sphere, triangle
@@ -35,7 +35,7 @@ def _fold(part: str, otherwise: Callable[..., Any], link: Callable[..., Any]) ->
 
 
 def _link_intersect(code: int, own: Any, rest: Any) -> Any:
-    @compiled
+    @inlined
     def choose(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
         if surface.form == code:
             return own(world, surface, ray, floor, ceiling, exactly)
@@ -44,8 +44,8 @@ def _link_intersect(code: int, own: Any, rest: Any) -> Any:
     return choose
 
 
-def _link_again(code: int, own: Any, rest: Any) -> Any:
-    @compiled
+def _link_next_hit(code: int, own: Any, rest: Any) -> Any:
+    @inlined
     def choose(world: Any, surface: Any, ray: Ray) -> float:
         if surface.form == code:
             return own(world, surface, ray)
@@ -54,8 +54,8 @@ def _link_again(code: int, own: Any, rest: Any) -> Any:
     return choose
 
 
-def _link_locate(code: int, own: Any, rest: Any) -> Any:
-    @compiled
+def _link_interaction(code: int, own: Any, rest: Any) -> Any:
+    @inlined
     def choose(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
         if surface.form == code:
             return own(world, surface, ray, t)
@@ -64,8 +64,8 @@ def _link_locate(code: int, own: Any, rest: Any) -> Any:
     return choose
 
 
-def _link_turning(code: int, own: Any, rest: Any) -> Any:
-    @compiled
+def _link_normal_derivative(code: int, own: Any, rest: Any) -> Any:
+    @inlined
     def choose(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
         if surface.form == code:
             return own(world, surface, p, v)
@@ -74,28 +74,28 @@ def _link_turning(code: int, own: Any, rest: Any) -> Any:
     return choose
 
 
-@compiled
+@inlined
 def _no_intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     return math.inf
 
 
-@compiled
-def _no_again(world: Any, surface: Any, ray: Ray) -> float:
+@inlined
+def _no_next_hit(world: Any, surface: Any, ray: Ray) -> float:
     return math.inf
 
 
-@compiled
-def _no_locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+@inlined
+def _no_interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
     nowhere = (math.nan, math.nan, math.nan)
     return (nowhere, nowhere, nowhere)
 
 
-@compiled
-def _no_turning(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
+@inlined
+def _no_normal_derivative(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
     return (0.0, 0.0, 0.0)
 
 
 intersect = _fold("intersect", _no_intersect, _link_intersect)
-again = _fold("again", _no_again, _link_again)
-locate = _fold("locate", _no_locate, _link_locate)
-turning = _fold("turning", _no_turning, _link_turning)
+next_hit = _fold("next_hit", _no_next_hit, _link_next_hit)
+interaction = _fold("interaction", _no_interaction, _link_interaction)
+normal_derivative = _fold("normal_derivative", _no_normal_derivative, _link_normal_derivative)

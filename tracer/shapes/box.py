@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.compile.jit import compiled
+from tracer.compile.jit import inlined
 from tracer.formulas.vector import Vector, add, scale
 from tracer.rays import Ray
 from tracer.shapes import planar
@@ -40,8 +40,8 @@ class Box:
         return [f"max must be above min along each axis, got min {list(self.min)} and max {list(self.max)}"]
 
 
-@compiled
-def crossing(surface: Any, ray: Ray) -> tuple[float, float]:
+@inlined
+def slab_interval(surface: Any, ray: Ray) -> tuple[float, float]:
     """The distances at which the ray enters and leaves; entering is after leaving where it misses.
 
     Both are worked out as a plane's are, by one division: a box that stands on a plane meets the ray where that does.
@@ -59,9 +59,9 @@ def crossing(surface: Any, ray: Ray) -> tuple[float, float]:
     return (enter, leave)
 
 
-@compiled
+@inlined
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
-    enter, leave = crossing(surface, ray)
+    enter, leave = slab_interval(surface, ray)
     if enter > leave:
         return math.inf
     if enter > 0.0 and enter >= floor:
@@ -71,17 +71,17 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
     return math.inf
 
 
-@compiled
-def again(world: Any, surface: Any, ray: Ray) -> float:
+@inlined
+def next_hit(world: Any, surface: Any, ray: Ray) -> float:
     """From its own surface a ray meets the box once more if it goes inwards: where it leaves."""
-    _, leave = crossing(surface, ray)
+    _, leave = slab_interval(surface, ray)
     return leave if ray.side < 0.0 and leave > 0.0 else math.inf
 
 
-@compiled
-def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+@inlined
+def interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
     """The hit, put exactly on the face whose plane is crossed at t."""
-    enter, _ = crossing(surface, ray)
+    enter, _ = slab_interval(surface, ray)
     entering = enter == t
     p = add(ray.origin, scale(t, ray.direction))
     for k in range(3):
@@ -98,4 +98,4 @@ def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector
     return (p, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
-turning = planar.flat
+normal_derivative = planar.constant_normal

@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.compile.intrinsics import stay_apart
-from tracer.compile.jit import compiled, routine
-from tracer.formulas.vector import Vector, add, cross, dot, length, negate, scale, subtract, tame, unit, vector
+from tracer.compile.intrinsics import noinline
+from tracer.compile.jit import compiled, inlined
+from tracer.formulas.vector import Vector, add, cross, dot, length, negate, rescale, scale, subtract, unit, vector
 from tracer.rays import Ray
 from tracer.shapes.disc import Disc
 
@@ -48,7 +48,7 @@ class Cone:
         growth = abs(self.base_radius - self.apex_radius)
         side = math.hypot(height, growth)
         rows["a"] = self.ends()[0]
-        rows["b"] = unit(tame(self.axis()))
+        rows["b"] = unit(rescale(self.axis()))
         rows["r"] = min(self.base_radius, self.apex_radius)
         rows["c"] = (height / side, growth / side, height)
 
@@ -71,76 +71,76 @@ class Cone:
         return found
 
 
-@compiled
-def split(axis: Vector, v: Vector) -> tuple[float, Vector]:
+@inlined
+def split_along(axis: Vector, v: Vector) -> tuple[float, Vector]:
     """How far v goes along a unit axis, and its part across."""
     along = dot(axis, v)
     return (along, subtract(v, scale(along, axis)))
 
 
-@compiled
-def seen_by(surface: Any, ray: Ray) -> tuple[float, float, Vector, Vector, float, float]:
+@inlined
+def quadratic_terms(surface: Any, ray: Ray) -> tuple[float, float, Vector, Vector, float, float]:
     """(height of the ray's start, its climb, f, d, rho, rise)."""
     axis = vector(surface.b)
     cosine, sine = surface.c[0], surface.c[1]
-    height, f = split(axis, subtract(ray.origin, vector(surface.a)))
-    climb, d = split(axis, ray.direction)
+    height, f = split_along(axis, subtract(ray.origin, vector(surface.a)))
+    climb, d = split_along(axis, ray.direction)
     rho = cosine * surface.r + sine * height
     return (height, climb, scale(cosine, f), scale(cosine, d), rho, sine * climb)
 
 
-@compiled
-def squares(a: float, b: float) -> float:
+@inlined
+def difference_of_squares(a: float, b: float) -> float:
     """a^2 - b^2."""
     return (a - b) * (a + b)
 
 
-@compiled
-def is_between(surface: Any, height: float) -> bool:
+@inlined
+def is_within_height(surface: Any, height: float) -> bool:
     """Whether this height is the cone's; then it is on the right one of the double cone's halves too."""
     return 0.0 <= height <= surface.c[2]
 
 
-@routine
+@compiled
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
-    stay_apart()
-    height, climb, f, d, rho, rise = seen_by(surface, ray)
+    noinline()
+    height, climb, f, d, rho, rise = quadratic_terms(surface, ray)
     bend = length(subtract(scale(rho, d), scale(rise, f)))
     beside = dot(vector(surface.b), cross(f, d))  # f and d have no part along the axis, their product has no other
-    discriminant = squares(bend, beside)
+    discriminant = difference_of_squares(bend, beside)
     if discriminant < 0.0:
         return math.inf
     b = dot(f, d) - rise * rho
     q = -(b + math.copysign(math.sqrt(discriminant), b))
     if q == 0.0:  # it runs along the side, or starts where it touches it
         return math.inf
-    a = squares(length(d), rise)
-    one = squares(length(f), rho) / q
+    a = difference_of_squares(length(d), rise)
+    one = difference_of_squares(length(f), rho) / q
     other = q / a if a != 0.0 else math.inf  # none: it is parallel to the side somewhere
     near, far = min(one, other), max(one, other)
-    if near > 0.0 and near >= floor and is_between(surface, height + near * climb):
+    if near > 0.0 and near >= floor and is_within_height(surface, height + near * climb):
         return near
-    if 0.0 < far < math.inf and far >= floor and is_between(surface, height + far * climb):
+    if 0.0 < far < math.inf and far >= floor and is_within_height(surface, height + far * climb):
         return far
     return math.inf
 
 
-@compiled
-def again(world: Any, surface: Any, ray: Ray) -> float:
+@inlined
+def next_hit(world: Any, surface: Any, ray: Ray) -> float:
     """Where a ray that leaves inwards meets the side once more: C is 0, and t = -2 B / A.
 
     Inwards B < 0. Where A <= 0 the ray is steeper than the side and meets the double cone only behind it.
     """
-    height, climb, f, d, rho, rise = seen_by(surface, ray)
-    a, b = squares(length(d), rise), dot(f, d) - rise * rho
+    height, climb, f, d, rho, rise = quadratic_terms(surface, ray)
+    a, b = difference_of_squares(length(d), rise), dot(f, d) - rise * rho
     if ray.side > 0.0 or a <= 0.0 or b >= 0.0:
         return math.inf
     t = -2.0 * b / a
-    return t if t < math.inf and is_between(surface, height + t * climb) else math.inf
+    return t if t < math.inf and is_within_height(surface, height + t * climb) else math.inf
 
 
-@compiled
-def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+@inlined
+def interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
     """The hit moved along the normal onto the side. At the very tip the normal is the axis, outwards.
 
     The height's rounding leaves a part along the axis in f: taken out again. Where that was most of f, f was nothing
@@ -149,8 +149,8 @@ def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector
     axis = vector(surface.b)
     cosine, sine = surface.c[0], surface.c[1]
     p = add(ray.origin, scale(t, ray.direction))
-    height, f = split(axis, subtract(p, vector(surface.a)))
-    _, across = split(axis, f)
+    height, f = split_along(axis, subtract(p, vector(surface.a)))
+    _, across = split_along(axis, f)
     size = length(across)
     if size <= 0.5 * length(f):
         return (p, negate(axis), negate(axis))
@@ -159,11 +159,11 @@ def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector
     return (subtract(p, scale(off, n)), n, n)
 
 
-@compiled
-def turning(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
+@inlined
+def normal_derivative(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
     """About the axis only: along the side the normal stays."""
     axis = vector(surface.b)
-    _, across = split(axis, subtract(p, vector(surface.a)))
+    _, across = split_along(axis, subtract(p, vector(surface.a)))
     size = length(across)
     if size == 0.0:
         return (math.inf, math.inf, math.inf)  # at the tip it may be anything

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.compile.intrinsics import stay_apart
-from tracer.compile.jit import routine
-from tracer.formulas.double_double import pair_vector
-from tracer.formulas.vector import Vector, add, length, scale, subtract, tame, unit, vector
+from tracer.compile.intrinsics import noinline
+from tracer.compile.jit import compiled
+from tracer.formulas.double_double import dd_vector
+from tracer.formulas.vector import Vector, add, length, rescale, scale, subtract, unit, vector
 from tracer.rays import Ray
 from tracer.shapes import planar
 from tracer.shapes.planar import may_cross, outline_slack, pack_normal, plane_distance
@@ -27,12 +27,12 @@ class Disc:
     def pack(self, rows: Any) -> None:
         rows["a"] = self.center
         rows["b"] = (self.radius, 0.0, 0.0)
-        pack_normal(rows, pair_vector(tame(self.normal)))
+        pack_normal(rows, dd_vector(rescale(self.normal)))
         rows["r"] = np.abs(self.center).sum()
 
     def bounds(self) -> np.ndarray:
         """Along an axis it reaches as far as its normal leaves that axis: radius times sqrt(1 - n_k^2)."""
-        x, y, z = unit(tame(self.normal))
+        x, y, z = unit(rescale(self.normal))
         reach = self.radius * np.array([math.hypot(y, z), math.hypot(z, x), math.hypot(x, y)])
         return np.stack([self.center - reach, self.center + reach])[None]
 
@@ -40,9 +40,9 @@ class Disc:
         return False
 
 
-@routine
+@compiled
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
-    stay_apart()
+    noinline()
     if not may_cross(surface, ray, ceiling):
         return math.inf
     t = plane_distance(world, surface, ray, floor, ceiling, True)
@@ -52,6 +52,6 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
     return t if length(from_center) <= surface.b[0] + outline_slack(surface, ray) else math.inf
 
 
-again = planar.never
-locate = planar.locate
-turning = planar.flat
+next_hit = planar.no_next_hit
+interaction = planar.interaction
+normal_derivative = planar.constant_normal

@@ -42,7 +42,7 @@ class Mesh:
 
     def vertices(self) -> np.ndarray:
         """(n, 3), where the author put them."""
-        return self.scale * self.geometry.vertices @ turn(self.rotate).T + self.translate
+        return self.scale * self.geometry.vertices @ rotation_matrix(self.rotate).T + self.translate
 
     def pack(self, rows: Any) -> None:
         pack_triangles(rows, self.placed())
@@ -51,7 +51,7 @@ class Mesh:
         """The unit normals at every face's corners, (m, 3, 3), or None where the file has none."""
         if self.geometry.normals is None:
             return None
-        return (self.geometry.normals @ turn(self.rotate).T)[self.geometry.faces]
+        return (self.geometry.normals @ rotation_matrix(self.rotate).T)[self.geometry.faces]
 
     def bounds(self) -> np.ndarray:
         corners = self.placed()
@@ -86,7 +86,7 @@ class Mesh:
         return bool(abs(2.0 * np.arctan2(volume, spread).sum()) > 2.0 * math.pi)
 
 
-def turn(degrees: Vector) -> np.ndarray:
+def rotation_matrix(degrees: Vector) -> np.ndarray:
     """The matrix that turns about x, then y, then z. Quarter turns are exact."""
     turn = np.eye(3)
     for axis, angle in enumerate(degrees):

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.compile.jit import compiled
-from tracer.formulas.double_double import pair_vector
-from tracer.formulas.vector import Vector, tame
+from tracer.compile.jit import inlined
+from tracer.formulas.double_double import dd_vector
+from tracer.formulas.vector import Vector, rescale
 from tracer.rays import Ray
 from tracer.shapes import planar
 from tracer.shapes.planar import may_cross, pack_normal, plane_distance
@@ -24,7 +24,7 @@ class Plane:
 
     def pack(self, rows: Any) -> None:
         rows["a"] = self.point
-        pack_normal(rows, pair_vector(tame(self.normal)))
+        pack_normal(rows, dd_vector(rescale(self.normal)))
         rows["r"] = np.abs(self.point).sum()
 
     def bounds(self) -> None:
@@ -35,13 +35,13 @@ class Plane:
         return bool(np.dot(np.subtract(p, self.point), self.normal) < 0.0)
 
 
-@compiled
+@inlined
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     return (
         plane_distance(world, surface, ray, floor, ceiling, exactly) if may_cross(surface, ray, ceiling) else math.inf
     )
 
 
-again = planar.never
-locate = planar.locate
-turning = planar.flat
+next_hit = planar.no_next_hit
+interaction = planar.interaction
+normal_derivative = planar.constant_normal

@@ -11,11 +11,19 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.compile.jit import compiled
+from tracer.compile.jit import inlined
 from tracer.formulas.vector import Vector
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.planar import is_beside, may_cross, newell, outline_slack, pack_normal, plane_distance, unit_normal
+from tracer.shapes.planar import (
+    is_near_edge,
+    may_cross,
+    newell_normal,
+    outline_slack,
+    pack_normal,
+    plane_distance,
+    unit_normal,
+)
 
 NAME = "polygon"
 
@@ -28,7 +36,7 @@ class Polygon:
 
     def pack(self, rows: Any) -> None:
         rows["a"] = self.vertices[0]
-        pack_normal(rows, newell(self.corners()))
+        pack_normal(rows, newell_normal(self.corners()))
         rows["r"] = np.abs(self.vertices[0]).sum()
         rows["count"] = len(self.vertices)
 
@@ -58,7 +66,7 @@ class Polygon:
         return []
 
 
-@compiled
+@inlined
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     if not may_cross(surface, ray, ceiling):
         return math.inf
@@ -75,12 +83,12 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
                 return plane_distance(world, surface, ray, floor, ceiling, exactly)
             if (turn > 0.0) == (y1 > y0):
                 inside = not inside
-        if slack > 0.0 and is_beside(x0, y0, x1, y1, slack):
+        if slack > 0.0 and is_near_edge(x0, y0, x1, y1, slack):
             return plane_distance(world, surface, ray, floor, ceiling, exactly)
         x0, y0 = x1, y1
     return plane_distance(world, surface, ray, floor, ceiling, exactly) if inside else math.inf
 
 
-again = planar.never
-locate = planar.locate
-turning = planar.flat
+next_hit = planar.no_next_hit
+interaction = planar.interaction
+normal_derivative = planar.constant_normal

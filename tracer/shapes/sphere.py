@@ -13,29 +13,29 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.compile.intrinsics import stay_apart
-from tracer.compile.jit import compiled, routine
+from tracer.compile.intrinsics import noinline
+from tracer.compile.jit import compiled, inlined
 from tracer.formulas.double_double import (
+    DD,
     SMALLEST,
-    Pair,
-    PairVector,
+    DDVector,
     U,
+    dd_add,
+    dd_cross,
+    dd_divide,
+    dd_dot,
+    dd_multiply,
+    dd_sqrt,
+    dd_subtract,
+    dd_vector,
     exact_difference,
-    minus,
-    normal_pair,
-    over,
-    pair_cross,
-    pair_dot,
-    pair_vector,
-    plus,
-    root,
-    times,
+    quick_two_sum,
     two_product,
     two_sum,
 )
 from tracer.formulas.vector import Vector, add, dot, scale, subtract, unit, vector
 from tracer.rays import Ray
-from tracer.shapes.planar import BALL
+from tracer.shapes.planar import SPHERE_COUNT
 
 NAME = "sphere"
 
@@ -59,7 +59,7 @@ class Sphere:
     def pack(self, rows: Any) -> None:
         rows["a"] = self.center
         rows["r"] = self.radius
-        rows["count"] = BALL
+        rows["count"] = SPHERE_COUNT
 
     def bounds(self) -> np.ndarray:
         """(1, 2, 3): lowest and highest corner."""
@@ -70,7 +70,7 @@ class Sphere:
         return math.dist(p, self.center) < self.radius
 
 
-@compiled
+@inlined
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     f = subtract(ray.origin, vector(surface.a))
     b = -dot(f, ray.direction)
@@ -92,14 +92,14 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
         return math.inf
     if not exactly and first - doubt > floor and first + doubt < ceiling:
         return first
-    t = polished(surface, ray, first)
+    t = refined_root(surface, ray, first)
     if t < floor and power > 0.0:
-        t = polished(surface, ray, b + half_chord)
+        t = refined_root(surface, ray, b + half_chord)
     return t if floor <= t <= ceiling else math.inf
 
 
-@compiled
-def polished(surface: Any, ray: Ray, t: float) -> float:
+@inlined
+def refined_root(surface: Any, ray: Ray, t: float) -> float:
     """The root near t, to the last digit, by a Newton step: g(t) = |f + t d|^2 - r^2, g'(t) = 2 (f + t d).d."""
     p, g = residual(surface, ray, t)
     slope = dot((p[0][0], p[1][0], p[2][0]), ray.direction)
@@ -111,12 +111,12 @@ def polished(surface: Any, ray: Ray, t: float) -> float:
     return near if slope < 0.0 else far
 
 
-@compiled
-def residual(surface: Any, ray: Ray, t: float) -> tuple[PairVector, float]:
+@inlined
+def residual(surface: Any, ray: Ray, t: float) -> tuple[DDVector, float]:
     """From the centre to the point at t, and that vector's |p|^2 - r^2."""
-    x = beyond(ray.origin[0], surface.a[0], t, ray.direction[0])
-    y = beyond(ray.origin[1], surface.a[1], t, ray.direction[1])
-    z = beyond(ray.origin[2], surface.a[2], t, ray.direction[2])
+    x = dd_coordinate(ray.origin[0], surface.a[0], t, ray.direction[0])
+    y = dd_coordinate(ray.origin[1], surface.a[1], t, ray.direction[1])
+    z = dd_coordinate(ray.origin[2], surface.a[2], t, ray.direction[2])
     xx, yy, zz = two_product(x[0], x[0]), two_product(y[0], y[0]), two_product(z[0], z[0])
     rr = two_product(surface.r, surface.r)
     two = two_sum(xx[0], yy[0])
@@ -126,71 +126,71 @@ def residual(surface: Any, ray: Ray, t: float) -> tuple[PairVector, float]:
     return ((x, y, z), four[0] + (low + 2.0 * (x[0] * x[1] + y[0] * y[1] + z[0] * z[1])))
 
 
-@compiled
-def beyond(o: float, c: float, t: float, d: float) -> Pair:
+@inlined
+def dd_coordinate(o: float, c: float, t: float, d: float) -> DD:
     """o - c + t d."""
     start, way = two_sum(o, -c), two_product(t, d)
     total = two_sum(start[0], way[0])
-    return normal_pair(total[0], total[1] + (start[1] + way[1]))
+    return quick_two_sum(total[0], total[1] + (start[1] + way[1]))
 
 
-@routine
+@compiled
 def first_root(surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
     """`intersect` where the quick form cannot tell."""
-    stay_apart()
+    noinline()
     near, far = roots(surface, ray)
     t = near if near > 0.0 and near >= floor else far
     return t if t > 0.0 and floor <= t <= ceiling else math.inf
 
 
-@routine
+@compiled
 def roots(surface: Any, ray: Ray) -> tuple[float, float]:
     """Both roots of A t^2 + 2 B t + C = 0, solved in pairs; infinite where there are none.
 
     The discriminant B^2 - A C is A r^2 - |f x d|^2 (Lagrange's identity); q/A and C/q never cancel.
     """
-    stay_apart()
-    f, d = exact_difference(ray.origin, vector(surface.a)), pair_vector(ray.direction)
-    a, b = pair_dot(d, d), pair_dot(f, d)
+    noinline()
+    f, d = exact_difference(ray.origin, vector(surface.a)), dd_vector(ray.direction)
+    a, b = dd_dot(d, d), dd_dot(f, d)
     r2 = two_product(surface.r, surface.r)
-    across = pair_cross(f, d)
-    discriminant = minus(times(a, r2), pair_dot(across, across))
+    across = dd_cross(f, d)
+    discriminant = dd_subtract(dd_multiply(a, r2), dd_dot(across, across))
     if not discriminant[0] >= 0.0:
         return (math.inf, math.inf)
-    half_chord = root(discriminant)
+    half_chord = dd_sqrt(discriminant)
     if b[0] < 0.0:
-        q = minus(half_chord, b)
-        return (over(minus(pair_dot(f, f), r2), q), over(q, a))
-    q = plus(half_chord, b)
+        q = dd_subtract(half_chord, b)
+        return (dd_divide(dd_subtract(dd_dot(f, f), r2), q), dd_divide(q, a))
+    q = dd_add(half_chord, b)
     if q[0] == 0.0:
         return (0.0, 0.0)
-    near = -over(q, a)
-    return (near, -over(minus(pair_dot(f, f), r2), q))
+    near = -dd_divide(q, a)
+    return (near, -dd_divide(dd_subtract(dd_dot(f, f), r2), q))
 
 
-@compiled
-def again(world: Any, surface: Any, ray: Ray) -> float:
+@inlined
+def next_hit(world: Any, surface: Any, ray: Ray) -> float:
     """The other end of the chord, for a ray that starts on this sphere: t = -2 f.d, no quadratic left to solve."""
     chord = -2.0 * dot(subtract(ray.origin, vector(surface.a)), ray.direction)
     return max(chord, SMALLEST) if ray.side < 0.0 else math.inf
 
 
-@compiled
-def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+@inlined
+def interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
     """The hit, put onto the sphere, and its normal."""
     reach = ray.reach + t
     if surface.r > LARGE * reach or reach > SMALL * surface.r:
-        return locate_with_care(surface, ray, t)
+        return careful_interaction(surface, ray, t)
     center = vector(surface.a)
     f = subtract(add(ray.origin, scale(t, ray.direction)), center)
     n = unit(f)
     return (add(center, scale(surface.r, n)), n, n)
 
 
-@routine
-def locate_with_care(surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+@compiled
+def careful_interaction(surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
     """`locate` on a sphere whose centre or whose size is out of all proportion to the way there."""
-    stay_apart()
+    noinline()
     d, r = ray.direction, surface.r
     f, g = residual(surface, ray, t)
     to_hit = (f[0][0], f[1][0], f[2][0])
@@ -208,7 +208,7 @@ def locate_with_care(surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, 
     return (add(center, scale(r, n)), n, n)
 
 
-@compiled
-def turning(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
+@inlined
+def normal_derivative(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
     n = unit(subtract(p, vector(surface.a)))
     return scale(1.0 / surface.r, subtract(v, scale(dot(n, v), n)))

@@ -12,13 +12,21 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
-from tracer.compile.jit import compiled
-from tracer.compile.simd import alike, below, lanes, larger, smaller
-from tracer.formulas.double_double import exact_difference, pair_cross
+from tracer.compile.jit import inlined
+from tracer.compile.simd import broadcast, lanes_max, lanes_min, load_lanes, mask_less
+from tracer.formulas.double_double import dd_cross, exact_difference
 from tracer.formulas.vector import Vector, add, cross, dot, length, scale, subtract, unit, vector
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.planar import NEAR, is_beside, may_cross, outline_slack, pack_normal, plane_distance, unit_normal
+from tracer.shapes.planar import (
+    PLANE_ERROR,
+    is_near_edge,
+    may_cross,
+    outline_slack,
+    pack_normal,
+    plane_distance,
+    unit_normal,
+)
 
 NAME = "triangle"
 
@@ -46,12 +54,12 @@ def pack_triangles(rows: Any, corners: np.ndarray) -> None:
     """Fill one row a triangle from corners (n, 3, 3); none may be without area."""
     rows["a"], rows["b"], rows["c"] = corners[:, 0], corners[:, 1], corners[:, 2]
     a, b, c = (tuple(corners[:, k].T) for k in range(3))
-    pack_normal(rows, pair_cross(exact_difference(b, a), exact_difference(c, a)))
+    pack_normal(rows, dd_cross(exact_difference(b, a), exact_difference(c, a)))
     rows["r"] = np.abs(corners[:, 0]).sum(axis=1)
     rows["count"] = 3
 
 
-@compiled
+@inlined
 def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
     if not may_cross(surface, ray, ceiling):
         return math.inf
@@ -64,20 +72,22 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
     if (u < 0.0 or v < 0.0 or w < 0.0) and (u > 0.0 or v > 0.0 or w > 0.0):
         slack = outline_slack(surface, ray)
         beside = slack > 0.0 and (
-            is_beside(ax, ay, bx, by, slack) or is_beside(bx, by, cx, cy, slack) or is_beside(cx, cy, ax, ay, slack)
+            is_near_edge(ax, ay, bx, by, slack)
+            or is_near_edge(bx, by, cx, cy, slack)
+            or is_near_edge(cx, cy, ax, ay, slack)
         )
         if not beside:
             return math.inf
     return plane_distance(world, surface, ray, floor, ceiling, exactly)
 
 
-@compiled
-def within(block: Any, ray: Ray, per_unit: float) -> int:
+@inlined
+def candidate_mask(block: Any, ray: Ray, inverse_unit: float) -> int:
     """Which of a block's triangles (see `bvh`) the ray may pass inside of, bit by bit: the same sums, eight at once.
 
     None is dropped that `intersect` would find: the slack is that of corners rounded off, and of `outline_slack`.
     """
-    anchor, o = block.anchor, scale(per_unit, ray.turned)
+    anchor, o = block.anchor, scale(inverse_unit, ray.turned)
     origin = (o[0] - anchor[ray.axis], o[1] - anchor[ray.across], o[2] - anchor[ray.up])
     ax, ay = sheared_lanes(ray, origin, block.corners, 0)
     bx, by = sheared_lanes(ray, origin, block.corners, 3)
@@ -85,37 +95,37 @@ def within(block: Any, ray: Ray, per_unit: float) -> int:
     u = cx * by - cy * bx
     v = ax * cy - ay * cx
     w = bx * ay - by * ax
-    slack = (block.doubt + 16.0 * NEAR * (block.reach + per_unit * ray.reach)) * block.edge
-    least, most = smaller(u, smaller(v, w)), larger(u, larger(v, w))
-    return block.lanes & ~(below(least, alike(-slack)) & below(alike(slack), most))
+    slack = (block.doubt + 16.0 * PLANE_ERROR * (block.reach + inverse_unit * ray.reach)) * block.edge
+    least, most = lanes_min(u, lanes_min(v, w)), lanes_max(u, lanes_max(v, w))
+    return block.lanes & ~(mask_less(least, broadcast(-slack)) & mask_less(broadcast(slack), most))
 
 
-@compiled
+@inlined
 def sheared_lanes(ray: Ray, origin: Vector, corners: Any, first: int) -> tuple[Any, Any]:
     """`sheared` of eight points whose coordinates stand from row `first` on."""
-    along = lanes(corners[first + ray.axis]) - origin[0]
-    across = lanes(corners[first + ray.across]) - origin[1]
-    up = lanes(corners[first + ray.up]) - origin[2]
+    along = load_lanes(corners[first + ray.axis]) - origin[0]
+    across = load_lanes(corners[first + ray.across]) - origin[1]
+    up = load_lanes(corners[first + ray.up]) - origin[2]
     return (across - along * ray.shear[0], up - along * ray.shear[1])
 
 
-again = planar.never
+next_hit = planar.no_next_hit
 
 
-@compiled
-def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+@inlined
+def interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
     """The hit, the face's normal, and the normal interpolated between the corners where the mesh has them."""
-    p, n, _ = planar.locate(world, surface, ray, t)
+    p, n, _ = planar.interaction(world, surface, ray, t)
     if surface.smooth < 0:
         return (p, n, n)
-    mixed = mixed_normal(world, surface, p)
+    mixed = interpolated_normal(world, surface, p)
     if dot(mixed, n) > 0.0:
         return (p, n, unit(mixed))
     return (p, n, n)
 
 
-@compiled
-def mixed_normal(world: Any, surface: Any, p: Vector) -> Vector:
+@inlined
+def interpolated_normal(world: Any, surface: Any, p: Vector) -> Vector:
     """The corners' normals, each weighed as the triangle between p and the edge opposite to it; of any length."""
     n, a, b, c = vector(surface.normal), vector(surface.a), vector(surface.b), vector(surface.c)
     pa, pb, pc = subtract(a, p), subtract(b, p), subtract(c, p)
@@ -124,12 +134,12 @@ def mixed_normal(world: Any, surface: Any, p: Vector) -> Vector:
     return add(add(scale(u, vector(corners[0])), scale(v, vector(corners[1]))), scale(w, vector(corners[2])))
 
 
-@compiled
-def turning(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
+@inlined
+def normal_derivative(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
     """The mixture is linear in p: how it changes with v, but for what only changes its length."""
     if surface.smooth < 0:
         return (0.0, 0.0, 0.0)
-    mixed = mixed_normal(world, surface, p)
+    mixed = interpolated_normal(world, surface, p)
     size = length(mixed)
     if size == 0.0:
         return (0.0, 0.0, 0.0)

@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from tracer.tree.raytree import RayTree
 
 
-def brightest(scene: Scene) -> float:
+def radiance_bound(scene: Scene) -> float:
     """B: the most that any ray of this scene can bring, in its largest component; infinite where nothing bounds it."""
     materials = {item.material for item in scene.objects}
-    shining = max((largest_local(scene, material) for material in materials), default=0.0)
+    shining = max((local_bound(scene, material) for material in materials), default=0.0)
     passed_on = max((material.reflect + material.transmit for material in materials), default=0.0)
     background = max(scene.background.color)
     if passed_on < 1.0:
@@ -32,7 +32,7 @@ def brightest(scene: Scene) -> float:
     return background
 
 
-def largest_local(scene: Scene, material: Material) -> float:
+def local_bound(scene: Scene, material: Material) -> float:
     """The most that a surface of this material can send out by itself: every light facing it, every highlight met."""
     colors = [material.color] + ([material.checker.color] if material.checker else [])
     most = 0.0
@@ -57,11 +57,11 @@ def ledger(tree: "RayTree") -> Ledger:
     nodes = tree.nodes[tree.nodes["kind"] != SHADOW]
     weights = nodes["weight"].max(axis=1)
     ended = np.isin(nodes["end"], (SURFACE, BACKGROUND))
-    kept = np.array([_kept(tree, row) for row in nodes[~ended]])
+    kept = np.array([_absorbed(tree, row) for row in nodes[~ended]])
     return Ledger(math.fsum(weights[ended]), tree.residual, math.fsum(weights[~ended] * kept))
 
 
-def _kept(tree: "RayTree", row: np.void) -> float:
+def _absorbed(tree: "RayTree", row: np.void) -> float:
     """The share that a surface passes on to no ray."""
     item = tree.scene.objects[row["object"]]
     material = item.material

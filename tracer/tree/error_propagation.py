@@ -15,21 +15,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tracer.compile.bundle import Bundle
-from tracer.compile.jit import compiled, kernel, routine
+from tracer.compile.jit import compiled, inlined, kernel
 from tracer.formulas.double_double import U
 from tracer.formulas.vector import Vector, add, dot, scale, subtract, vector
-from tracer.kernel.node_rows import way_length
+from tracer.kernel.node_rows import rounding_scale
 from tracer.kernel.nodes import BLOCKED, REFRACTION, SHADOW
-from tracer.kernel.shadows import towards_light
+from tracer.kernel.shadows import light_direction
 from tracer.rays import make_ray
-from tracer.shapes import locate, turning
+from tracer.shapes import interaction, normal_derivative
 
 # Roundings of one step, in u: of a hit, in units of the way it was computed from; of a ray's direction, and of what the
 # surface that sends it on is told of the one that comes.
 IN_PLACE, BEFORE, AFTER = 2.0, 1.0, 2.0
 
 
-class Room(NamedTuple):
+class PropagationSpace(NamedTuple):
     """What `estimate_errors` writes besides the table."""
 
     matrices: np.ndarray  # (slots, 6, 6): C at hits whose rays are still to come
@@ -57,7 +57,7 @@ class Step(NamedTuple):
     shadow_way: float  # to a light: how far
 
 
-def errors_of(world: Bundle, table: np.ndarray, count: int) -> None:
+def propagate_errors(world: Bundle, table: np.ndarray, count: int) -> None:
     """Fill in `error` and `turn` of a tree's rows."""
     rows = table[:count]
     waiting = np.bincount(rows["parent"][1:], minlength=count).astype(np.int64)
@@ -67,7 +67,7 @@ def errors_of(world: Bundle, table: np.ndarray, count: int) -> None:
     np.maximum.at(last, rows["parent"][1:], np.arange(1, count))
     closed = np.cumsum(np.bincount(last[waiting > 0], minlength=count))
     slots = int((opened - closed).max(initial=0)) + 2
-    room = Room(
+    room = PropagationSpace(
         np.zeros((slots, 6, 6)),
         np.full(count, -1, np.int64),
         waiting,
@@ -77,11 +77,11 @@ def errors_of(world: Bundle, table: np.ndarray, count: int) -> None:
     first = rows[0]
     size = float(first["reach"]) + (float(first["t"]) if np.isfinite(first["t"]) else 0.0)
     unit_length = math.ldexp(1.0, math.frexp(size)[1]) if 0.0 < size < math.inf else 1.0
-    estimate_errors(world, table, count, unit_length, room)
+    propagate_rows(world, table, count, unit_length, room)
 
 
 @kernel
-def estimate_errors(world: Bundle, table: Any, count: int, length: float, room: Room) -> None:
+def propagate_rows(world: Bundle, table: Any, count: int, length: float, room: PropagationSpace) -> None:
     """`errors_of`, with lengths in units of `length`, a power of two near the scene's size: so no square vanishes."""
     free = len(room.free)
     for i in range(count):
@@ -89,7 +89,7 @@ def estimate_errors(world: Bundle, table: Any, count: int, length: float, room: 
         free -= 1
         slot = room.free[free]
         here = room.matrices[slot]
-        carry_over(world, table, i, length, room, here)
+        propagate_row(world, table, i, length, room, here)
         ahead = here[0, 0] + here[1, 1] + here[2, 2]
         turned = here[3, 3] + here[4, 4] + here[5, 5]
         steps = row.depth + 1.0
@@ -109,8 +109,8 @@ def estimate_errors(world: Bundle, table: Any, count: int, length: float, room: 
             free += 1
 
 
-@routine
-def carry_over(world: Any, table: Any, i: int, length: float, room: Room, here: Any) -> None:
+@compiled
+def propagate_row(world: Any, table: Any, i: int, length: float, room: PropagationSpace, here: Any) -> None:
     """Into `here` the matrix of row i's hit, from the one at its parent's."""
     row, c = table[i], room.work
     parent = row.parent
@@ -120,28 +120,28 @@ def carry_over(world: Any, table: Any, i: int, length: float, room: Room, here: 
     step = make_step(world, table, i)
     if parent >= 0:
         add_rounding(c, 0.0, BEFORE * U)
-        change(world, step, length, c, True)
+        apply_jacobian(world, step, length, c, True)
     add_rounding(c, 0.0, AFTER * U)
-    change(world, step, length, c, False)
+    apply_jacobian(world, step, length, c, False)
     speed = abs(dot(step.facing, step.onward))
     if row.t < math.inf:
         # Where the ray grazes, a little beside it is much along the surface.
-        add_rounding(c, IN_PLACE * U * way_length(row) / length / (speed if speed > 0.0 else 1.0), 0.0)
+        add_rounding(c, IN_PLACE * U * rounding_scale(row) / length / (speed if speed > 0.0 else 1.0), 0.0)
     for a in range(6):
         for b in range(6):
             here[a, b] = c[a, b]
 
 
-@routine
-def change(world: Any, step: Step, length: float, c: Any, at_start: bool) -> None:
+@compiled
+def apply_jacobian(world: Any, step: Step, length: float, c: Any, at_start: bool) -> None:
     """C to J C J': J C, turned over, once more. J is what the surface at the start does, or the way from there."""
     for _ in range(2):
         for b in range(6):
             dp, dd = column(c, b, 0), column(c, b, 3)
             if at_start:
-                dd = sent_on(world, step, length, dp, dd)
+                dd = outgoing_turn(world, step, length, dp, dd)
             else:
-                dp = arriving(step, length, dp, dd)
+                dp = transferred(step, length, dp, dd)
             for a in range(3):
                 c[a, b] = dp[a]
                 c[a + 3, b] = dd[a]
@@ -150,12 +150,12 @@ def change(world: Any, step: Step, length: float, c: Any, at_start: bool) -> Non
                 c[a, b], c[b, a] = c[b, a], c[a, b]
 
 
-@compiled
+@inlined
 def column(matrix: Any, b: int, first: int) -> Vector:
     return (matrix[first, b], matrix[first + 1, b], matrix[first + 2, b])
 
 
-@compiled
+@inlined
 def add_rounding(c: Any, place: float, direction: float) -> None:
     """Errors of a point and of a direction, no larger than given, that point anywhere."""
     for k in range(3):
@@ -163,7 +163,7 @@ def add_rounding(c: Any, place: float, direction: float) -> None:
         c[k + 3, k + 3] += direction * direction
 
 
-@compiled
+@inlined
 def make_step(world: Any, table: Any, i: int) -> Step:
     row = table[i]
     onward = vector(row.direction)
@@ -172,7 +172,7 @@ def make_step(world: Any, table: Any, i: int) -> Step:
     if row.kind == SHADOW:
         if row.end == BLOCKED and row.t > 0.0:
             ray = make_ray(vector(row.origin), onward, row.start, row.side, row.reach)
-            _, facing, _ = locate(world, world.surfaces[row.surface], ray, row.t)
+            _, facing, _ = interaction(world, world.surfaces[row.surface], ray, row.t)
     elif row.surface >= 0:
         facing = vector(row.face)
     t = row.t if row.t < math.inf else 0.0
@@ -181,7 +181,7 @@ def make_step(world: Any, table: Any, i: int) -> Step:
     eta = parent.n1 / parent.n2 if row.kind == REFRACTION else 1.0
     way = math.inf
     if row.kind == SHADOW:
-        _, way = towards_light(world.lights[row.light], vector(row.origin))
+        _, way = light_direction(world.lights[row.light], vector(row.origin))
     c2 = math.sqrt(max(parent.radicand, 0.0)) if row.kind == REFRACTION else 1.0
     return Step(
         row.kind,
@@ -200,19 +200,19 @@ def make_step(world: Any, table: Any, i: int) -> Step:
     )
 
 
-@compiled
-def sent_on(world: Any, step: Step, length: float, dp: Vector, dd: Vector) -> Vector:
+@inlined
+def outgoing_turn(world: Any, step: Step, length: float, dp: Vector, dd: Vector) -> Vector:
     """How a ray turns whose start moves by dp, in units of `length`, where the ray that led there turns by dd."""
     if step.kind == SHADOW:
         if step.shadow_way == 0.0:
             return (0.0, 0.0, 0.0)  # the light is where the ray starts: it has no direction
         return scale(-length / step.shadow_way, subtract(dp, scale(dot(dp, step.onward), step.onward)))
-    dn = scale(step.side, turning(world, world.surfaces[step.start], step.point, scale(length, dp)))
-    return bent(step, dn, dd)
+    dn = scale(step.side, normal_derivative(world, world.surfaces[step.start], step.point, scale(length, dp)))
+    return scattered_turn(step, dn, dd)
 
 
-@compiled
-def arriving(step: Step, length: float, dp: Vector, dd: Vector) -> Vector:
+@inlined
+def transferred(step: Step, length: float, dp: Vector, dd: Vector) -> Vector:
     """How the end of a ray moves whose start moves by dp and which turns by dd: along itself into the surface there."""
     moved = add(dp, scale(step.t / length, dd))
     speed = dot(step.facing, step.onward)
@@ -221,8 +221,8 @@ def arriving(step: Step, length: float, dp: Vector, dd: Vector) -> Vector:
     return subtract(moved, scale(dot(step.facing, moved) / speed, step.onward))
 
 
-@compiled
-def bent(step: Step, dn: Vector, dd: Vector) -> Vector:
+@inlined
+def scattered_turn(step: Step, dn: Vector, dd: Vector) -> Vector:
     """How the ray that a surface sends on turns, with the normal turned by dn and the ray that comes by dd."""
     n = step.n
     dc1 = -(dot(dn, step.d) + dot(n, dd))

@@ -18,15 +18,15 @@ import numpy as np
 from tracer.formulas.camera import View
 from tracer.formulas.media import WORD
 from tracer.formulas.sampler import CENTER, SAMPLERS, SOBOL, make_samples
-from tracer.formulas.vector import Vector, tame, unit
+from tracer.formulas.vector import Vector, rescale, unit
 from tracer.kernel.entry import Area, Workspace, eye_view, run
 from tracer.kernel.limits import MAX_NODES, MODELS, make_limits
 from tracer.kernel.nodes import BLOCKED, ENDS, KINDS, PUBLIC, SHADOW, SURFACE
 from tracer.kernel.world import World
 from tracer.scene import Scene
-from tracer.tree.bounds import Ledger, brightest, ledger
-from tracer.tree.error_propagation import errors_of
-from tracer.tree.text import digits_left, outline
+from tracer.tree.bounds import Ledger, ledger, radiance_bound
+from tracer.tree.error_propagation import propagate_errors
+from tracer.tree.text import significant_digits, tree_text
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -50,7 +50,7 @@ class RayTree:
     @cached_property
     def bound(self) -> float:
         """What is missing from `radiance` is at most this in each component; infinite where nothing bounds it."""
-        return self.residual * brightest(self.scene) if self.residual > 0.0 else 0.0
+        return self.residual * radiance_bound(self.scene) if self.residual > 0.0 else 0.0
 
     @cached_property
     def ledger(self) -> Ledger:
@@ -100,7 +100,7 @@ class RayTree:
         size = max(row["t"], np.abs(row["point"]).max())
         if not size > row["error"]:
             return 0
-        return min(15, digits_left(size, row["error"]))
+        return min(15, significant_digits(size, row["error"]))
 
     def light_name(self, i: int) -> str | None:
         j = self.nodes["light"][i]
@@ -125,7 +125,7 @@ class RayTree:
 
     def to_text(self, most: int | None = None) -> str:
         """The tree as it is drawn in a terminal."""
-        return outline(self, most)
+        return tree_text(self, most)
 
     def to_dict(self) -> dict[str, Any]:
         """The tree as JSON has it: names for codes, None for absent, degrees for angles."""
@@ -245,7 +245,7 @@ def trace(
     run(world.arrays, view, limits, points, area, solids_at(world, view.eye), pixels, workspace)
     space = workspace.arrays
     count = int(space.tree[0])
-    errors_of(world.arrays, space.table.view(np.recarray), count)
+    propagate_errors(world.arrays, space.table.view(np.recarray), count)
     nodes = np.zeros(count, PUBLIC)
     for name in PUBLIC.names or ():
         nodes[name] = space.table[name][:count]
@@ -285,7 +285,7 @@ def _ray_view(origin: Sequence[float], direction: Sequence[float]) -> View:
         raise ValueError(f"a ray must be six finite numbers, got {numbers}")
     if not any(numbers[3:]):
         raise ValueError("a ray's direction must not be 0,0,0")
-    return eye_view((numbers[0], numbers[1], numbers[2]), unit(tame(numbers[3:])))
+    return eye_view((numbers[0], numbers[1], numbers[2]), unit(rescale(numbers[3:])))
 
 
 def _fill_angles(nodes: np.ndarray, scene: Scene) -> None:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 HEADINGS = ("ray", "meets", "distance", "index", "angle", "weight", "sends up (r g b)", "why it ends")
 
-WHY = {
+END_REASONS = {
     None: "",
     "surface": "opaque: nothing to follow",
     "background": "leaves the scene",
@@ -30,7 +30,7 @@ WHY = {
 }
 
 
-def outline(tree: RayTree, most: int | None = None) -> str:
+def tree_text(tree: RayTree, most: int | None = None) -> str:
     """The tree, children below their parent, with a head of two lines; of more than `most` rays the heaviest."""
     rows: list[tuple[str, ...]] = [HEADINGS]
     shown = set(range(len(tree)))
@@ -72,39 +72,39 @@ def _head(tree: RayTree) -> list[str]:
     title = tree.scene.title or (tree.scene.path.name if tree.scene.path else "scene")
     rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
     head = [f"{title}: {where}, depth {tree.depth}, {tree.model}, {rays}"]
-    head.append(f"colour {triple(tree.radiance)} (linear r g b); {missing(tree)}")
+    head.append(f"colour {rgb_text(tree.radiance)} (linear r g b); {cut_summary(tree)}")
     lost = [i for i in range(len(tree)) if tree.object_name(i) and tree.nodes["error"][i] > 0.0 and tree.digits(i) == 0]
     if lost:
         head.append(f"from ray {lost[0]} on rounding has left no digit of where rays go: what follows may be otherwise")
     return head
 
 
-def missing(tree: RayTree) -> str:
+def cut_summary(tree: RayTree) -> str:
     """What the rays that were cut weigh, and how much light they can have brought at most."""
     if tree.residual == 0.0:
         return "no ray was cut"
-    carry = f"rays that were cut carry {number(tree.residual)} of the weight"
+    carry = f"rays that were cut carry {number_text(tree.residual)} of the weight"
     if (tree.nodes["end"] == NODES).any():
         carry = f"stopped at the limit of rays: {carry}"
     elif tree.tolerance is not None and tree.residual > tree.tolerance:
         carry = f"stopped by depth or weight, before the tolerance was reached: {carry}"
-    return f"{carry}{light_missing(tree.bound)}"
+    return f"{carry}{missing_light(tree.bound)}"
 
 
-def light_missing(bound: float) -> str:
+def missing_light(bound: float) -> str:
     """The end of a sentence about rays that were cut."""
     if math.isinf(bound):
         return ", and nothing bounds the light they miss"
-    return f": at most {number(bound)} of light is missing"
+    return f": at most {number_text(bound)} of light is missing"
 
 
-DEEPEST = 60  # levels that are indented: a tree of a million would be no wider than long
+MAX_INDENT = 60  # levels that are indented: a tree of a million would be no wider than long
 
 
 def _stems(tree: RayTree, shown: set[int]) -> dict[int, str]:
     """The lines that lead to each row, as a file tree has them; in a very deep tree its level instead."""
     levels = tree.nodes["depth"]
-    if levels.max() > DEEPEST:
+    if levels.max() > MAX_INDENT:
         return {i: f"level {levels[i]}: " for i in shown}
     stems = {0: ""}
     trunks = {0: ""}
@@ -127,54 +127,54 @@ def _row(tree: RayTree, i: int, stem: str) -> tuple[str, ...]:
     return (
         f"{stem}{i} {kind}",
         met or ("background" if tree.end(i) == "background" else ""),
-        number(row["t"], row["error"]),
-        "" if shadow else _pair(number(row["n1"]), number(row["n2"])),
-        "" if shadow else _pair(degrees(row["theta1"], row["turn"]), degrees(row["theta2"], row["turn"])),
-        triple(row["weight"], same=True),
-        triple(row["radiance"]),
-        why(tree, i),
+        number_text(row["t"], row["error"]),
+        "" if shadow else _pair(number_text(row["n1"]), number_text(row["n2"])),
+        "" if shadow else _pair(degrees_text(row["theta1"], row["turn"]), degrees_text(row["theta2"], row["turn"])),
+        rgb_text(row["weight"], same=True),
+        rgb_text(row["radiance"]),
+        end_reason(tree, i),
     )
 
 
-def why(tree: RayTree, i: int) -> str:
+def end_reason(tree: RayTree, i: int) -> str:
     """Why nothing follows ray i, or what becomes of a shadow ray."""
-    return "adds nothing: the surface faces away" if tree.faces_away(i) else WHY[tree.end(i)]
+    return "adds nothing: the surface faces away" if tree.faces_away(i) else END_REASONS[tree.end(i)]
 
 
 def _pair(first: str, second: str) -> str:
     return f"{first} → {second}" if first and second else first
 
 
-def number(x: float, error: float = 0.0) -> str:
+def number_text(x: float, error: float = 0.0) -> str:
     """Five digits, or as many as the error has left: "?" for none; nothing for what is absent."""
     if math.isnan(x):
         return ""
-    digits = 5 if x == 0.0 else min(5, digits_left(abs(x), error))
+    digits = 5 if x == 0.0 else min(5, significant_digits(abs(x), error))
     return f"{x:.{digits}g}" if digits > 0 else "?"
 
 
-def degrees(radians: float, error: float = 0.0) -> str:
+def degrees_text(radians: float, error: float = 0.0) -> str:
     """Two decimals, or as many as the error has left: "?" where none of its digits is."""
     if math.isnan(radians):
         return ""
-    decimals = min(2, decimals_left(error))
+    decimals = min(2, degree_decimals(error))
     return f"{math.degrees(radians):.{decimals}f}°" if decimals >= 0 else "?"
 
 
-def digits_left(size: float, error: float) -> int:
+def significant_digits(size: float, error: float) -> int:
     """How many digits of a number of this size an error of that size leaves, of the 17 that a float may have."""
     if not error > 0.0:
         return 17
     return max(0, math.floor(math.log10(size / error))) if error < size else 0
 
 
-def decimals_left(turn: float) -> int:
+def degree_decimals(turn: float) -> int:
     """How many decimals of an angle in degrees an error in radians leaves; -1 where not even the degrees are sure."""
     wrong = math.degrees(turn)
-    return digits_left(1.0, wrong) if wrong < 1.0 else -1
+    return significant_digits(1.0, wrong) if wrong < 1.0 else -1
 
 
-def triple(rgb: Sequence[float] | np.ndarray, same: bool = False) -> str:
+def rgb_text(rgb: Sequence[float] | np.ndarray, same: bool = False) -> str:
     """Three numbers, or with `same` one where all are equal."""
     if same and rgb[0] == rgb[1] == rgb[2]:
         return f"{rgb[0]:.4g}"

@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 
 from tracer.formulas.camera import View
-from tracer.formulas.vector import tame, unit
+from tracer.formulas.vector import rescale, unit
 from tracer.kernel.world import World
 from tracer.scene.scene import middle_and_radius
 
@@ -72,7 +72,7 @@ class Orbit:
     @staticmethod
     def beside(view: View, up: tuple, azimuth: float, elevation: float, distance: float) -> "Orbit":
         """An eye turned away from the scene's own camera by these angles (degrees)."""
-        axis = np.array(unit(tame(up)))
+        axis = np.array(unit(rescale(up)))
         back = -np.array(view.forward)
         north = back - (back @ axis) * axis
         if np.linalg.norm(north) < 1e-6:

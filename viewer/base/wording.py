@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tracer.tree.text import decimals_left, digits_left
+from tracer.tree.text import degree_decimals, significant_digits
 
 GONE = "no digit left"  # of a number that is all rounding error
 
@@ -14,7 +14,7 @@ def shown(x: float, digits: int = 5, error: float = 0.0) -> str:
     """A number for people, with no digit that its error has made; a dash for what is absent."""
     if math.isnan(x):
         return "–"
-    sure = digits if x == 0.0 else min(digits, digits_left(abs(x), error))
+    sure = digits if x == 0.0 else min(digits, significant_digits(abs(x), error))
     return f"{x:.{sure}g}".replace("-", "−") if sure > 0 else GONE
 
 
@@ -22,7 +22,7 @@ def angle(radians: float, error: float = 0.0) -> str:
     """In degrees, with no more decimals than are sure."""
     if math.isnan(radians):
         return "–"
-    decimals = min(2, decimals_left(error))
+    decimals = min(2, degree_decimals(error))
     return f"{math.degrees(radians):.{decimals}f}°" if decimals >= 0 else GONE
 
 
@@ -32,7 +32,7 @@ def place(xyz: Sequence[float] | np.ndarray, error: float = 0.0) -> str:
     if math.isnan(size):
         return "–"
     exponent = math.floor(math.log10(size)) if size > 0.0 else 0
-    decimals = min(4, digits_left(size, error) - 1)
+    decimals = min(4, significant_digits(size, error) - 1)
     if decimals < 0:
         return GONE
     if -3 <= exponent <= 4:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tracer.kernel.left_out import Need
-from tracer.measure.plan.paired_timing import in_turn, wait
+from tracer.measure.plan.paired_timing import paired, wall_seconds
 from tracer.measure.plan.savings import Saving
 from viewer.cli.needs import SHADER
 from viewer.gl.features import features_of
@@ -48,7 +48,7 @@ def stage_cost(app: App, need: Need) -> Saving:
         stage.draw(session.orbit, session.theme, SCENE_SIZE, app.surface.scale, None)
         stage.target.pixels()  # waits until all is drawn
 
-    turns = in_turn(*(lambda stage=stage: wait(lambda: draw(stage)) for stage in stages), budget=BUDGET)
+    turns = paired(*(lambda stage=stage: wall_seconds(lambda: draw(stage)) for stage in stages), budget=BUDGET)
     for stage in stages:
         stage.release()
     return Saving(need, f"the 3D view, {SCENE_SIZE[0]}x{SCENE_SIZE[1]}", turns)
@@ -63,7 +63,7 @@ def panel_cost(app: App, need: Need) -> Saving:
         session.lesson, session.wants_numbers = lesson, True
         app.frame()
         app.frame()
-        return wait(lambda: [app.frame() for _ in range(FRAMES)]) / FRAMES
+        return wall_seconds(lambda: [app.frame() for _ in range(FRAMES)]) / FRAMES
 
-    turns = in_turn(lambda: drawing(None), lambda: drawing(shown), BUDGET)
+    turns = paired(lambda: drawing(None), lambda: drawing(shown), BUDGET)
     return Saving(need, "all panels, this one not in front", turns)

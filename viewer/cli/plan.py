@@ -10,7 +10,7 @@ from typing import Any
 
 from tracer.kernel.world import World
 from tracer.measure.plan.imports import import_seconds
-from tracer.measure.plan.paired_timing import Turns
+from tracer.measure.plan.paired_timing import PairedTimes
 from tracer.measure.plan.savings import Measured, Saving, measure
 from viewer.cli.needs import MODULES, start_needs, window_needs
 from viewer.lessons.lesson import Lesson
@@ -47,7 +47,7 @@ def measured(world: World, path: Path, lesson: Lesson | None, progress: Callable
     progress(0.75)
     _, *loading = import_seconds(*MODULES.values())
     starts = [
-        Saving(need, f"import {', '.join(MODULES[need.name])}", Turns(0.0, took, 0.0, 1))
+        Saving(need, f"import {', '.join(MODULES[need.name])}", PairedTimes(0.0, took, 0.0, 1))
         if not math.isnan(took)
         else Saving(need, "not installed")
         for need, took in zip(start_needs(world.scene), loading, strict=True)

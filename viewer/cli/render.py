@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import tracer
-from tracer.image.converge import MOST, Reached
+from tracer.image.converge import MAX_SAMPLES, RoundStats
 from tracer.image.render import Image
-from tracer.tree.text import light_missing, number
+from tracer.tree.text import missing_light, number_text
 from viewer.base.files import Unusable, check_writable, write_atomically
 from viewer.base.pictures import WRITERS, check_format, write_picture
 from viewer.base.progress import Progress
@@ -128,8 +128,8 @@ def render_one(
     if image.reached:
         progress.put(name + how_far(image, image.reached, options), sys.stdout)
     if options.tolerance is not None or (image.reached and image.residual["max"] > 0.0):
-        most = number(image.residual["max"])
-        missing = f"a pixel's rays that were cut carry at most {most} of the weight{light_missing(image.bound)}"
+        most = number_text(image.residual["max"])
+        missing = f"a pixel's rays that were cut carry at most {most} of the weight{missing_light(image.bound)}"
         progress.put(name + missing, sys.stdout)
     return {
         "scene": str(order.scene),
@@ -149,7 +149,7 @@ def render_one(
     }
 
 
-def how_far(image: Image, far: Reached, options: Namespace) -> str:
+def how_far(image: Image, far: RoundStats, options: Namespace) -> str:
     """What an image that converges has come to, in a line."""
     mean = f"{far.samples:,.0f}" if far.samples >= 100 else f"{far.samples:.3g}"
     spread = f"{mean} samples a pixel" + (f", {far.least} to {far.most}" if far.most > far.least else "")
@@ -160,12 +160,12 @@ def how_far(image: Image, far: Reached, options: Namespace) -> str:
     elif image.ended == "seconds":
         end = "time is up"
     else:
-        end = f"at most {options.samples or MOST} of a pixel, and they double"
+        end = f"at most {options.samples or MAX_SAMPLES} of a pixel, and they double"
     reach = f"{far.error:.2g} (RMSE, linear light) after {far.seconds:.2f} s and {far.rays:,} rays"
     return f"estimated sampling error {reach}: {spread}; {end}"
 
 
-def reached(image: Image, far: Reached) -> dict[str, Any]:
+def reached(image: Image, far: RoundStats) -> dict[str, Any]:
     """The same for programs."""
     return {"error": far.error, "samples_least": far.least, "samples_most": far.most, "ended": image.ended}
 

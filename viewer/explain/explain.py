@@ -9,7 +9,7 @@ import math
 from tracer.kernel.nodes import SHADOW
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
-from tracer.tree.text import WHY
+from tracer.tree.text import END_REASONS
 from viewer.base.theme import STYLES
 from viewer.base.wording import angle, pair, place, same, shown, triple
 from viewer.explain.directions import directions, turned
@@ -36,7 +36,7 @@ def headline(tree: RayTree, i: int) -> tuple[str, str]:
     fate = f"meets {met}" if met else "meets nothing"
     if met and tree.digits(i) == 0:
         fate = f"{fate}, or so it seems: rounding has left no digit of where"
-    why = WHY[tree.end(i)]
+    why = END_REASONS[tree.end(i)]
     return f"{name} {i}", f"{fate}; {why}" if why else fate
 
 
@@ -72,7 +72,7 @@ def numbers(tree: RayTree, i: int) -> Section:
     section.add("factor", same(row["factor"]))
     section.add("weight", same(row["weight"]))
     section.add("sends up", triple(row["radiance"], 4))
-    section.add("ends", WHY[tree.end(i)] or "its children go on")
+    section.add("ends", END_REASONS[tree.end(i)] or "its children go on")
     section.add("path", tree.path(i))
     return section
 

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from tracer.formulas.vector import tame, unit
+from tracer.formulas.vector import rescale, unit
 from tracer.shapes.box import Box
 from tracer.shapes.cone import Cone
 from tracer.shapes.disc import Disc
@@ -106,7 +106,7 @@ def _box(box: Box) -> np.ndarray:
 
 def _circle(normal: np.ndarray) -> np.ndarray:
     """The unit circle about a normal, counter-clockwise seen from its tip; the last corner is the first."""
-    n = np.array(unit(tame(normal)))
+    n = np.array(unit(rescale(normal)))
     u = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
     u /= np.linalg.norm(u)
     phi = np.linspace(0.0, 2 * math.pi, ROUND + 1)[:, None]
@@ -129,7 +129,7 @@ def _cone(cone: Cone) -> tuple[np.ndarray, np.ndarray]:
     circle = _circle(np.array(axis))
     r = min(cone.base_radius, cone.apex_radius)
     low, high = np.array(narrow) + r * circle, np.array(wide) + (r + growth) * circle
-    n = (height * circle - growth * np.array(unit(tame(axis)))) / math.hypot(height, growth)
+    n = (height * circle - growth * np.array(unit(rescale(axis)))) / math.hypot(height, growth)
     corners = np.stack([low[:-1], high[1:], high[:-1]], axis=1)
     normals = np.stack([n[:-1], n[1:], n[:-1]], axis=1)
     if r > 0.0:
@@ -157,7 +157,7 @@ def _polygon(corners: np.ndarray) -> np.ndarray:
 
 def _plane(plane: Plane, frame: Frame) -> np.ndarray:
     """A square about the foot of the perpendicular from the scene's middle."""
-    n = np.array(unit(tame(plane.normal)))
+    n = np.array(unit(rescale(plane.normal)))
     foot = frame.middle - ((frame.middle - plane.point) @ n) * n
     aside = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
     aside /= np.linalg.norm(aside)

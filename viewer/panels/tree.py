@@ -7,7 +7,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 from tracer.kernel.nodes import SHADOW
-from tracer.tree.text import heaviest_rows, missing
+from tracer.tree.text import cut_summary, heaviest_rows
 from viewer.base.pictures import as_shown
 from viewer.base.theme import BLOCKED_DASH, DIMMED, SMALL, STYLES, faded
 from viewer.base.wording import shown
@@ -244,7 +244,7 @@ class _Diagram:
         if self.tree.residual > 0.0:
             most = self.tree.bound
             cuts = [
-                missing(self.tree),
+                cut_summary(self.tree),
                 f"cut: {weight} of the weight, "
                 + (f"at most {shown(most, 3)} of light" if most < np.inf else "no bound"),
                 f"cut rays: {weight} of the weight",

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from tracer.formulas.sampler import JITTERED, RANDOM, SOBOL
-from tracer.image.converge import Converging, Reached
+from tracer.image.converge import ConvergingImage, RoundStats
 from tracer.kernel.limits import Limits
 from tracer.kernel.world import World
-from tracer.tree.bounds import brightest
+from tracer.tree.bounds import radiance_bound
 from viewer.session.progressive import Picture
 
 if TYPE_CHECKING:
@@ -58,9 +58,9 @@ class Run:
     model: str
     way: Way
     number: int  # of its colour and marker
-    made: Converging | None  # None: too long ago to be gone on with
+    made: ConvergingImage | None  # None: too long ago to be gone on with
     picture: Picture | None
-    points: list[Reached] = field(default_factory=list)  # of every round that has an estimate
+    points: list[RoundStats] = field(default_factory=list)  # of every round that has an estimate
     floor: float = 0.0  # the error at most for rays that were cut; infinite: nothing bounds it
     ended: bool = False  # nothing more is to be gained
 
@@ -69,7 +69,7 @@ class Run:
         model = f" {self.model}" if len(set(models)) > 1 else ""
         return f"depth {self.depth}{model}, {self.way.short}" + (" *" if math.isinf(self.floor) else "")
 
-    def note(self, reached: Reached, light: float) -> None:
+    def note(self, reached: RoundStats, light: float) -> None:
         """After a round; `light` is what a cut ray of weight 1 is worth at most."""
         assert self.made
         sampled = self.made.sampled
@@ -126,9 +126,9 @@ class Convergence:
             session.image.picture = run.picture
             self.goes_on = False
         elif run.made and run.picture:
-            light = brightest(session.world.scene)
+            light = radiance_bound(session.world.scene)
 
-            def noted(reached: Reached | None) -> None:
+            def noted(reached: RoundStats | None) -> None:
                 if reached:
                     run.note(reached, light)
                 else:
@@ -143,7 +143,7 @@ class Convergence:
             self.runs.remove(found)
             found = None
         if not found:
-            made = Converging(world, world.view(size), limits, self.way.sampler, self.way.adaptive)
+            made = ConvergingImage(world, world.view(size), limits, self.way.sampler, self.way.adaptive)
             picture = Picture(made.job, first.shown.copy(), share=1.0, endless=True)
             found = Run(limits.depth, model, self.way, self._free(), made, picture)
             self.runs.append(found)
@@ -175,7 +175,7 @@ class Convergence:
         return sampled.errors() if self.shows == "error" else sampled.counts.astype(float)
 
 
-def forecast(points: Sequence[Reached], more: float) -> float:
+def forecast(points: Sequence[RoundStats], more: float) -> float:
     """The error after so many seconds more, if it goes on falling as lately; NaN: no telling."""
     late = [p for p in points if p.error > 0.0 and p.seconds > 0.0]
     late = [p for p in late if p.seconds >= late[-1].seconds / LATELY]

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tracer.image.converge import Converging, Reached
+from tracer.image.converge import ConvergingImage, RoundStats
 from tracer.image.job import COARSE_TO_FINE, Job, passes
 from tracer.image.passes import Stopped, trace_passes
 from tracer.image.render import processors
@@ -65,7 +65,7 @@ class Progressive:
         self.picture = picture
         self.last = self.runner.submit(self._run, picture, key)
 
-    def refine(self, made: Converging, picture: Picture, noted: Callable[[Reached | None], None]) -> None:
+    def refine(self, made: ConvergingImage, picture: Picture, noted: Callable[[RoundStats | None], None]) -> None:
         """Go on with an image that converges, as the one to be seen, until another is to be seen or it is paused.
 
         `noted` is told, on another thread, how far each round has come; None: nothing more is to be gained.
@@ -128,10 +128,10 @@ class Progressive:
 
     def _refine(
         self,
-        made: Converging,
+        made: ConvergingImage,
         picture: Picture,
         cancelled: threading.Event,
-        noted: Callable[[Reached | None], None],
+        noted: Callable[[RoundStats | None], None],
     ) -> None:
         before = made.seconds
         began = time.perf_counter()

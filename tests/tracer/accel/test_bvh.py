@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 import tracer
 from tests.scenes import MATTE, ball, world_of
-from tracer.accel.bvh import BOXES, FLAT, KINDS, TRIANGLES, build
-from tracer.accel.sah import DEEPEST
-from tracer.accel.traversal import enter, way_of
+from tracer.accel.bvh import BLOCK_CHILD, CHILD_KINDS, MAX_UNBOXED, NODE_CHILD, build
+from tracer.accel.sah import MAX_LEVELS
+from tracer.accel.traversal import hit_boxes, make_box_ray
 from tracer.compile.simd import WIDTH
 from tracer.formulas.vector import as_floats, vector
 from tracer.kernel.nodes import BACKGROUND
@@ -27,7 +27,7 @@ spread = st.floats(-10, 10)
 
 @settings(max_examples=40, deadline=None)
 @given(
-    st.lists(st.tuples(spread, spread, spread, st.floats(0.01, 3)), min_size=FLAT + 1, max_size=60),
+    st.lists(st.tuples(spread, spread, spread, st.floats(0.01, 3)), min_size=MAX_UNBOXED + 1, max_size=60),
     st.lists(st.tuples(spread, spread, spread, spread, spread, spread), min_size=5, max_size=5),
 )
 def test_hierarchy_finds_what_trying_all_surfaces_finds(balls: list, rays: list) -> None:
@@ -99,12 +99,12 @@ def test_hierarchy_holds_every_surface_once_inside_its_boxes() -> None:
             box_low, box_high = planes[0::2, lane], planes[1::2, lane]
             assert (box_low >= low).all()
             assert (box_high <= high).all()
-            kind, number = children[lane] % KINDS, children[lane] // KINDS
-            if kind == BOXES:
+            kind, number = children[lane] % CHILD_KINDS, children[lane] // CHILD_KINDS
+            if kind == NODE_CHILD:
                 waiting.append((number, depth + 1, box_low, box_high))
                 continue
             inside = [number]
-            if kind == TRIANGLES:
+            if kind == BLOCK_CHILD:
                 block = tree.blocks[number]
                 inside = block["surface"][: int(block["lanes"]).bit_length()]
                 placed = block["anchor"] + block["corners"].reshape(3, 3, WIDTH).transpose(2, 0, 1)[: len(inside)]
@@ -113,7 +113,7 @@ def test_hierarchy_holds_every_surface_once_inside_its_boxes() -> None:
             assert (bounds[inside, 0] > box_low * tree.unit).all()  # by a float32 at least
             assert (bounds[inside, 1] < box_high * tree.unit).all()
     assert sorted(seen) == list(range(3000))
-    assert deepest < DEEPEST
+    assert deepest < MAX_LEVELS
 
 
 def test_of_surfaces_at_one_distance_the_files_first_is_met() -> None:
@@ -150,13 +150,15 @@ def test_no_box_is_missed_that_a_ray_meets() -> None:
         bounds = np.stack([low, high])[None]
         (node,), unit = build(bounds).nodes, build(bounds).unit
         way = vector(direction.tolist())
-        inside = enter(node["planes"], way_of(make_ray(vector(target.tolist()), way, -1, 0.0, 1.0), 1 / unit), math.inf)
+        inside = hit_boxes(
+            node["planes"], make_box_ray(make_ray(vector(target.tolist()), way, -1, 0.0, 1.0), 1 / unit), math.inf
+        )
         assert (inside[0], inside[1][0]) == (1, 0.0)
         if near <= far:
             met += 1
             ray = make_ray(vector(origin.tolist()), way, -1, 0.0, 1.0)
-            assert enter(node["planes"], way_of(ray, 1 / unit), math.inf)[0] == 1
-            assert enter(node["planes"], way_of(ray, 1 / unit), float(near) / unit)[0] == 1
+            assert hit_boxes(node["planes"], make_box_ray(ray, 1 / unit), math.inf)[0] == 1
+            assert hit_boxes(node["planes"], make_box_ray(ray, 1 / unit), float(near) / unit)[0] == 1
     assert 300 < met < 1200
 
 

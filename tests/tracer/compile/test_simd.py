@@ -15,15 +15,15 @@ row = st.lists(number, min_size=8, max_size=8)
 
 
 def every_operation(a: Any, b: Any, narrow: Any, x: float, out: Any, bits: Any) -> None:
-    p, q = simd.lanes(a), simd.lanes(b)
-    simd.keep(simd.larger(p, q), out[0])
-    simd.keep(simd.smaller(p, q), out[1])
-    simd.keep(p * x - q, out[2])
-    simd.keep((p - x) * q, out[3])
-    simd.keep(simd.lanes(narrow) * simd.alike(x), out[4])
-    bits[0] = simd.below(p, q)
-    bits[1] = simd.no_more(p, q)
-    bits[2] = simd.first_of(bits[1] | 128)
+    p, q = simd.load_lanes(a), simd.load_lanes(b)
+    simd.store_lanes(simd.lanes_max(p, q), out[0])
+    simd.store_lanes(simd.lanes_min(p, q), out[1])
+    simd.store_lanes(p * x - q, out[2])
+    simd.store_lanes((p - x) * q, out[3])
+    simd.store_lanes(simd.load_lanes(narrow) * simd.broadcast(x), out[4])
+    bits[0] = simd.mask_less(p, q)
+    bits[1] = simd.mask_less_equal(p, q)
+    bits[2] = simd.lowest_bit(bits[1] | 128)
 
 
 compiled = kernel(every_operation)
@@ -47,6 +47,11 @@ def test_eight_at_once_are_eight_one_by_one(a: list[float], b: list[float], x: f
 
 def test_a_comparison_with_what_is_no_number_is_false_and_a_choice_takes_the_second() -> None:
     nothing, one = np.full(8, math.nan), np.ones(8)
-    assert simd.below(nothing, one) == simd.no_more(one, nothing) == simd.no_more(nothing, nothing) == 0
-    assert (simd.larger(nothing, one) == 1.0).all()
-    assert np.isnan(simd.larger(one, nothing)).all()
+    assert (
+        simd.mask_less(nothing, one)
+        == simd.mask_less_equal(one, nothing)
+        == simd.mask_less_equal(nothing, nothing)
+        == 0
+    )
+    assert (simd.lanes_max(nothing, one) == 1.0).all()
+    assert np.isnan(simd.lanes_max(one, nothing)).all()

@@ -10,8 +10,8 @@ import tracer
 from tests.scenes import ball, world_of
 from tests.tracer.measure.test_precision import ACROSS, edge_image, edge_scene
 from tracer.formulas.sampler import JITTERED, RANDOM, SAMPLERS, SOBOL
-from tracer.image.adaptive import AGAIN, Sampled
-from tracer.image.converge import Converging
+from tracer.image.adaptive import RESTART_FACTOR, PixelStatistics
+from tracer.image.converge import ConvergingImage
 from tracer.image.passes import Stopped
 from tracer.kernel.entry import Area
 from tracer.kernel.limits import make_limits
@@ -83,13 +83,13 @@ def test_an_edge_in_closed_form_with_a_quarter_of_the_rays() -> None:
     ("sampler", "law"),
     # At an edge the square error is v(N) = c N^-3/2. A mean whose two halves are off by v(N/2) each moves by
     # v(N/2) - v(N) in the square; independent halves have v(N/2) = 2 v(N), renewed samples v(N/4) + v(N).
-    (("sobol", math.sqrt(2.0**1.5 - 1.0)), ("random", 1.0), ("jittered", math.sqrt((4.0**1.5 + 1.0) / AGAIN))),
+    (("sobol", math.sqrt(2.0**1.5 - 1.0)), ("random", 1.0), ("jittered", math.sqrt((4.0**1.5 + 1.0) / RESTART_FACTOR))),
 )
 def test_the_estimate_is_theory_s(sampler: str, law: float) -> None:
     world, true = edge_scene(), edge_image()
     view = world.view((ACROSS, ACROSS))
     limits = make_limits(world, records=False)
-    made = Converging(world, view, limits, SAMPLERS.index(sampler), adaptive=False, most=256)
+    made = ConvergingImage(world, view, limits, SAMPLERS.index(sampler), adaptive=False, most=256)
     with ThreadPoolExecutor(2) as pool:
         found = [(reached, rmse(made.sampled.means(), true)) for reached in made.rounds(pool, 2)]
     counts = [reached.samples for reached, _ in found]
@@ -130,8 +130,8 @@ def test_broken_off_and_gone_on_with(worlds: dict[str, tracer.World]) -> None:
     world = worlds["two-lights"]
     limits = make_limits(world, records=False)
 
-    def fresh() -> Converging:
-        return Converging(world, world.view(SIZE), limits, SOBOL, adaptive=False, most=8)
+    def fresh() -> ConvergingImage:
+        return ConvergingImage(world, world.view(SIZE), limits, SOBOL, adaptive=False, most=8)
 
     whole, broken = fresh(), fresh()
     with ThreadPoolExecutor(1) as pool:
@@ -152,7 +152,7 @@ def test_broken_off_and_gone_on_with(worlds: dict[str, tracer.World]) -> None:
 
 def test_gains_by_hand() -> None:
     """Of three pixels the one that moved most by its samples goes on, the others stay."""
-    sampled = Sampled(3, 1, RANDOM, adaptive=True)
+    sampled = PixelStatistics(3, 1, RANDOM, adaptive=True)
     area = Area(0, 0, 3, 1, 1, 0)
     for count, colors in ((1, (0.5, 0.5, 0.5)), (2, (1.0, 1.1, 3.0))):
         begun = sampled.next(64)
@@ -167,8 +167,8 @@ def test_gains_by_hand() -> None:
     begun = sampled.next(64)
     assert begun
     assert begun.plan[0, :, 1].tolist() == [2, 2, 4]
-    assert Sampled(3, 1, JITTERED, adaptive=False).next(64) is not None
-    assert AGAIN == 5.0
+    assert PixelStatistics(3, 1, JITTERED, adaptive=False).next(64) is not None
+    assert RESTART_FACTOR == 5.0
 
 
 @pytest.mark.parametrize(

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 import tracer
 from tests.scenes import ball, box, ends, plane, world_of
-from tracer.kernel.best_first import OPEN, put_in, take_out
+from tracer.kernel.best_first import OPEN_RAY, heap_pop, heap_push
 from tracer.scene import Camera, Checker, Light, Material, Object
 from tracer.shapes.plane import Plane
-from tracer.tree.bounds import brightest
+from tracer.tree.bounds import radiance_bound
 
 U = 2.0**-53
 CLEAR = Material("clear", transmit=1.0, ior=1.5)
@@ -120,13 +120,13 @@ def test_rows_come_heaviest_first_with_their_shadows_behind_them() -> None:
 def test_heap_gives_the_heaviest_and_of_equals_the_first() -> None:
     random = np.random.default_rng(2)
     for size in range(1, 40):
-        heap = np.zeros(size, OPEN).view(np.recarray)
+        heap = np.zeros(size, OPEN_RAY).view(np.recarray)
         weights = random.integers(1, 9, size) / 8.0
         for k, weight in enumerate(weights.tolist()):
-            put_in(heap, k, weight, k, 100 + k, k % 3 == 0)
+            heap_push(heap, k, weight, k, 100 + k, k % 3 == 0)
         for left, k in enumerate(np.lexsort((np.arange(size), -weights))):
             assert heap[0].item() == (weights[k], k, 100 + k, k % 3 == 0)
-            take_out(heap, size - 1 - left)
+            heap_pop(heap, size - 1 - left)
 
 
 def test_depth_counts_only_if_it_is_given() -> None:
@@ -180,7 +180,7 @@ def test_the_most_a_ray_can_bring_counts_every_light_and_the_brighter_square() -
     lights = [Light("two", position=(0.0, 9.0, 0.0), color=(0.0, 2.0, 0.0)), Light("one", direction=(0.0, -1.0, 0.0))]
     for sky, most in ((2.0, (0.125 + 3.0 * (0.125 + 0.25)) / 0.5), (3.0, 3.0)):
         world = world_of(ball(material=tiles), lights=lights, ambient=(0.0, 0.5, 0.0), background=(0.0, 0.0, sky))
-        assert brightest(world.scene) == most
+        assert radiance_bound(world.scene) == most
 
 
 def test_furnace_lacks_exactly_what_the_bound_says() -> None:

@@ -12,7 +12,7 @@ import pytest
 
 import tracer
 from tests.scenes import ball, box, world_of
-from tracer.accel.bvh import part_all
+from tracer.accel.bvh import build_nodes
 from tracer.formulas.vector import dot, vector
 from tracer.image.job import COARSE_TO_FINE, Job, passes
 from tracer.image.passes import trace_passes
@@ -153,7 +153,7 @@ def test_one_compiled_kernel_serves_every_scene(worlds: dict[str, tracer.World])
         tracer.trace(world, (3, 3))
         tracer.render(world, (8, 6), samples=2)
     assert len(trace_area.signatures) == 1
-    assert len(part_all.signatures) == 1
+    assert len(build_nodes.signatures) == 1
 
 
 def test_formulas_run_as_plain_python() -> None:

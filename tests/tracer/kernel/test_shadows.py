@@ -8,7 +8,7 @@ import pytest
 
 import tracer
 from tests.scenes import DARK, MATTE, ball, box, ends, kinds, plane, sheet, world_of
-from tracer.kernel.shadows import MOST_CROSSINGS
+from tracer.kernel.shadows import MAX_CROSSINGS
 from tracer.scene import Light, Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.polygon import Polygon
@@ -96,7 +96,7 @@ def test_glass_filters_or_blocks_shadow_rays(shadows: str, share: float, end: st
     assert tree.radiance[0] == pytest.approx(share, rel=4e-16, abs=0.0)
 
 
-@pytest.mark.parametrize("balls", [1, 5, MOST_CROSSINGS // 2, MOST_CROSSINGS // 2 + 1, 40])
+@pytest.mark.parametrize("balls", [1, 5, MAX_CROSSINGS // 2, MAX_CROSSINGS // 2 + 1, 40])
 def test_every_ball_on_the_way_is_crossed_twice(balls: int) -> None:
     kt = [0.9 + 0.002 * k for k in range(balls)]
     glass = [
@@ -129,7 +129,7 @@ def test_occluder_is_the_nearest_opaque_one_behind_any_glass() -> None:
     assert (ends(blocking)[1], blocking.object_name(1), blocking.nodes["t"][1]) == ("blocked", "glass", 2.0)
 
 
-@pytest.mark.parametrize("panes", [0, MOST_CROSSINGS])
+@pytest.mark.parametrize("panes", [0, MAX_CROSSINGS])
 def test_edge_between_two_faces_is_crossed_once(panes: int) -> None:
     """Through the diagonals of a cube's top and bottom, gathered at once and crossing by crossing: two crossings."""
     cube = glass_cube(0.5)
@@ -143,7 +143,7 @@ def test_edge_between_two_faces_is_crossed_once(panes: int) -> None:
     assert tree.nodes["factor"][1].tolist() == [0.25] * 3
 
 
-@pytest.mark.parametrize("panes", [12, MOST_CROSSINGS + 1])
+@pytest.mark.parametrize("panes", [12, MAX_CROSSINGS + 1])
 def test_of_panes_at_one_height_the_files_first_comes_first(panes: int) -> None:
     """Each on its own side of the ray, so that the hierarchy parts them; all at the same t."""
     turn = np.linspace(0.0, 6.0, panes)
@@ -202,7 +202,7 @@ def test_nothing_behind_the_light_shades() -> None:
     assert ends(tree) == ["surface", "lit"]
 
 
-@pytest.mark.parametrize("panes", [0, MOST_CROSSINGS + 1])
+@pytest.mark.parametrize("panes", [0, MAX_CROSSINGS + 1])
 def test_nor_does_what_the_light_lies_in(panes: int) -> None:
     """A pane at its very height is not on the way to it, whether what is on the way is gathered or gone through."""
     clear, dim = Material("clear", transmit=1.0), Material("dim", transmit=0.5)

@@ -15,7 +15,7 @@ from tracer.formulas.vector import Vector, vector
 from tracer.scene import Light, Material, Object, Scene, Shape
 from tracer.shapes.box import Box
 from tracer.shapes.mesh import Geometry, Mesh
-from tracer.shapes.mesh import turn as turn_of
+from tracer.shapes.mesh import rotation_matrix as turn_of
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere

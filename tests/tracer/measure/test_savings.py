@@ -8,7 +8,7 @@ import pytest
 import tracer
 from tests.conftest import LESSONS
 from tests.scenes import DARK, GLASS, MATTE, ball, box, plane, world_of
-from tracer.measure.plan.paired_timing import in_turn
+from tracer.measure.plan.paired_timing import paired
 from tracer.measure.plan.savings import UNNOTICED, Measured, Saving, Shot, measure, tree_rays
 from tracer.measure.plan.with_capability import SAMPLES, WITH, Variant, everything
 from tracer.measure.plan.without_capability import WITHOUT
@@ -164,7 +164,7 @@ def test_turns_are_medians_of_pairs() -> None:
         said.append("b")
         return 3.0
 
-    turns = in_turn(without, with_it, 60.0)
+    turns = paired(without, with_it, 60.0)
     assert (turns.without, turns.extra, turns.ratio, turns.doubt) == (2.0, 1.0, 1.5, 0.0)
     assert "".join(said).startswith("abbaab")
     assert said.count("a") == said.count("b") == turns.pairs

@@ -55,8 +55,8 @@ def test_grazing_ray_that_leaves_outwards_is_gone(
     """Rounding may turn its direction inwards: the side it leaves to is known. Inwards it has its chord, -2 B / A."""
     world = world_of(Object(shape, MIRROR)).arrays
     d = tuple((np.array(along) - inward * np.array(normal)).tolist())
-    assert formulas.again(world, world.surfaces[0], make_ray(start, d, 0, 1.0, 2.0)) == math.inf
-    t = formulas.again(world, world.surfaces[0], make_ray(start, d, 0, -1.0, 2.0))
+    assert formulas.next_hit(world, world.surfaces[0], make_ray(start, d, 0, 1.0, 2.0)) == math.inf
+    t = formulas.next_hit(world, world.surfaces[0], make_ray(start, d, 0, -1.0, 2.0))
     if inward > 8 * U or t < math.inf:
         assert abs(t - chord * inward) <= 16 * U + 4 * inward**2
 
@@ -74,13 +74,13 @@ def test_called_from_python_the_formulas_give_the_bits_of_the_compiled_ones() ->
             ray = make_ray(tuple(row["origin"].tolist()), tuple(row["direction"].tolist()), start, -1.0, 1.0)
             surface = world.arrays.surfaces[0]
             own = (
-                formulas.again(None, surface, ray)
+                formulas.next_hit(None, surface, ray)
                 if row["depth"]
                 else formulas.intersect(None, surface, ray, 0.0, math.inf, True)
             )
             assert own == row["t"] or (own == math.inf and row["end"] == BACKGROUND)
             if own < math.inf:
-                p, n, _ = formulas.locate(None, surface, ray, own)
+                p, n, _ = formulas.interaction(None, surface, ray, own)
                 assert p == tuple(row["point"])
                 assert n == tuple(row["normal"]) or n == tuple(-row["normal"])
                 compared += 1

@@ -256,12 +256,12 @@ def test_ray_that_leaves_a_ball_outwards_does_not_meet_it_again(inward: float) -
     world = world_of(ball()).arrays
     surface = world.surfaces[0]
     out = make_ray((1.0, 0.0, 0.0), (-inward, 1.0, -0.5 * inward), 0, 1.0, 1.0)
-    assert sphere.again(world, surface, out) == math.inf
+    assert sphere.next_hit(world, surface, out) == math.inf
     within = make_ray((1.0, 0.0, 0.0), (-inward, 1.0, -0.5 * inward), 0, -1.0, 1.0)
-    assert sphere.again(world, surface, within) == 2.0 * inward
+    assert sphere.next_hit(world, surface, within) == 2.0 * inward
     # And one that goes in does leave, at once if its direction is turned outward.
     turned = make_ray((1.0, 0.0, 0.0), (inward, 1.0, 0.5 * inward), 0, -1.0, 1.0)
-    assert sphere.again(world, surface, turned) == 5e-324
+    assert sphere.next_hit(world, surface, turned) == 5e-324
 
 
 def test_box_on_a_plane_meets_a_ray_where_the_plane_does() -> None:

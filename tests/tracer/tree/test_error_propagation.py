@@ -15,7 +15,7 @@ from tracer.formulas.vector import vector
 from tracer.kernel.nodes import SHADOW
 from tracer.rays import Ray, make_ray
 from tracer.scene import Light, Material, Object
-from tracer.shapes import intersect, locate, turning
+from tracer.shapes import interaction, intersect, normal_derivative
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.sphere import Sphere
 
@@ -175,11 +175,11 @@ def test_normal_turns_as_its_neighbours_differ(kind: str) -> None:
         ray = ray_along(start, 0.1 * way - start)
         t = intersect(world, surface, ray, 0.0, math.inf, True)
         if t < math.inf:
-            p, n, _ = (np.array(v) for v in locate(world, surface, ray, t))
+            p, n, _ = (np.array(v) for v in interaction(world, surface, ray, t))
             v = 1e-5 * np.cross(n, random.normal(size=3))
-            before, behind = (locate(world, surface, ray_along(p + w + n, -n), 1.0)[2] for w in (-v, v))
+            before, behind = (interaction(world, surface, ray_along(p + w + n, -n), 1.0)[2] for w in (-v, v))
             differ = 0.5 * np.subtract(behind, before)
-            found = np.array(turning(world, surface, vector(p.tolist()), vector(v.tolist())))
+            found = np.array(normal_derivative(world, surface, vector(p.tolist()), vector(v.tolist())))
             assert np.linalg.norm(found - differ) <= 1e-6 * np.linalg.norm(v)
             compared += 1
     assert compared > 5

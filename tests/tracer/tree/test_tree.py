@@ -13,7 +13,7 @@ import tracer
 from tests.conftest import LESSONS
 from tests.scenes import MIRROR, plane, world_of
 from tracer.kernel.nodes import ENDS, KINDS
-from tracer.tree.text import WHY, heaviest_rows, outline
+from tracer.tree.text import END_REASONS, heaviest_rows, tree_text
 from viewer.figures.writers.csv import write_csv
 from viewer.figures.writers.dot import write_dot
 
@@ -121,13 +121,13 @@ def test_dot_has_a_node_and_an_edge_a_ray(tree: tracer.RayTree) -> None:
 
 
 def test_text_draws_a_line_a_ray_below_its_parent(tree: tracer.RayTree) -> None:
-    lines = outline(tree).splitlines()[4:]
+    lines = tree_text(tree).splitlines()[4:]
     assert len(lines) == len(tree)
     order = list(tree.walk())
     assert sorted(order) == list(range(len(tree)))
     for i, line in zip(order, lines, strict=True):
         assert f"{i} {'shadow to' if tree.kind(i) == 'shadow' else tree.kind(i)}" in line
-        assert ("the surface faces away" if tree.faces_away(i) else WHY[tree.end(i)]) in line
+        assert ("the surface faces away" if tree.faces_away(i) else END_REASONS[tree.end(i)]) in line
         assert (tree.object_name(i) or "") in line
     assert all(len(line) <= 160 for line in lines)
     for place, i in enumerate(order[1:], start=1):

@@ -11,7 +11,7 @@ from imgui_bundle import imgui
 import tracer
 from tests.viewer.driver import Driver, viewer
 from tests.viewer.panels.test_panels import window
-from tracer.image.converge import Reached
+from tracer.image.converge import RoundStats
 from viewer.base.colormap import RANGES, colored, strip
 from viewer.base.pictures import srgb
 from viewer.panels import error, menu
@@ -223,11 +223,11 @@ def test_the_button_and_the_choice_of_a_way(room: Driver) -> None:
 
 
 def test_forecast_of_a_power() -> None:
-    points = [Reached(t, 1, 1.0, 1, 1, 0.3 * t**-0.75) for t in (0.5, 1.0, 2.0, 4.0)]
+    points = [RoundStats(t, 1, 1.0, 1, 1, 0.3 * t**-0.75) for t in (0.5, 1.0, 2.0, 4.0)]
     assert forecast(points, 1.0) == pytest.approx(0.3 * 5.0**-0.75, rel=1e-12)
     assert math.isnan(forecast(points[:1], 1.0))
     assert math.isnan(forecast([], 1.0))
-    risen = [Reached(t, 1, 1.0, 1, 1, 0.1 * t) for t in (1.0, 2.0)]
+    risen = [RoundStats(t, 1, 1.0, 1, 1, 0.1 * t) for t in (1.0, 2.0)]
     assert forecast(risen, 1.0) == 0.2  # nothing says that it will rise on
 
 

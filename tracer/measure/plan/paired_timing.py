@@ -14,7 +14,7 @@ FEWEST, MOST = 3, 25  # pairs
 
 
 @dataclass(frozen=True)
-class Turns:
+class PairedTimes:
     """Seconds, medians."""
 
     without: float
@@ -33,7 +33,7 @@ class Turns:
         return abs(self.extra) > self.doubt
 
 
-def in_turn(without: Callable[[], float], with_it: Callable[[], float], budget: float) -> Turns:
+def paired(without: Callable[[], float], with_it: Callable[[], float], budget: float) -> PairedTimes:
     """Run both in turn, the first one first in every other pair, for some `budget` seconds. Each tells its seconds."""
     began = time.perf_counter()
     first: list[float] = []
@@ -46,17 +46,17 @@ def in_turn(without: Callable[[], float], with_it: Callable[[], float], budget: 
         first.append(a)
         more.append(b - a)
     low, middle, high = statistics.quantiles(more, n=4)
-    return Turns(statistics.median(first), middle, 0.5 * (high - low), len(first))
+    return PairedTimes(statistics.median(first), middle, 0.5 * (high - low), len(first))
 
 
-def work(act: Callable[[], object]) -> float:
+def cpu_seconds(act: Callable[[], object]) -> float:
     """Seconds of processor time: what other programs take meanwhile is none of it."""
     began = time.process_time()
     act()
     return time.process_time() - began
 
 
-def wait(act: Callable[[], object]) -> float:
+def wall_seconds(act: Callable[[], object]) -> float:
     """Seconds by the clock: where something else than this processor works, too."""
     began = time.perf_counter()
     act()

@@ -18,7 +18,7 @@ from tracer.kernel.limits import make_limits
 from tracer.kernel.nodes import KINDS
 from tracer.kernel.world import World, prepare
 from tracer.measure.plan.imports import import_seconds
-from tracer.measure.plan.paired_timing import Turns, in_turn, work
+from tracer.measure.plan.paired_timing import PairedTimes, cpu_seconds, paired
 from tracer.measure.plan.with_capability import WITH, Variant, depth_of, everything
 from tracer.measure.plan.without_capability import WITHOUT
 
@@ -39,7 +39,7 @@ class Saving:
 
     need: Need
     how: str  # what was compared; or why nothing was
-    turns: Turns | None = None
+    turns: PairedTimes | None = None
     rays: tuple[int, int] | None = None  # without it, with it
     size: Size | None = None  # of the image
     changed: int = 0  # pixels that have another colour with it
@@ -72,7 +72,7 @@ class Shot:
 
     def work(self, size: Size) -> float:
         """Seconds of processor time that it takes."""
-        return work(lambda: self(size))
+        return cpu_seconds(lambda: self(size))
 
 
 def measure(world: World, progress: Progress = lambda share: None) -> Measured:
@@ -93,7 +93,7 @@ def line(need: Need, own: Shot, size: Size) -> Saving:
     """What one capability is worth to a scene."""
     if need.name == "mesh library":
         _, loading = import_seconds(["trimesh"])
-        return Saving(need, "import trimesh", Turns(0.0, loading, 0.0, 1))
+        return Saving(need, "import trimesh", PairedTimes(0.0, loading, 0.0, 1))
     if need.name == "light from behind":
         return unlit(need, own, size)
     make = (WITHOUT if need.needed else WITH)[need.name]
@@ -107,7 +107,7 @@ def compared(need: Need, own: Shot, variant: Variant, size: Size) -> Saving:
     without, with_it = (other, own) if need.needed else (own, other)
     first, second = without(size), with_it(size)
     changed = np.abs(first.pixels - second.pixels).max(axis=2) > UNNOTICED
-    turns = in_turn(lambda: without.work(size), lambda: with_it.work(size), BUDGET)
+    turns = paired(lambda: without.work(size), lambda: with_it.work(size), BUDGET)
     rays = (sum(first.rays.values()), sum(second.rays.values()))
     return Saving(need, variant.how, turns, rays, size, int(changed.sum()))
 
@@ -127,7 +127,7 @@ def unlit(need: Need, own: Shot, size: Size) -> Saving:
         return Saving(need, "no shadow ray whose time could be taken", None, count, size)
     black = tuple(replace(light, color=(0.0, 0.0, 0.0)) for light in scene.lights)
     doubled = Shot(prepare(replace(scene, lights=scene.lights + black)), own.variant, own.depth)
-    turns = in_turn(lambda: own.work(size), lambda: doubled.work(size), BUDGET)
+    turns = paired(lambda: own.work(size), lambda: doubled.work(size), BUDGET)
     share = skipped / (doubled(size).rays["shadow"] - rays["shadow"])
     turns = replace(turns, extra=share * turns.extra, doubt=share * turns.doubt)
     return Saving(need, "every light from every hit (estimated)", turns, count, size, 0, True)

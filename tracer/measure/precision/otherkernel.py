@@ -12,14 +12,14 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from tracer.compile.jit import cache_folder, keep_in
+from tracer.compile.jit import cache_folder, cache_in
 from tracer.image.render import Image, render
 from tracer.kernel.entry import trace_area
 from tracer.kernel.world import prepare
 from tracer.measure.precision.plain import use
 from tracer.measure.precision.precision import repeated
 from tracer.scene import Scene
-from tracer.tree.error_propagation import estimate_errors
+from tracer.tree.error_propagation import propagate_rows
 
 
 def images(kind: str, scene: Scene, size: tuple[int, int], depths: Sequence[int]) -> list[tuple[Image, float]]:
@@ -38,8 +38,8 @@ def images(kind: str, scene: Scene, size: tuple[int, int], depths: Sequence[int]
 
 def main(kind: str, given: str, size: str, depths: str, found: str) -> None:
     use(kind)
-    for entry in (trace_area, estimate_errors):
-        keep_in(entry, cache_folder() / kind)
+    for entry in (trace_area, propagate_rows):
+        cache_in(entry, cache_folder() / kind)
     world = prepare(pickle.loads(Path(given).read_bytes()))
     width, height = map(int, size.split("x"))
     made = [repeated(lambda d=int(depth): render(world, (width, height), depth=d)) for depth in depths.split(",")]

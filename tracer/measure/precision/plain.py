@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from tracer import shapes
-from tracer.compile.jit import compiled
+from tracer.compile.jit import inlined
 from tracer.formulas import camera
 from tracer.formulas.vector import Vector, add, dot, scale, subtract, unit, vector
 from tracer.kernel import closest_hit, entry, interface, scatter, trace
@@ -26,12 +26,12 @@ KINDS = ("double", "single")
 FLAT = (plane_shape, polygon, triangle)
 
 
-@compiled
+@inlined
 def double_of(x: float) -> Any:
     return np.float64(x)
 
 
-@compiled
+@inlined
 def single_of(x: float) -> Any:
     return np.float32(x)
 
@@ -39,27 +39,27 @@ def single_of(x: float) -> Any:
 def use(kind: str) -> None:
     """Put these formulas where kernels will look them up; nothing must be compiled yet."""
     of = {"double": double_of, "single": single_of}[kind]
-    sphere.intersect, sphere.locate = _sphere(of), _on_sphere(of)
+    sphere.intersect, sphere.interaction = _sphere(of), _on_sphere(of)
     distance = _plane(of)
     for flat in FLAT:
         vars(flat)["plane_distance"] = distance
-    plane_shape.locate = polygon.locate = planar.locate = _on_plane(of)
-    box.locate = _on_box(of)
+    plane_shape.interaction = polygon.interaction = planar.interaction = _on_plane(of)
+    box.interaction = _on_box(of)
     scatter.mirrored = trace.mirrored = _mirrored(of)
     scatter.sine = trace.sine = _sine(of)
     if kind == "single":
         _round_the_rest()
     closest_hit.intersect = shapes._fold("intersect", shapes._no_intersect, shapes._link_intersect)
-    closest_hit.again = shapes._fold("again", shapes._no_again, shapes._link_again)
-    interface.locate = trace.locate = error_propagation.locate = shapes._fold(
-        "locate", shapes._no_locate, shapes._link_locate
+    closest_hit.next_hit = shapes._fold("next_hit", shapes._no_next_hit, shapes._link_next_hit)
+    interface.interaction = trace.interaction = error_propagation.interaction = shapes._fold(
+        "interaction", shapes._no_interaction, shapes._link_interaction
     )
 
 
 def _sphere(of: Callable[[float], Any]) -> Callable[..., float]:
     triple = _triple(of)
 
-    @compiled
+    @inlined
     def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
         d, r = triple(ray.direction), of(surface.r)
         f = subtract(triple(ray.origin), triple(vector(surface.a)))
@@ -79,7 +79,7 @@ def _sphere(of: Callable[[float], Any]) -> Callable[..., float]:
 def _on_sphere(of: Callable[[float], Any]) -> Callable[..., tuple[Vector, Vector, Vector]]:
     triple, wide = _triple(of), _triple(double_of)
 
-    @compiled
+    @inlined
     def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
         p = add(triple(ray.origin), scale(of(t), triple(ray.direction)))
         n = scale(of(1.0) / of(surface.r), subtract(p, triple(vector(surface.a))))
@@ -91,7 +91,7 @@ def _on_sphere(of: Callable[[float], Any]) -> Callable[..., tuple[Vector, Vector
 def _plane(of: Callable[[float], Any]) -> Callable[..., float]:
     triple = _triple(of)
 
-    @compiled
+    @inlined
     def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
         n = triple(vector(surface.normal))
         t = np.float64(dot(n, subtract(triple(vector(surface.a)), triple(ray.origin))) / dot(n, triple(ray.direction)))
@@ -103,7 +103,7 @@ def _plane(of: Callable[[float], Any]) -> Callable[..., float]:
 def _on_plane(of: Callable[[float], Any]) -> Callable[..., tuple[Vector, Vector, Vector]]:
     triple, wide = _triple(of), _triple(double_of)
 
-    @compiled
+    @inlined
     def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
         n = wide(triple(vector(surface.normal)))
         return (wide(add(triple(ray.origin), scale(of(t), triple(ray.direction)))), n, n)
@@ -114,7 +114,7 @@ def _on_plane(of: Callable[[float], Any]) -> Callable[..., tuple[Vector, Vector,
 def _on_box(of: Callable[[float], Any]) -> Callable[..., tuple[Vector, Vector, Vector]]:
     triple, wide = _triple(of), _triple(double_of)
 
-    @compiled
+    @inlined
     def locate(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
         p = add(triple(ray.origin), scale(of(t), triple(ray.direction)))
         low, high = triple(vector(surface.a)), triple(vector(surface.b))
@@ -133,7 +133,7 @@ def _on_box(of: Callable[[float], Any]) -> Callable[..., tuple[Vector, Vector, V
 def _mirrored(of: Callable[[float], Any]) -> Callable[[Vector, Vector], Vector]:
     triple, wide = _triple(of), _triple(double_of)
 
-    @compiled
+    @inlined
     def mirrored(v: Vector, n: Vector) -> Vector:
         a, b = triple(v), triple(n)
         return wide(triple(unit(subtract(a, scale(of(2.0) * dot(b, a), b)))))
@@ -144,7 +144,7 @@ def _mirrored(of: Callable[[float], Any]) -> Callable[[Vector, Vector], Vector]:
 def _sine(of: Callable[[float], Any]) -> Callable[[Vector, Vector], float]:
     triple = _triple(of)
 
-    @compiled
+    @inlined
     def sine(v: Vector, n: Vector) -> float:
         c1 = dot(triple(v), triple(n))
         return np.float64(of(math.sqrt(max(of(0.0), of(1.0) - c1 * c1))))
@@ -153,7 +153,7 @@ def _sine(of: Callable[[float], Any]) -> Callable[[Vector, Vector], float]:
 
 
 def _triple(of: Callable[[float], Any]) -> Callable[[Any], Any]:
-    @compiled
+    @inlined
     def triple(a: Any) -> Any:
         return (of(a[0]), of(a[1]), of(a[2]))
 
@@ -164,15 +164,15 @@ def _round_the_rest() -> None:
     """Whatever is left in double precision gives numbers of single precision."""
     for shape in shapes.SHAPES:
         own: Any = shape
-        own.intersect, own.again = _rounded(own.intersect), _rounded_again(own.again)
-        own.locate = _rounded_place(own.locate)
+        own.intersect, own.next_hit = _rounded(own.intersect), _rounded_again(own.next_hit)
+        own.interaction = _rounded_place(own.interaction)
     # `look_ahead` asks the camera's, too.
     camera.pixel_direction = entry.pixel_direction = _rounded_direction(camera.pixel_direction)  # type: ignore[attr-defined]
     scatter.transmission = trace.transmission = _rounded_way(scatter.transmission)
 
 
 def _rounded(intersect: Any) -> Any:
-    @compiled
+    @inlined
     def rounded(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
         t = np.float64(np.float32(intersect(world, surface, ray, floor, ceiling, exactly)))
         return t if t >= floor else math.inf  # what has been met is not met again
@@ -181,7 +181,7 @@ def _rounded(intersect: Any) -> Any:
 
 
 def _rounded_again(again: Any) -> Any:
-    @compiled
+    @inlined
     def rounded(world: Any, surface: Any, ray: Ray) -> float:
         return np.float64(np.float32(again(world, surface, ray)))
 
@@ -191,7 +191,7 @@ def _rounded_again(again: Any) -> Any:
 def _rounded_place(locate: Any) -> Any:
     narrow, wide = _triple(single_of), _triple(double_of)
 
-    @compiled
+    @inlined
     def rounded(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
         p, n, shading_n = locate(world, surface, ray, t)
         return (wide(narrow(p)), wide(narrow(n)), wide(narrow(shading_n)))
@@ -202,7 +202,7 @@ def _rounded_place(locate: Any) -> Any:
 def _rounded_direction(direction: Any) -> Any:
     narrow, wide = _triple(single_of), _triple(double_of)
 
-    @compiled
+    @inlined
     def rounded(view: Any, x: float, y: float) -> Vector:
         return wide(narrow(direction(view, x, y)))
 
@@ -212,7 +212,7 @@ def _rounded_direction(direction: Any) -> Any:
 def _rounded_way(transmission: Any) -> Any:
     narrow, wide = _triple(single_of), _triple(double_of)
 
-    @compiled
+    @inlined
     def rounded(v: Vector, n: Vector, n1: float, n2: float, c1: float, c2: float) -> Vector:
         return wide(narrow(transmission(v, n, n1, n2, c1, c2)))
 

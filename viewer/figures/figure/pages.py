@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
-from tracer.tree.text import triple
+from tracer.tree.text import rgb_text
 from viewer.base.orbit import Orbit
 from viewer.base.theme import LIGHT, Theme
 from viewer.figures.figure import tree
@@ -124,7 +124,7 @@ def description(tree: RayTree) -> str:
     counts = [(kinds.count(kind), words) for kind, words in KINDS]
     made_of = ", ".join(f"{count} {words}" for count, words in counts if count)
     rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
-    return f"{rays}: {made_of}. The pixel's colour is {triple(tree.radiance)} (linear r g b)."
+    return f"{rays}: {made_of}. The pixel's colour is {rgb_text(tree.radiance)} (linear r g b)."
 
 
 KINDS = (

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import tracer
-from tracer.formulas.vector import tame, unit
+from tracer.formulas.vector import rescale, unit
 from tracer.kernel.world import World
 from tracer.scene import Background, Camera, Checker, Image, Light, Material, Object, Scene, Tracing
 from tracer.shapes.box import Box
@@ -81,7 +81,7 @@ def _side(item: Object, eye: np.ndarray) -> float:
     """On which side of a flat object an eye is: the sign."""
     match item.shape:
         case Plane(point=point, normal=normal) | Disc(center=point, normal=normal):
-            n = np.array(unit(tame(normal)))
+            n = np.array(unit(rescale(normal)))
         case Polygon(vertices=corners) | Triangle(vertices=corners):
             point, n = corners[0], unit_normal(np.array(corners, float))
         case _:

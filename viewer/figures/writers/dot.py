@@ -2,7 +2,7 @@
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
-from tracer.tree.text import number, triple, why
+from tracer.tree.text import end_reason, number_text, rgb_text
 
 
 def write_dot(tree: RayTree) -> str:
@@ -15,14 +15,14 @@ def write_dot(tree: RayTree) -> str:
     for i in range(len(tree)):
         row = tree.nodes[i]
         met = tree.object_name(i) or tree.end(i) or ""
-        label = f"{met}\n{triple(row['radiance'])}"
+        label = f"{met}\n{rgb_text(row['radiance'])}"
         style = "dashed" if row["kind"] == SHADOW else "solid"
         if row["kind"] == SHADOW:
-            label = f"{tree.light_name(i)}\n{why(tree, i)}" + (
+            label = f"{tree.light_name(i)}\n{end_reason(tree, i)}" + (
                 f" by {met}" if tree.end(i) == "blocked" and not tree.faces_away(i) else ""
             )
         parent = "eye" if row["parent"] < 0 else f"n{row['parent']}"
-        factor = "" if row["parent"] < 0 or row["kind"] == SHADOW else f" × {number(row['factor'].max())}"
+        factor = "" if row["parent"] < 0 or row["kind"] == SHADOW else f" × {number_text(row['factor'].max())}"
         lines.append(f"  n{i} [label={_quoted(label)}];")
         lines.append(f"  {parent} -> n{i} [label={_quoted(tree.kind(i) + factor)}, style={style}];")
     return "\n".join([*lines, "}"]) + "\n"
