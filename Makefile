@@ -24,7 +24,7 @@ run: .venv/installed
 
 test: .venv/installed-dev
 	@sh .ci/system-packages '$(PROGRAMS)' '$(LIBRARIES)'
-	$(BIN)/python -c 'from tracer.image.render import fill_cache; fill_cache()'
+	$(BIN)/python -c 'from tracer.image.warmup import fill_cache; fill_cache()'
 	$(BIN)/python -m pytest -q $(SIDE_BY_SIDE)
 
 # With the tests that need an office program and TeX, which take hundreds of megabytes, and those that compile more kernels.
@@ -58,7 +58,7 @@ picture: .venv/installed
 
 # The gallery of figures: docs/figures.md with its pictures.
 gallery: .venv/installed
-	$(BIN)/python -m viewer.figures.gallery docs
+	$(BIN)/python -m docs.gallery docs
 
 .venv/installed: pyproject.toml
 	@test -n "$(PYTHON)" || { echo "raytree needs Python 3.11 or later: no python3 of that version was found"; exit 1; }

@@ -17,8 +17,10 @@ from benchmarks.plot import as_svg, has_library
 from benchmarks.report import as_json, as_markdown, read_json
 from benchmarks.task import Options, Task
 from viewer.base.files import Unusable, write_atomically
+from viewer.base.options import parser_of
 from viewer.base.progress import Progress
-from viewer.cli.main import Parser, at_least
+from viewer.base.values import whole
+from viewer.cli.main import Parser
 
 PARTS: dict[str, Callable[[Options], list[Task]]] = {
     "povray": against_povray.times,
@@ -75,7 +77,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def make_parser() -> argparse.ArgumentParser:
     parser = Parser("python -m benchmarks", description="How fast it is, beside other programs.")
     parser.add_argument("parts", nargs="*", type=part, metavar="PART", help=f"of {', '.join(PARTS)}; all")
-    parser.add_argument("--runs", type=at_least(1), default=5, metavar="N", help="of everything, in turn (5)")
+    parser.add_argument("--runs", type=parser_of(whole(1)), default=5, metavar="N", help="of everything, in turn (5)")
     parser.add_argument("--scenes", type=Path, metavar="FOLDER", help="with NAME.nff and NAME.pov or pov/NAME.pov, too")
     parser.add_argument("--output", type=Path, default=Path("out"), metavar="FOLDER", help="for what is written (out)")
     parser.add_argument(

@@ -14,7 +14,7 @@ import numpy as np
 import tracer
 from benchmarks.figure import Figure, Spread
 from benchmarks.task import Options, Task
-from tracer.formulas.sampler import SOBOL
+from tracer.choices import SOBOL
 from tracer.image.converge import ConvergingImage
 from tracer.image.render import processors
 from tracer.kernel.limits import make_limits
@@ -56,7 +56,7 @@ def to_each(world: tracer.World, goals: Sequence[float], true: np.ndarray) -> li
     before = (math.inf, 0.0, 0.0)
     with ThreadPoolExecutor(threads) as pool:
         for reached in made.rounds(pool, threads):
-            now = (rmse(made.sampled.means(), true), float(reached.rays), reached.seconds)
+            now = (rmse(made.statistics.means(), true), float(reached.rays), reached.seconds)
             while ahead and now[0] <= ahead[0]:
                 goal = ahead.pop(0)
                 share = math.log(before[0] / goal) / math.log(before[0] / now[0]) if before[0] < math.inf else 1.0

@@ -9,9 +9,8 @@ import tracer
 from tracer.compile.jit import kernel
 from tracer.formulas.vector import unit, vector
 from tracer.kernel.closest_hit import closest
-from tracer.kernel.entry import Workspace
+from tracer.kernel.workspace import Workspace
 from tracer.rays import make_ray
-from tracer.tree.raytree import words
 
 
 @kernel
@@ -29,13 +28,13 @@ class Searcher:
 
     def __init__(self, world: tracer.World) -> None:
         self.world = world
-        self.workspace = Workspace(words(world))
+        self.workspace = Workspace(world.solids_around((0.0, 0.0, 0.0)))
 
     def hits(self, rays: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
         """The surfaces met. The first call may compile."""
         origins, directions = (np.ascontiguousarray(part, np.float64) for part in rays)
         surfaces = np.zeros(len(origins), np.int64)
-        search_all(self.world.arrays, origins, directions, self.workspace.bundle, surfaces)
+        search_all(self.world.arrays, origins, directions, self.workspace.space, surfaces)
         return surfaces
 
     def rate(self, rays: tuple[np.ndarray, np.ndarray]) -> float:

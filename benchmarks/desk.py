@@ -36,6 +36,7 @@ class Desk(App):
         super().__init__(Window("raytree", SIZE), Session())
         self.took: list[float] = []
         self.enough: Callable[[], bool] = lambda: False
+        self.over = False
         self.session.open(scene)
         self.settle()
 
@@ -43,12 +44,14 @@ class Desk(App):
         began = time.perf_counter()
         super().frame()
         self.took.append(time.perf_counter() - began)
-        self.session.wants_quit = self.enough()
+        self.over = self.enough()
+
+    def is_over(self) -> bool:
+        return self.over
 
     def watch(self, enough: Callable[[], bool]) -> list[float]:
         """Run until there is enough; the seconds of each frame."""
-        self.took, self.enough = [], enough
-        self.session.wants_quit = False
+        self.took, self.enough, self.over = [], enough, False
         self.run()
         return self.took
 
@@ -89,7 +92,7 @@ class Desk(App):
         def leave() -> None:
             look()
             over.set()
-            self.session.wants_quit = True
+            self.over = True
             self.surface.wake()
 
         timers = [threading.Timer(SETTLED, look), threading.Timer(SETTLED + IDLE, leave)]

@@ -12,7 +12,7 @@ from pathlib import Path
 import tracer
 from benchmarks.figure import in_turn
 from tests import povray
-from tracer.image.render import warm
+from tracer.image.warmup import warm_up
 from tracer.scene import Scene
 
 THREADS = 2
@@ -31,7 +31,7 @@ class Race:
 
     def times(self, runs: int) -> tuple[list[float], list[float]]:
         """(ours, theirs) in seconds, run by run."""
-        warm()
+        warm_up()
         world = tracer.prepare(self.scene)
         with tempfile.TemporaryDirectory() as folder:
             ours, theirs = in_turn(

@@ -13,7 +13,12 @@ import numpy as np
 from mpmath import mp, mpf
 
 from tracer.scene import Shape
-from tracer.scene.scene import Box, Mesh, Plane, Polygon, Sphere, Triangle
+from tracer.shapes.box import Box
+from tracer.shapes.mesh import Mesh
+from tracer.shapes.plane import Plane
+from tracer.shapes.polygon import Polygon
+from tracer.shapes.sphere import Sphere
+from tracer.shapes.triangle import Triangle
 
 mp.dps = 50
 

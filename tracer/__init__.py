@@ -1,18 +1,16 @@
-"""The tracer: a scene in, the tree of rays behind a pixel out.
+"""The tracer: from a scene to the ray tree behind a pixel, and to images.
 
     scene = tracer.load("scene.toml")
     world = tracer.prepare(scene)
     tree = tracer.trace(world, pixel=(320, 240), depth=3)
     image = tracer.render(world, size=(640, 480), threads=2)
 
-There is one kernel: the image is that kernel run for every pixel, a click is that kernel run once with its table kept.
+There is one kernel. An image is that kernel run for every pixel, of which the colour is kept. A click is that kernel
+run once, of which the table of rays is kept.
+
+The names above are listed in `__init__.pyi`, and imported when they are first used.
 """
 
-from tracer import optics
-from tracer.formats import load
-from tracer.image.render import Image, render
-from tracer.kernel.world import World, prepare
-from tracer.scene import Scene, SceneError
-from tracer.tree.raytree import RayTree, trace
+import lazy_loader
 
-__all__ = ["Image", "RayTree", "Scene", "SceneError", "World", "load", "optics", "prepare", "render", "trace"]
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,7 +1,7 @@
-"""What a field of a scene may hold, written once beside the field: it reads, checks and explains itself.
+"""Rules for the fields of a scene, each written once, beside the field: they read, check and explain its values.
 
-A field of a scene's dataclass carries `metadata=number(above=0)` and the like. The rule turns what an author wrote
-into what the tracer wants, or says what is allowed: `radius must be > 0, got -1`.
+A field of a scene's dataclass carries `metadata=number(above=0)` or the like. The rule turns what the author wrote
+into what the tracer uses, or says what is allowed: `radius must be > 0, got -1`.
 """
 
 import difflib
@@ -10,16 +10,16 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
 from typing import Any
 
-LARGEST = 1e150  # of a coordinate: its square must still be a number
-LEAST = 1e-150  # of what must be above 0: its square must not vanish
+LARGEST = 1e150  # limit of a coordinate: its square must not overflow
+LEAST = 1e-150  # limit of numbers that must be above 0: their squares must not underflow
 
 
 class Refused(Exception):
-    """A value that is not allowed; the text says what is."""
+    """A value that is not allowed. The text says what is."""
 
 
 def rule(read: Callable[[Any], Any]) -> Mapping[str, Callable[[Any], Any]]:
-    """The metadata of a field that is read by `read`."""
+    """The metadata of a field that `read` converts and checks."""
     return {"read": read}
 
 
@@ -51,7 +51,7 @@ def number(
 
 
 def whole(least: int, most: int) -> Mapping[str, Callable[[Any], Any]]:
-    """A whole number in a range."""
+    """An integer in a range."""
 
     def read(value: Any) -> int:
         if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
@@ -106,7 +106,7 @@ def direction() -> Mapping[str, Callable[[Any], Any]]:
 
 
 def color() -> Mapping[str, Callable[[Any], Any]]:
-    """Linear RGB, each >= 0."""
+    """Linear RGB, each component >= 0."""
 
     def read(value: Any) -> tuple[float, ...]:
         rgb = _three(value, "three numbers [r, g, b]")
@@ -148,13 +148,13 @@ def one_of(allowed: Iterable[str]) -> str:
 
 
 def nearest(name: Any, known: Iterable[str]) -> str:
-    """' (did you mean "radius"?)' where one of the known names is close."""
+    """A hint like ' (did you mean "radius"?)' if one of the known names is similar, else nothing."""
     close = difflib.get_close_matches(str(name), list(known), n=1)
     return f' (did you mean "{close[0]}"?)' if close else ""
 
 
 def shown(value: Any) -> str:
-    """A value as the author wrote it, cut where it is long."""
+    """A value as the author wrote it, shortened if it is long."""
     match value:
         case bool():
             written = "true" if value else "false"
@@ -181,9 +181,9 @@ def ruled(kind: type) -> dict[str, Field[Any]]:
 
 
 def read_fields(kind: type, table: Mapping[str, Any], faults: list[str], also: Iterable[str] = ()) -> dict[str, Any]:
-    """The values for `kind` in a table of a file; every key unknown, missing or not allowed adds a line to `faults`.
+    """The values for a dataclass from a table of a file. Adds a line to `faults` for each unknown, missing or bad key.
 
-    `also`: keys that the caller reads itself.
+    `also` names keys that the caller reads itself.
     """
     rules = ruled(kind)
     known = [*rules, *also]
@@ -208,7 +208,7 @@ def _same(value: Any, default: Any) -> bool:
 
 
 def value_faults(thing: Any) -> list[str]:
-    """The faults of a dataclass written in Python: the same rules as for a file."""
+    """The faults of a dataclass that was made in Python, by the same rules as for a file."""
     faults = []
     for name, field in ruled(type(thing)).items():
         value = getattr(thing, name)

@@ -1,40 +1,44 @@
-"""A ray on its way through the scene, with what every surface test needs of it worked out once.
+"""A ray, with all that several surface tests need of it, computed once.
 
-The shear (Woop, Benthin & Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013) turns space so that the ray
-runs along one axis: a point of the scene becomes two numbers, and it lies left or right of the ray by their signs.
-A corner gets the same two numbers from whichever face asks, so faces that share an edge leave no gap.
+The shear (Woop, Benthin & Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013) maps space so that the ray
+runs along one axis through (0, 0). Two numbers are left of each point, and their signs say on which side of the ray
+it lies. A corner gets the same two numbers for every face it belongs to, so faces that share an edge leave no gap.
 """
 
 from typing import Any, NamedTuple
 
 from tracer.compile.jit import inlined
+from tracer.compile.rows import Numbers
 from tracer.formulas.vector import Vector
 
 
 class Ray(NamedTuple):
+    """A ray, in the world's frame and unit of length."""
+
     origin: Vector
-    direction: Vector  # a unit vector
-    inverse: Vector  # 1/direction, component by component; infinite where that is 0
-    axis: int  # the direction's largest component
-    across: int  # the next one, in the order x, y, z, x
-    up: int  # and the one after that
-    turned: Vector  # the origin in the order of these three
-    shear: tuple[float, float]  # the two others over the largest
-    reach: float  # the scale of the origin's rounding errors: |x| + |y| + |z| of what it was computed from
-    start: int  # the surface it leaves (its `coincident`), -1 for a ray from the eye
-    side: float  # +1.0: it leaves to the side its start's normal points to, -1.0: to the other
+    direction: Vector  # unit vector
+    inverse: Vector  # 1/direction by component; infinite where that is 0
+    axis: int  # index of the direction's largest component
+    across: int  # the next axis, in the order x, y, z, x
+    up: int  # the axis after that
+    permuted_origin: Vector  # the origin's coordinates in the order of these three axes
+    shear: tuple[float, float]  # the two other components of the direction over the largest
+    magnitude: float  # scale of the origin's rounding errors: |x| + |y| + |z| of what it was computed from
+    start: int  # id of the surface it leaves (its `coincident`), -1 for a ray from the eye
+    side: float  # +1.0: it leaves on the side that the surface's normal points to; -1.0: on the other
 
 
 @inlined
-def make_ray(origin: Vector, direction: Vector, start: int, side: float, reach: float) -> Ray:
+def make_ray(origin: Vector, direction: Vector, start: int, side: float, magnitude: float) -> Ray:
+    """The ray with all its derived fields; `direction` is a unit vector."""
     x, y, z = abs(direction[0]), abs(direction[1]), abs(direction[2])
     inverse = (1.0 / direction[0], 1.0 / direction[1], 1.0 / direction[2])
-    # Choices between numbers at hand, no branches: which axis it is cannot be foreseen.
+    # Selects instead of branches: which axis it is cannot be predicted.
     along_x, along_y = x >= y and x >= z, y >= z
     axis = 0 if along_x else (1 if along_y else 2)
     across, up = select_axis(along_x, along_y, (1, 2, 0)), select_axis(along_x, along_y, (2, 0, 1))
     o, d = origin, direction
-    turned = (
+    permuted = (
         select_axis(along_x, along_y, (o[0], o[1], o[2])),
         select_axis(along_x, along_y, (o[1], o[2], o[0])),
         select_axis(along_x, along_y, (o[2], o[0], o[1])),
@@ -44,18 +48,19 @@ def make_ray(origin: Vector, direction: Vector, start: int, side: float, reach: 
         select_axis(along_x, along_y, (d[1], d[2], d[0])) * most,
         select_axis(along_x, along_y, (d[2], d[0], d[1])) * most,
     )
-    return Ray(origin, direction, inverse, axis, across, up, turned, shear, reach, start, side)
+    return Ray(origin, direction, inverse, axis, across, up, permuted, shear, magnitude, start, side)
 
 
 @inlined
 def select_axis(along_x: bool, along_y: bool, numbers: Any) -> Any:
+    """One of three numbers: the first for x, the second for y, the third for z."""
     other = numbers[1] if along_y else numbers[2]
     return numbers[0] if along_x else other
 
 
 @inlined
-def sheared(ray: Ray, point: Any) -> tuple[float, float]:
-    """Where a point, a row of three, lies beside the ray, which itself is at (0, 0)."""
-    along = point[ray.axis] - ray.turned[0]
-    across, up = point[ray.across] - ray.turned[1], point[ray.up] - ray.turned[2]
+def sheared(ray: Ray, point: Numbers) -> tuple[float, float]:
+    """Coordinates of a point (a row of three) in the sheared frame, in which the ray is at (0, 0)."""
+    along = point[ray.axis] - ray.permuted_origin[0]
+    across, up = point[ray.across] - ray.permuted_origin[1], point[ray.up] - ray.permuted_origin[2]
     return (across - ray.shear[0] * along, up - ray.shear[1] * along)

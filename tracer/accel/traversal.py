@@ -1,15 +1,16 @@
-"""A ray's way through the hierarchy: the one walk of both questions, what is nearest and what is in the way.
+"""Traversal of the bounding volume hierarchy, for closest-hit and for any-hit searches.
 
-A box is entered where the latest of the three entries between its planes comes before the earliest exit (Kay & Kajiya,
-"Ray Tracing Complex Scenes", SIGGRAPH 1986), here for eight boxes at once.
+The slab test (Kay & Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986) for the eight boxes of a node at once: a
+ray hits a box if the last of the planes by which it enters comes before the first by which it leaves.
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
-from tracer.accel.bvh import BLOCK_CHILD, CHILD_KINDS, NODE_CHILD
+from tracer.accel.rows import BLOCK_CHILD, CHILD_KINDS, NODE_CHILD, BlockRow, NodeRow, StackRow
 from tracer.compile.intrinsics import as_unsigned, prefetch
 from tracer.compile.jit import compiled, inlined
+from tracer.compile.rows import Numbers, Rows
 from tracer.compile.simd import (
     WIDTH,
     broadcast,
@@ -23,76 +24,115 @@ from tracer.compile.simd import (
 from tracer.formulas.double_double import U
 from tracer.formulas.vector import Vector, scale
 from tracer.rays import Ray
+from tracer.shapes.surface_row import ShapeArrays
 from tracer.shapes.triangle import candidate_mask
 
-STOP = -1.0  # as how far to look: nothing more
+STOP = -1.0  # a search limit that ends the search
 
 # Three roundings on either side of the comparison, each at most 2^-53 of its value (pbr-book 4ed, 6.1.2 and 6.8.2).
 ROUND_UP = 1.0 + 8 * U
 
 
+class HierarchyArrays(ShapeArrays, Protocol):
+    """What a traversal reads of the world."""
+
+    @property
+    def unboxed(self) -> Numbers:
+        """Ids of the surfaces outside the hierarchy, which are tested against every ray."""
+        ...
+
+    @property
+    def nodes(self) -> Rows[NodeRow]: ...
+    @property
+    def blocks(self) -> Rows[BlockRow]: ...
+    @property
+    def inverse_unit(self) -> Numbers:
+        """(1,): one over the hierarchy's unit of length."""
+        ...
+
+
+class SearchSpace(Protocol):
+    """What a traversal writes."""
+
+    @property
+    def stack(self) -> Rows[StackRow]: ...
+    @property
+    def near(self) -> Numbers:
+        """(8,): where the ray enters the boxes of a node."""
+        ...
+
+    @property
+    def tests(self) -> Numbers:
+        """(1,): tests of a ray against a surface."""
+        ...
+
+
 class BoxRay(NamedTuple):
-    """A ray as boxes see it, in the hierarchy's unit."""
+    """What the slab test needs of a ray, in the hierarchy's unit of length."""
 
     origin: Vector
     inverse: Vector
-    outward: Vector  # the inverse, a little larger: what is left later is not left too early
-    entry: tuple[int, int, int]  # which of a node's planes the ray meets first along x, y, z; its exit is the other one
+    inverse_up: Vector  # `inverse` times ROUND_UP, for the exits: rounding never ends a box too early
+    entry: tuple[int, int, int]  # index of the plane by which the ray enters along x, y, z; its exit is `entry` ^ 1
 
 
 @inlined
 def make_box_ray(ray: Ray, inverse_unit: float) -> BoxRay:
+    """The box ray of a ray."""
     x, y, z = ray.inverse
-    # and not the direction: it may be -0, its inverse is then -inf
+    # By the sign of the inverse: the direction may be -0, whose inverse is -inf.
     entry = (1 if x < 0.0 else 0, 3 if y < 0.0 else 2, 5 if z < 0.0 else 4)
     return BoxRay(scale(inverse_unit, ray.origin), ray.inverse, scale(ROUND_UP, ray.inverse), entry)
 
 
 @inlined
-def hit_boxes(planes: Any, way: BoxRay, limit: float) -> tuple[int, Any]:
-    """(which boxes are entered no farther than the limit, bit by bit; where, 0 from inside).
+def hit_boxes(planes: Numbers, ray: BoxRay, limit: float) -> tuple[int, Any]:
+    """(bit mask of the boxes that the ray enters before the limit, distances of entry; 0 from inside).
 
-    A 0 * inf sets no limit: no number is larger or smaller than it.
+    0 * inf is NaN, which compares as neither larger nor smaller, and so sets no limit.
     """
-    o, inverse, outward, (x, y, z) = way.origin, way.inverse, way.outward, way.entry
+    o, inverse, inverse_up, (x, y, z) = ray.origin, ray.inverse, ray.inverse_up, ray.entry
     near = lanes_max(
         lanes_max((load_lanes(planes[x]) - o[0]) * inverse[0], (load_lanes(planes[y]) - o[1]) * inverse[1]),
         lanes_max((load_lanes(planes[z]) - o[2]) * inverse[2], broadcast(0.0)),
     )
     far = lanes_min(
-        lanes_min((load_lanes(planes[x ^ 1]) - o[0]) * outward[0], (load_lanes(planes[y ^ 1]) - o[1]) * outward[1]),
-        lanes_min((load_lanes(planes[z ^ 1]) - o[2]) * outward[2], broadcast(limit)),
+        lanes_min(
+            (load_lanes(planes[x ^ 1]) - o[0]) * inverse_up[0], (load_lanes(planes[y ^ 1]) - o[1]) * inverse_up[1]
+        ),
+        lanes_min((load_lanes(planes[z ^ 1]) - o[2]) * inverse_up[2], broadcast(limit)),
     )
     return (mask_less_equal(near, far), near)
 
 
 def make_traversal(visit: Callable[..., Any], nearest_first: bool) -> Callable[..., Any]:
-    """A search that shows `visit` the surfaces that may lie on a ray's way.
+    """A search over all surfaces that a ray may hit.
 
-    `visit(world, s, ray, asked, known, space)` gives what is known after surface s; its first number is how far to look
-    on, and NO_FARTHER ends the search.
+    `visit(world, s, ray, query, found, space)` tests surface s and returns the updated `found`. Its first number is the
+    distance beyond which nothing is searched; STOP ends the search. `query` is passed through. `nearest_first` visits
+    nearer boxes earlier, as a closest-hit search wants.
     """
 
     @compiled
-    def walk(world: Any, ray: Ray, asked: Any, known: Any, space: Any) -> Any:
+    def traverse(world: HierarchyArrays, ray: Ray, query: Any, found: Any, space: SearchSpace) -> Any:
         for k in range(len(world.unboxed)):
-            known = visit(world, world.unboxed[as_unsigned(k)], ray, asked, known, space)
-            if known[0] < 0.0:
-                return known
+            found = visit(world, world.unboxed[as_unsigned(k)], ray, query, found, space)
+            if found[0] < 0.0:
+                return found
         if len(world.nodes) == 0:
-            return known
+            return found
         stack, depth = space.stack, 0
         inverse_unit = world.inverse_unit[0]
-        way = make_box_ray(ray, inverse_unit)
-        child = NODE_CHILD  # and number 0: the first node
+        box_ray = make_box_ray(ray, inverse_unit)
+        child = NODE_CHILD  # the root: its index is 0
         while True:
             kind, number = child % CHILD_KINDS, child // CHILD_KINDS
             if kind == NODE_CHILD:
                 node = world.nodes[as_unsigned(number)]
-                met, near = hit_boxes(node.planes, way, ROUND_UP * (inverse_unit * known[0]))
-                others = met & (met - 1)
-                if met != 0 and others & (others - 1) == 0:  # one or two: the most frequent, without a loop or a sort
-                    first, second = as_unsigned(lowest_bit(met)), as_unsigned(lowest_bit(others | 128))
+                hit, near = hit_boxes(node.planes, box_ray, ROUND_UP * (inverse_unit * found[0]))
+                others = hit & (hit - 1)
+                if hit != 0 and others & (others - 1) == 0:  # one or two boxes, the usual case: no loop, no sorting
+                    first, second = as_unsigned(lowest_bit(hit)), as_unsigned(lowest_bit(others | 128))
                     child, other = node.child[first], node.child[second]
                     if others != 0:
                         if nearest_first:
@@ -107,9 +147,9 @@ def make_traversal(visit: Callable[..., Any], nearest_first: bool) -> Callable[.
                 if nearest_first:
                     store_lanes(near, space.near)
                 base = depth
-                while met != 0:
-                    k = lowest_bit(met)
-                    met &= met - 1
+                while hit != 0:
+                    k = lowest_bit(hit)
+                    hit &= hit - 1
                     prefetch_child(world, node.child[as_unsigned(k)])
                     if nearest_first:
                         push_sorted(stack, base, depth, node.child[as_unsigned(k)], space.near[as_unsigned(k)])
@@ -119,31 +159,28 @@ def make_traversal(visit: Callable[..., Any], nearest_first: bool) -> Callable[.
             else:
                 if kind == BLOCK_CHILD:
                     space.tests[0] += WIDTH
-                met = candidate_mask(world.blocks[as_unsigned(number)], ray, inverse_unit) if kind == BLOCK_CHILD else 1
-                while met != 0:
-                    s = (
-                        world.blocks[as_unsigned(number)].surface[as_unsigned(lowest_bit(met))]
-                        if kind == BLOCK_CHILD
-                        else number
-                    )
-                    met &= met - 1
-                    known = visit(world, s, ray, asked, known, space)
-                    if known[0] < 0.0:
-                        return known
+                is_block = kind == BLOCK_CHILD
+                hit = candidate_mask(world.blocks[as_unsigned(number)], ray, inverse_unit) if is_block else 1
+                while hit != 0:
+                    s = world.blocks[as_unsigned(number)].surface[as_unsigned(lowest_bit(hit))] if is_block else number
+                    hit &= hit - 1
+                    found = visit(world, s, ray, query, found, space)
+                    if found[0] < 0.0:
+                        return found
             if nearest_first:
-                while depth > 0 and stack[as_unsigned(depth - 1)].near > ROUND_UP * (inverse_unit * known[0]):
+                while depth > 0 and stack[as_unsigned(depth - 1)].near > ROUND_UP * (inverse_unit * found[0]):
                     depth -= 1
             if depth == 0:
-                return known
+                return found
             depth -= 1
             child = stack[as_unsigned(depth)].child
 
-    return walk
+    return traverse
 
 
 @inlined
-def prefetch_child(world: Any, child: int) -> None:
-    """What is laid onto the stack waits there; a mesh's boxes and triangles are seldom in the processor's cache."""
+def prefetch_child(world: HierarchyArrays, child: int) -> None:
+    """Prefetch a child that was pushed onto the stack: nodes and blocks of a mesh are seldom in the cache."""
     if child % CHILD_KINDS == NODE_CHILD:
         prefetch(world.nodes, child // CHILD_KINDS)
     else:
@@ -151,8 +188,8 @@ def prefetch_child(world: Any, child: int) -> None:
 
 
 @inlined
-def push_sorted(stack: Any, base: int, depth: int, child: int, near: float) -> None:
-    """Lay something onto the stack, below what is nearer and above `base`."""
+def push_sorted(stack: Rows[StackRow], base: int, depth: int, child: int, near: float) -> None:
+    """Push a child onto the stack, sorted among the entries from `base` on: the nearest is on top."""
     k = depth
     while k > base and stack[as_unsigned(k - 1)].near < near:
         here, below = stack[as_unsigned(k)], stack[as_unsigned(k - 1)]

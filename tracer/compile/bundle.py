@@ -1,15 +1,20 @@
 """A NamedTuple of arrays that kernels take by one pointer.
 
-Numba hands a tuple of arrays from function to function as seven words an array, which costs more than a ray: a kernel
-calling its parts with the whole world ran four times slower. A Bundle is one address, of a table with each array's
-address and shape. Kernels read `world.surfaces[k]` as ever; they can write to it only where it is made `writable`.
+Numba passes a tuple of arrays from function to function as seven words an array, which costs more than tracing a
+ray: a kernel that passed the whole world to its functions ran four times slower. A Bundle is one address: of a table
+with the address and the shape of each array. Kernels read `world.surfaces[k]` as usual, and write only if it is
+`writable`.
 
-Kernels are compiled for the shapes of rows (three coordinates), so that strides are constants; where they differ from
-scene to scene the field is named in `ragged`, for no scene is to be waited for.
+Kernels are compiled for fixed shapes of rows (three coordinates), so that strides are constants. A field whose rows
+differ in shape from scene to scene is named in `ragged`; else each such scene would wait for a compilation.
+
+A field may also be a NamedTuple of functions: `world.formulas.intersect(...)` calls the function directly, since the
+type of the Bundle says which one it is.
 """
 
+from collections.abc import Callable
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 from llvmlite import ir
@@ -20,17 +25,24 @@ from numba.core.typing.templates import AttributeTemplate
 from numba.extending import NativeValue, infer_getattr, lower_getattr_generic, register_model, typeof_impl, unbox
 from numba.np.numpy_support import from_dtype
 
+T = TypeVar("T", bound=tuple)
+
+
+def bundle(fields: T, writable: bool = False, ragged: tuple[str, ...] = ()) -> T:
+    """A Bundle of these fields. It has their names and types, so the type checker takes it for the NamedTuple."""
+    return cast(T, Bundle(fields, writable, ragged))
+
 
 @cache
 def array_type(dtype: np.dtype, dimensions: int, writable: bool) -> types.Array:
-    """Numba's name for it. Found once: that takes a tenth of a millisecond, and every click makes a Bundle."""
+    """Numba's type of an array. Cached: looking it up takes 0.1 ms, and every click makes a Bundle."""
     return types.Array(from_dtype(dtype), dimensions, "C", readonly=not writable)
 
 
 class Bundle:
-    """The arrays of a NamedTuple (C-contiguous) and its numbers (whole, or true and false), for Python as they were."""
+    """The fields of a NamedTuple for kernels: C-contiguous arrays, integers, booleans, tables of functions."""
 
-    def __init__(self, fields: NamedTuple, writable: bool = False, ragged: tuple[str, ...] = ()) -> None:
+    def __init__(self, fields: Any, writable: bool, ragged: tuple[str, ...]) -> None:
         self._fields = fields
         self._options = (writable, ragged)
         table: list[int] = []
@@ -43,6 +55,8 @@ class Bundle:
                 tail = (None,) * (value.ndim - 1) if name in ragged else value.shape[1:]
                 entries.append(FieldLayout(name, kind, len(table), tail))
                 table += [value.ctypes.data, *value.shape]
+            elif isinstance(value, tuple):
+                entries.append(FieldLayout(name, FunctionTableType(value), len(table), ()))
             else:
                 entries.append(
                     FieldLayout(name, types.boolean if isinstance(value, bool) else types.int64, len(table), ())
@@ -53,17 +67,17 @@ class Bundle:
         self.numba_type = bundle_type(tuple(entries))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """In another process it has other addresses: it is made anew, of what it was made of."""
+        """Pickle the fields. In another process their addresses differ, so the table is made anew."""
         return (_rebuilt, (self._fields, *self._options))
 
     def __getattr__(self, name: str) -> Any:
         value = getattr(self._fields, name)
-        # With its fields as attributes, as compiled code has them: so kernels run as plain Python too.
+        # With fields as attributes, as in compiled code, so that kernels also run as plain Python.
         return value.view(np.recarray) if isinstance(value, np.ndarray) and value.dtype.names else value
 
 
-def _rebuilt(fields: NamedTuple, writable: bool, ragged: tuple[str, ...]) -> Bundle:
-    """A Bundle of arrays that came over a wire: they lie at any address, and kernels count on aligned ones."""
+def _rebuilt(fields: Any, writable: bool, ragged: tuple[str, ...]) -> Bundle:
+    """Rebuild a Bundle from unpickled arrays. These may lie at any address, and kernels rely on aligned ones."""
     aligned = {
         name: np.require(a, requirements="A") for name, a in fields._asdict().items() if isinstance(a, np.ndarray)
     }
@@ -71,15 +85,28 @@ def _rebuilt(fields: NamedTuple, writable: bool, ragged: tuple[str, ...]) -> Bun
 
 
 class FieldLayout(NamedTuple):
-    """What a kernel has to know of one field."""
+    """What a kernel knows at compile time of one field."""
 
     name: str
     type: types.Type
-    at: int  # its first word in the table: a number, or an array's address and shape
-    tail: tuple[int | None, ...]  # the shape but for its first number; None: to be read from the table
+    at: int  # index of its first word in the table: a number, or an array's address and shape
+    tail: tuple[int | None, ...]  # the shape without its first number; None: read it from the table
+
+
+class FunctionTableType(types.Opaque):
+    """Numba's type of a NamedTuple of functions. The field `name` tells one table from another."""
+
+    def __init__(self, functions: Any) -> None:
+        self.functions = functions
+        super().__init__(f"FunctionTable({functions.name})")
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        return (FunctionTableType, (self.functions,))
 
 
 class BundleType(types.Type):
+    """Numba's type of a Bundle: the layout of its table."""
+
     def __init__(self, entries: tuple[FieldLayout, ...]) -> None:
         self.entries = entries
         super().__init__(f"Bundle({entries})")
@@ -87,7 +114,7 @@ class BundleType(types.Type):
 
 @cache
 def bundle_type(entries: tuple[FieldLayout, ...]) -> BundleType:
-    """Found once, too: its name has those of all arrays in it."""
+    """Cached, because the type's name contains the types of all its arrays."""
     return BundleType(entries)
 
 
@@ -120,17 +147,32 @@ class _BundleAttributes(AttributeTemplate):
         return next((entry.type for entry in kind.entries if entry.name == attribute), None)
 
 
+@infer_getattr
+class _FunctionTableAttributes(AttributeTemplate):
+    key = FunctionTableType
+
+    def generic_resolve(self, kind: FunctionTableType, attribute: str) -> types.Type:
+        return self.context.resolve_value_type(getattr(kind.functions, attribute))
+
+
+@lower_getattr_generic(FunctionTableType)
+def _function(context: Any, builder: Any, kind: FunctionTableType, table: Any, attribute: str) -> Any:
+    return context.get_dummy_value()  # a call takes the function from the type
+
+
 @lower_getattr_generic(BundleType)
 def _read(context: Any, builder: Any, kind: BundleType, address: Any, attribute: str) -> Any:
-    from numba.np.arrayobj import make_array, populate_array  # loaded only where something is compiled
+    from numba.np.arrayobj import make_array, populate_array  # imported only where something is compiled
 
     entry = next(entry for entry in kind.entries if entry.name == attribute)
+    if isinstance(entry.type, FunctionTableType):
+        return context.get_dummy_value()
     word = ir.IntType(64)
     table = builder.inttoptr(address, word.as_pointer())
 
     def load(index: int) -> Any:
         value = builder.load(cgutils.gep_inbounds(builder, table, index))
-        value.set_metadata("invariant.load", builder.module.add_metadata([]))  # so that loops load it once
+        value.set_metadata("invariant.load", builder.module.add_metadata([]))  # constant: loops load it once
         return value
 
     first = load(entry.at)
@@ -142,7 +184,7 @@ def _read(context: Any, builder: Any, kind: BundleType, address: Any, attribute:
     shape += [load(entry.at + 2 + k) if n is None else word(n) for k, n in enumerate(entry.tail)]
     strides = [word(size)]
     for n in reversed(shape[1:]):
-        strides.insert(0, builder.mul(strides[0], n))  # of constants the compiler makes a constant
+        strides.insert(0, builder.mul(strides[0], n))  # constant where the shape is
     populate_array(
         array,
         data=builder.inttoptr(first, array.data.type),

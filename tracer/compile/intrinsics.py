@@ -1,6 +1,6 @@
-"""What a processor can do and Python has no word for: in Python these functions do the same more slowly, or nothing.
+"""Processor instructions and compiler hints that Python has no syntax for.
 
-Compiled each is an instruction or a remark to the compiler.
+Called from Python, these functions compute the same more slowly, or do nothing.
 """
 
 from typing import Any
@@ -13,14 +13,14 @@ CACHE_LINE = 64  # bytes
 
 
 def data_pointer(context: Any, builder: Any, kind: Any, array: Any) -> Any:
-    """Where an array begins. What that needs of Numba is loaded only where something is compiled."""
+    """Pointer to the first element of an array. Numba's array module is imported only where something is compiled."""
     from numba.np.arrayobj import make_array
 
     return make_array(kind)(context, builder, array).data
 
 
 def noinline() -> None:
-    """As a function's first line: do not copy it into its callers. For what is large and seldom needed."""
+    """As a function's first line: never inline it. For code that is large and rarely executed."""
 
 
 @type_callable(noinline)
@@ -35,9 +35,9 @@ def _lower_noinline(context: Any, builder: Any, signature: Any, arguments: Any) 
 
 
 def as_unsigned(number: int) -> int:
-    """A number that is never negative: as an index it is taken as it is, and not asked whether it counts from the end.
+    """The same number as an unsigned integer. As an index it skips Python's test for negative indices.
 
-    For what waits for it, as a search for its next box does, the question would cost a tenth of the time.
+    In the traversal, which waits for each child index, the test would cost a tenth of the time.
     """
     return number
 
@@ -53,7 +53,7 @@ def _lower_as_unsigned(context: Any, builder: Any, signature: Any, arguments: An
 
 
 def prefetch(rows: Any, number: int) -> None:
-    """This row of an array will be asked for: it can be fetched from memory meanwhile."""
+    """Prefetch a row of an array into the processor's cache."""
 
 
 @type_callable(prefetch)
@@ -72,7 +72,8 @@ def _lower_prefetch(context: Any, builder: Any, signature: Any, arguments: Any) 
         "llvm.prefetch", (byte,), ir.FunctionType(ir.VoidType(), [byte, short, short, short])
     )
     for line in range(0, size, CACHE_LINE):
-        builder.call(prefetch, [builder.gep(row, [word(line)]), short(0), short(3), short(1)])  # to read, to keep, data
+        # arguments: read, keep, data cache
+        builder.call(prefetch, [builder.gep(row, [word(line)]), short(0), short(3), short(1)])
     return context.get_dummy_value()
 
 
@@ -80,10 +81,10 @@ SPLIT = 2.0**27 + 1.0
 
 
 def product_error(a: Any, b: Any, product: Any) -> Any:
-    """a b - product, where product is a b rounded: a float, without an error.
+    """The exact rounding error a b - product, where product is the rounded a b.
 
-    Compiled it is one instruction (IEEE 754, 5.4.1: fusedMultiplyAdd). Python before 3.13 has none: there the factors
-    are split into halves whose products are exact (Dekker, Numerische Mathematik 18, 1971); arrays may be given too.
+    Compiled, this is one fused multiply-add (IEEE 754, 5.4.1). Python has none before 3.13: there the factors are
+    split into halves whose products are exact (Dekker, Numerische Mathematik 18, 1971). Also takes arrays.
     """
     a_high = SPLIT * a - (SPLIT * a - a)
     b_high = SPLIT * b - (SPLIT * b - b)

@@ -1,188 +1,62 @@
-"""How kernels are compiled and where the machine code is kept.
+"""Decorators that compile plain Python with Numba.
 
-`compiled` marks a formula: plain Python when a person calls it, machine code when a kernel does, so there is one
-source of the physics. `kernel` marks an entry point: compiled as a whole, run without the interpreter's lock,
-and kept on disk. Its folder is named by a hash of every source of this package, because Numba itself notices
-a change in the entry point's own file only and would go on using stale code of the files it calls.
+`kernel` marks an entry point: it is compiled at its first call, runs without the interpreter lock, and is cached on
+disk. `inlined` and `compiled` mark functions that kernels call. From Python they stay what they are, so each formula
+exists once, can be tested by itself, and can be stepped through with NUMBA_DISABLE_JIT=1.
 """
 
-import hashlib
-import os
-import shutil
-import tempfile
 from collections.abc import Callable
-from functools import cache
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 import numba
-import platformdirs
-from numba.core.caching import FunctionCache
-from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler
-from numba.core.registry import cpu_target
-from numba.core.runtime.nrt import rtsys
 from numba.extending import register_jitable
+
+from tracer.compile.kernel_cache import cache_folder
+from tracer.compile.numba_private import IR_ONLY, NO_RUNTIME, use_cache_folder
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
 OPTIONS = {
-    "nogil": True,  # tiles run side by side on a thread pool
-    "_nrt": False,
-    "error_model": "numpy",  # x/0 is inf, as IEEE 754 says, and costs no branch
+    "nogil": True,  # tiles are traced by several threads at once
+    "error_model": "numpy",  # x/0 is inf, as in IEEE 754, and costs no branch
+    **NO_RUNTIME,
 }
-
-MAX_OLD_CACHES = 3  # folders of earlier versions that stay, so that switching between two checkouts stays quick
-
-
-class NoEnvironment:
-    @staticmethod
-    def set_env(name: str, environment: object) -> None:
-        """What Python's exceptions in machine code would need: there is none to raise them."""
-
-
-class IrLibrary(JITCodeLibrary):
-    """The code of a function that only kernels call: it becomes part of theirs.
-
-    As LLVM's, for them to link and to optimise; machine code of its own would be for nobody. Numba's way, to optimise
-    and to translate at each of a kernel's levels all that is below it, takes two thirds more time.
-    """
-
-    def _optimize_final_module(self) -> None:
-        """Left to the kernels."""
-
-    def _finalize_final_module(self) -> None:
-        self._finalized = True
-
-    @property
-    def codegen(self) -> Any:
-        """As far as it is asked for by whoever would call machine code: an object that takes its environment."""
-        return NoEnvironment
-
-
-class IrCompiler(Compiler):
-    """Numba's compiler, for functions that only kernels call."""
-
-    def compile_extra(self, func: Any) -> Any:
-        self.state.library = IrLibrary(self.state.targetctx.codegen(), func.__qualname__)
-        return super().compile_extra(func)
 
 
 def inlined(function: Callable[P, R]) -> Callable[P, R]:
-    """Mark a function that kernels may call; from Python it stays what it is."""
-    return register_jitable(forceinline=True, pipeline_class=IrCompiler, **OPTIONS)(function)
+    """Mark a function that kernels call and that is always inlined into its caller."""
+    return register_jitable(forceinline=True, **OPTIONS, **IR_ONLY)(function)
 
 
 def compiled(function: Callable[P, R]) -> Callable[P, R]:
-    return register_jitable(forceinline=False, pipeline_class=IrCompiler, **OPTIONS)(function)
-
-
-class KernelCache(FunctionCache):
-    """The machine code of one kernel on disk.
-
-    To load it Numba first fills its tables of all that it can compile, which takes longer than the loading; nothing is
-    to be compiled, so it has only what machine code itself calls set up.
-    """
-
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        rtsys.initialize(target_context)
-        with self._guard_against_spurious_io_errors():
-            found = self._load_overload(sig, target_context)
-        if found is None:
-            target_context.refresh()
-        return found
+    """Mark a function that kernels call; the optimiser decides whether to inline it."""
+    return register_jitable(forceinline=False, **OPTIONS, **IR_ONLY)(function)
 
 
 def kernel(function: Callable[P, R]) -> Callable[P, R]:
-    """Mark an entry point: compiled at its first call with these types, then loaded from `cache_folder`."""
+    """Mark an entry point: compiled at its first call with these types, later loaded from `cache_folder`."""
     entry: Any = numba.njit(**OPTIONS)(function)
     cache_in(entry, cache_folder())
     return entry
 
 
 def cache_in(entry: Any, folder: Path) -> None:
-    """Where an entry point's machine code is loaded from and left."""
+    """Load and store an entry point's machine code in this folder."""
     if not hasattr(entry, "py_func"):
-        return  # compiling is switched off
-    before = numba.config.CACHE_DIR  # type: ignore[attr-defined]
-    numba.config.CACHE_DIR = str(folder)  # type: ignore[attr-defined]
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        entry._cache = KernelCache(entry.py_func)
-    finally:
-        numba.config.CACHE_DIR = before  # type: ignore[attr-defined]
+        return  # compilation is switched off
+    folder.mkdir(parents=True, exist_ok=True)
+    use_cache_folder(entry, folder)
 
 
 def is_compiled(entry: Any) -> bool:
-    """Whether this entry point has machine code in this process (always, where compiling is switched off)."""
+    """Whether this process has machine code of an entry point. True where compilation is switched off."""
     return bool(getattr(entry, "signatures", True))
 
 
 def is_cached(entry: Any) -> bool:
-    """Whether an entry point's machine code is on disk, from an earlier start."""
+    """Whether machine code of an entry point is on disk, from an earlier start."""
     function = getattr(entry, "py_func", entry)
     name = f"{function.__module__.rpartition('.')[2]}.{function.__name__}-*.nbi"
     return any(cache_folder().glob(f"*/{name}"))
-
-
-@cache
-def source_digest() -> str:
-    """Of every source of this package: two with the same one trace the same."""
-    digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.parent.rglob("*.py")):
-        digest.update(source.read_bytes())
-    return digest.hexdigest()[:16]
-
-
-@cache
-def versions() -> dict[str, str]:
-    """What makes the machine code: processes where these are the same trace the same, on one kind of machine."""
-    from importlib.metadata import version
-
-    return {
-        "raytree": f"{version('raytree')}/{source_digest()}",
-        **{name: version(name) for name in ("numba", "llvmlite", "numpy")},
-    }
-
-
-@cache
-def machine() -> dict[str, str]:
-    """What else an image's last bits depend on."""
-    import platform
-
-    code: Any = cpu_target.target_context
-    _, cpu, features = code.codegen().magic_tuple()
-    return {
-        "processor": f"{cpu}/{hashlib.sha256(features.encode()).hexdigest()[:8]}",
-        "C library": " ".join(filter(None, platform.libc_ver())) or platform.platform(),  # has the power of highlights
-    }
-
-
-@cache
-def cache_folder() -> Path:
-    """Where machine code of exactly these sources is kept: the user's cache folder, else a temporary one."""
-    name = f"kernels-{source_digest()}"
-    for parent in (platformdirs.user_cache_path("raytree"), Path(tempfile.gettempdir()) / "raytree"):
-        folder = parent / name
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=folder):
-                pass
-        except OSError:
-            continue
-        os.utime(folder)
-        _remove_old_caches(parent, folder)
-        return folder
-    return Path(tempfile.mkdtemp(prefix="raytree-"))
-
-
-def _remove_old_caches(parent: Path, current: Path) -> None:
-    """Remove the folders of versions not used lately; another process may be doing the same."""
-    try:
-        others = [folder for folder in parent.glob("kernels-*") if folder != current]
-        others.sort(key=lambda folder: folder.stat().st_mtime, reverse=True)
-    except OSError:
-        return
-    for folder in others[MAX_OLD_CACHES:]:
-        shutil.rmtree(folder, ignore_errors=True)

@@ -1,6 +1,6 @@
-"""Eight numbers side by side, on which the processor works at once: boxes are tested by the eight.
+"""SIMD vectors of eight float64. Used to test a ray against the eight child boxes of a BVH node, or eight triangles.
 
-In Python lanes are an array of eight; compiled they are one vector register or two.
+In Python the lanes are an array of eight numbers. Compiled, they are one or two vector registers.
 """
 
 import operator
@@ -34,17 +34,17 @@ class _VectorModel(models.PrimitiveModel):
 
 
 def load_lanes(row: Any) -> Any:
-    """The eight numbers of a row, float32 or float64, as float64."""
+    """Load the eight numbers of a row, float32 or float64, as float64."""
     return np.array(row, np.float64)
 
 
 def broadcast(number: float) -> Any:
-    """One number in every lane."""
+    """The same number in every lane."""
     return np.full(WIDTH, number)
 
 
 def lanes_max(a: Any, b: Any) -> Any:
-    """Lane by lane a where a > b, else b: so b where a is not a number."""
+    """The larger number of each lane: a where a > b, else b. So b where a is NaN."""
     return np.where(a > b, a, b)
 
 
@@ -53,22 +53,22 @@ def lanes_min(a: Any, b: Any) -> Any:
 
 
 def mask_less_equal(a: Any, b: Any) -> int:
-    """In which lanes a <= b: bit k for lane k."""
+    """Bit mask of the lanes in which a <= b: bit k for lane k."""
     return sum(1 << k for k in range(WIDTH) if a[k] <= b[k])
 
 
 def mask_less(a: Any, b: Any) -> int:
-    """In which lanes a < b: bit k for lane k."""
+    """Bit mask of the lanes in which a < b: bit k for lane k."""
     return sum(1 << k for k in range(WIDTH) if a[k] < b[k])
 
 
 def store_lanes(a: Any, row: Any) -> None:
-    """Write the lanes into a row of eight float64."""
+    """Store the lanes into a row of eight float64."""
     row[:] = a
 
 
 def lowest_bit(bits: int) -> int:
-    """The number of the lowest bit that is set; there must be one."""
+    """The index of the lowest bit that is set. At least one must be."""
     return (int(bits) & -int(bits)).bit_length() - 1
 
 

@@ -1,28 +1,37 @@
-"""Files into scenes. A new format is a file beside this one and its line in READERS."""
+"""Files into scenes. A new format: a file beside this one, and a line in READERS.
+
+Importing this package loads no reader.
+"""
+
+from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from pkgutil import resolve_name
+from typing import TYPE_CHECKING
 
-from tracer.formats.meshes import SUFFIXES, read_mesh_scene
-from tracer.formats.nff import SUFFIX, read_nff
-from tracer.formats.toml import read_scene
-from tracer.scene import Scene, SceneError
+if TYPE_CHECKING:
+    from tracer.scene import Scene
 
 Progress = Callable[[float], None]
 
-# Each is told the file and whom to tell the share of it that has been read.
-READERS: dict[str, Callable[[Path, Progress], Scene]] = {
-    ".toml": read_scene,
-    SUFFIX: read_nff,
-    **dict.fromkeys(SUFFIXES, read_mesh_scene),
+MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb")
+
+# The function of each suffix: (path, progress) -> Scene.
+READERS = {
+    ".toml": "tracer.formats.toml:read_scene",
+    ".nff": "tracer.formats.nff:read_nff",
+    **dict.fromkeys(MESH_SUFFIXES, "tracer.formats.meshes:read_mesh_scene"),
 }
 
 
 def load(path: str | Path, progress: Progress = lambda share: None) -> Scene:
-    """The scene in a file, its format told by its name. SceneError: every fault, one line each.
+    """Read the scene in a file. The suffix decides on the format.
 
-    `progress` gets the share that has been read, where the format lets it be known.
+    `progress` is called with the share that has been read, if the format tells. Raises SceneError with every fault.
     """
+    from tracer.scene import SceneError
+
     path = Path(path)
     reader = READERS.get(path.suffix.lower())
     if reader is None:
@@ -30,7 +39,7 @@ def load(path: str | Path, progress: Progress = lambda share: None) -> Scene:
     if path.is_dir():
         raise SceneError([f"{path}: a scene must be a file, got a folder"])
     try:
-        return reader(path, progress)
+        return resolve_name(reader)(path, progress)
     except FileNotFoundError:
         raise SceneError([f"{path}: file not found"]) from None
     except OSError as error:

@@ -15,11 +15,11 @@ from typing import Any
 
 import numpy as np
 
+from tracer.formats import MESH_SUFFIXES
 from tracer.scene import Material, Object, Scene, SceneError
 from tracer.scene.defaults import default_lights, default_surroundings
 from tracer.shapes.mesh import Geometry, Mesh
 
-SUFFIXES = (".obj", ".ply", ".stl", ".glb")
 LARGEST_FILE = 2**30  # bytes
 MOST_FACES = 4_000_000
 
@@ -56,8 +56,8 @@ def read_mesh_scene(path: Path, progress: Callable[[float], None]) -> Scene:
 
 def load_parts(path: Path) -> list[Part]:
     """What is in a mesh file, one part a material."""
-    if path.suffix.lower() not in SUFFIXES:
-        raise MeshError(f"a mesh must be one of {', '.join(SUFFIXES)}, got {path.name}")
+    if path.suffix.lower() not in MESH_SUFFIXES:
+        raise MeshError(f"a mesh must be one of {', '.join(MESH_SUFFIXES)}, got {path.name}")
     if not path.is_file():
         raise MeshError(f"mesh file not found: {path}")
     size = path.stat().st_size

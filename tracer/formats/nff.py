@@ -33,7 +33,6 @@ from tracer.shapes.planar import unit_normal
 from tracer.shapes.polygon import FLATNESS, Polygon
 from tracer.shapes.sphere import Sphere
 
-SUFFIX = ".nff"
 ENTITIES = {
     "v": "the camera", "b": "the background", "l": "a light", "f": "a material",
     "s": "a sphere", "p": "a polygon", "pp": "a patch", "c": "a cone",

@@ -12,8 +12,7 @@ from tracer import fields
 from tracer.formats.meshes import MeshError, load_parts
 from tracer.scene import Background, Camera, Checker, Image, Light, Material, Object, Scene, SceneError, Tracing
 from tracer.scene.scene import place
-from tracer.shapes import SHAPES
-from tracer.shapes import mesh as mesh_shape
+from tracer.shapes import SHAPE_NAMES, SHAPES
 from tracer.shapes.mesh import Mesh
 
 T = TypeVar("T")
@@ -22,7 +21,6 @@ FORMAT = 1
 TABLES = ("camera", "image", "background", "tracing")
 LISTS = ("light", "material", "object")
 KEYS = ("format", "title", *TABLES, *LISTS)
-SHAPE_NAMES = (*(module.NAME for module in SHAPES), mesh_shape.NAME)
 OWN_KEYS = ("name", "priority", "thin")  # of an object, whatever its shape
 OBJECT_KEYS = ("shape", "material", *OWN_KEYS)
 
@@ -150,7 +148,7 @@ class Reader:
     def _material_of(self, where: str, table: dict[str, Any], materials: dict[str, Material | None]) -> Material | None:
         name = table.get("material")
         if name is None:
-            return None if table.get("shape") == mesh_shape.NAME else Material()
+            return None if table.get("shape") == Mesh.name else Material()
         if not isinstance(name, str) or name not in materials:
             hint = fields.nearest(name, materials) or known(materials)
             self.fault(where, f"material must be the name of a [[material]], got {fields.shown(name)}{hint}")
@@ -168,10 +166,10 @@ class Reader:
             self.fault(where, fields.refusal("shape", allowed, name))
             return []
         own = {key: value for key, value in table.items() if key not in OBJECT_KEYS}
-        if name == mesh_shape.NAME:
+        if name == Mesh.name:
             return self._mesh(where, own)
-        module = next(module for module in SHAPES if name == module.NAME)
-        shape = self.table(getattr(module, name.capitalize()), where, own, OBJECT_KEYS)
+        kind = next(shape for shape in SHAPES if shape.name == name)
+        shape = self.table(kind, where, own, OBJECT_KEYS)
         return [] if shape is None else [(shape, "", Material())]
 
     def _mesh(self, where: str, own: dict[str, Any]) -> list[tuple[Any, str, Material]]:

@@ -1,10 +1,10 @@
-"""Numbers as the unevaluated sum of two floats: twice the digits, for what would cancel in one.
+"""Double-double arithmetic: a number as the unevaluated sum of two floats, with twice the digits of one.
 
-A rounding error of a sum or a product is itself a float, and a few operations find it (Knuth, TAOCP 2, 4.2.2; Dekker,
-Numerische Mathematik 18, 1971; Ogita, Rump & Oishi, SIAM J. Sci. Comput. 26(6), 2005). What is kept in pairs here has
-an error of some 2^-104 of the largest number met on the way, so the difference of two large numbers keeps its digits.
+The rounding error of a sum or a product is itself a float, and a few operations compute it (Knuth, TAOCP 2, 4.2.2;
+Dekker, Numerische Mathematik 18, 1971; Ogita, Rump & Oishi, SIAM J. Sci. Comput. 26(6), 2005). Results here are
+within about 2^-104 of the largest intermediate number, so the difference of two large numbers keeps its digits.
 
-From Python these functions take arrays as well.
+From Python, these functions also take arrays.
 """
 
 import math
@@ -13,15 +13,15 @@ from tracer.compile.intrinsics import product_error
 from tracer.compile.jit import inlined
 from tracer.formulas.vector import Vector
 
-U = 2.0**-53  # the unit of rounding: no operation is wrong by more than this times its result
-SMALLEST = 5e-324  # the number after 0
+U = 2.0**-53  # unit roundoff: an operation is off by at most this times its result
+SMALLEST = 5e-324  # the smallest float above 0
 
-DD = tuple[float, float]  # (nearest float, what is missing)
+DD = tuple[float, float]  # (high, low): the nearest float, and the rest
 
 
 @inlined
 def two_sum(a: float, b: float) -> DD:
-    """a + b without an error."""
+    """a + b exactly (Knuth's TwoSum)."""
     total = a + b
     part = total - a
     return (total, (a - (total - part)) + (b - part))
@@ -29,14 +29,14 @@ def two_sum(a: float, b: float) -> DD:
 
 @inlined
 def two_product(a: float, b: float) -> DD:
-    """a b without an error."""
+    """a b exactly."""
     product = a * b
     return (product, product_error(a, b, product))
 
 
 @inlined
 def quick_two_sum(high: float, low: float) -> DD:
-    """The same sum as a pair, for |low| <= |high|."""
+    """high + low exactly, for |low| <= |high| (Dekker's Fast2Sum)."""
     total = high + low
     return (total, low - (total - high))
 
@@ -60,7 +60,7 @@ def dd_multiply(a: DD, b: DD) -> DD:
 
 @inlined
 def dd_divide(a: DD, b: DD) -> float:
-    """a / b as one float."""
+    """a / b, rounded to one float."""
     quotient = a[0] / b[0]
     high, low = two_product(quotient, b[0])
     return quotient + ((a[0] - high) - low + (a[1] - quotient * b[1])) / b[0]
@@ -68,7 +68,7 @@ def dd_divide(a: DD, b: DD) -> float:
 
 @inlined
 def dd_sqrt(a: DD) -> DD:
-    """The square root of a pair >= 0."""
+    """The square root of a >= 0."""
     if a[0] <= 0.0:
         return (0.0, 0.0)
     guess = math.sqrt(a[0])
@@ -81,7 +81,7 @@ DDVector = tuple[DD, DD, DD]
 
 @inlined
 def exact_difference(a: Vector, b: Vector) -> DDVector:
-    """a - b without an error."""
+    """a - b exactly."""
     return (two_sum(a[0], -b[0]), two_sum(a[1], -b[1]), two_sum(a[2], -b[2]))
 
 
@@ -92,8 +92,7 @@ def dd_vector(a: Vector) -> DDVector:
 
 @inlined
 def dd_dot(a: DDVector, b: DDVector) -> DD:
-    """The three products and their sum without an error, but for what is a rounding of a rounding (Ogita, Rump &
-    Oishi, SIAM J. Sci. Comput. 26(6), 2005)."""
+    """The dot product. Products and sums are exact; only terms of second order in the rounding error are rounded."""
     x, y, z = two_product(a[0][0], b[0][0]), two_product(a[1][0], b[1][0]), two_product(a[2][0], b[2][0])
     two = two_sum(x[0], y[0])
     three = two_sum(two[0], z[0])

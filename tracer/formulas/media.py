@@ -1,11 +1,11 @@
-"""The set of solids a ray is in, as bits; which of them decides the index of refraction.
+"""Nested media: the set of solids that a ray is inside of, and which of them decides its index of refraction.
 
-Schmidt & Budge, "Simple Nested Dielectrics in Ray Traced Images", journal of graphics tools 7(2), 2002: where
-transparent solids overlap, the one of highest priority fills the space. The solids are numbered by rank, highest
-priority first and in the file's order among equals, so the lowest bit that is set is the medium.
+Where transparent solids overlap, the one of highest priority fills the space (Schmidt & Budge, "Simple Nested
+Dielectrics in Ray Traced Images", journal of graphics tools 7(2), 2002). The set is a bit mask. Solids are numbered
+by rank: by falling priority, and in the file's order among equals. So the lowest bit set is the medium.
 
-Entering sets a bit and leaving clears it, whatever it was before. So a surface that rounding lets a ray meet twice
-changes nothing the second time, and what changes nothing is no interface.
+Entering a solid sets its bit and leaving clears it, whatever it was before. So if rounding lets a ray meet a surface
+twice, the second time changes nothing; and where the medium does not change, there is no interface.
 """
 
 from typing import Any
@@ -14,7 +14,7 @@ from tracer.compile.jit import inlined
 
 VACUUM = 1.0  # index of refraction of empty space
 
-# Indices for yellow light (589 nm) as tables give them; air, water and glass as on the slide.
+# Indices of refraction for yellow light (589 nm) from tables; those of air, water and glass as on the slide.
 INDICES = {
     "vacuum": 1.0,
     "air": 1.0003,
@@ -32,7 +32,7 @@ INDICES = {
 }
 
 
-WORD = 32  # solids a word of the set holds: half of what fits, so that no shift meets the sign
+WORD = 32  # solids in a word of the mask: half of its bits, so that no shift reaches the sign
 
 
 @inlined
@@ -42,7 +42,7 @@ def contains(solids: Any, rank: int) -> bool:
 
 @inlined
 def set_inside(solids: Any, rank: int, inside: bool) -> None:
-    """Set or clear a solid's bit."""
+    """Set or clear the bit of a solid."""
     bit = 1 << (rank & 31)
     if inside:
         solids[rank >> 5] |= bit
@@ -52,7 +52,7 @@ def set_inside(solids: Any, rank: int, inside: bool) -> None:
 
 @inlined
 def medium(solids: Any) -> int:
-    """Rank of the solid that fills this space, -1 for empty space."""
+    """Rank of the solid that fills the space, -1 for empty space."""
     for k in range(len(solids)):
         word = solids[k]
         if word != 0:

@@ -1,8 +1,8 @@
-"""Local illumination: what a point sends towards the eye by itself, before any ray is followed.
+"""Local illumination: the light that a surface point sends towards the eye by itself, before any ray is followed.
 
-Whitted's model with Phong's highlight (CACM 23(6), 1980; the slides' "Ray Tracing" and "Reflection direction for Phong
-model"): I = ambient ka C + sum over the lights of L (kd C (N.L) + ks (R.V)^p), C the surface's colour there.
-Every light counts only as far as its shadow ray gets through.
+Whitted's model with Phong's highlight (CACM 23(6), 1980; slides "Ray Tracing" and "Reflection direction for Phong
+model"): I = A ka C + sum over the lights of S L (kd C (N.L) + ks (R.V)^p). A is the ambient light, C the surface's
+colour, L a light's colour, S the share of it that its shadow ray lets through.
 """
 
 import math
@@ -16,13 +16,15 @@ from tracer.formulas.vector import Vector, add, dot, multiply, negate, scale, su
 
 @inlined
 def ambient(material: Any, color: Vector, world_ambient: Vector) -> Vector:
-    """ambient * ka * C."""
+    """A ka C."""
     return scale(material.ambient, multiply(world_ambient, color))
 
 
 @inlined
 def phong(material: Any, color: Vector, light: Vector, n: Vector, to_light: Vector, v: Vector) -> Vector:
-    """L (kd C (N.L) + ks (R.V)^p): one unshadowed light's share; `to_light` a unit vector with N.L > 0, v the ray."""
+    """L (kd C (N.L) + ks (R.V)^p): the share of one unshadowed light. `to_light` is a unit vector with N.L > 0, `v` the
+    ray.
+    """
     n_l = dot(n, to_light)
     r = subtract(scale(2.0 * n_l, n), to_light)
     r_v = dot(r, negate(v))
@@ -35,10 +37,10 @@ def phong(material: Any, color: Vector, light: Vector, n: Vector, to_light: Vect
 
 @inlined
 def surface_color(material: Any, surface: Any, point: Vector) -> Vector:
-    """C: the material's colour, or its checker's second one where the squares' indices add up to an odd number.
+    """C: the material's colour, or its checker's colour where the cell indices add up to an odd number.
 
-    Squares lie along the surface's own two axes on planes, polygons and discs (`surface.tiled`), cubes along the
-    world's three axes elsewhere.
+    On planes, polygons and discs (`surface.tiled`) the cells are squares along the surface's own two axes, elsewhere
+    cubes along the axes of the world.
     """
     size = material.checker_size
     if size > 0.0:

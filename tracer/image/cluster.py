@@ -1,10 +1,10 @@
-"""Rendering past one machine: a Dask cluster as an Executor (https://distributed.dask.org).
+"""Rendering on a Dask cluster (https://distributed.dask.org), as an Executor.
 
     with tracer.cluster.connect("tcp://host:8786") as cluster:
         image = tracer.render(world, executor=cluster)
 
-The world is sent once and passed on from worker to worker. It is a call's result, not scattered data, so that the
-scheduler has it made anew where the workers that held it are lost; tiles of a killed worker are traced by another.
+The world is sent once, and workers pass it on. It is the result of a call, not scattered data: if the workers that
+held it are lost, the scheduler repeats the call. Tiles of a killed worker are traced by another.
 """
 
 import asyncio
@@ -17,21 +17,21 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError, Future
 from typing import Any
 
-from tracer.compile.jit import machine, versions
-from tracer.image.job import Mismatch, Remote, Task, difference
-from tracer.image.render import warm
+from tracer.compile.kernel_cache import machine, versions
+from tracer.image.task import Mismatch, Remote, Task, difference
+from tracer.image.warmup import warm_up as warm_up_kernels
 
 CONNECTING = 5  # seconds for the scheduler to answer
 WAITING = 120.0  # seconds for a first worker to appear
 LOOKING = 5.0  # seconds between looks for more workers
 RETRIES = 3  # of a call that failed
 SCHEMES = ("tcp", "tls", "ws", "wss", "ucx")
-LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")  # which Dask sets one by one
-LARGEST = "8 GiB"  # of a world that is sent without Dask's advice to send it otherwise
+LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")  # Dask sets them one by one
+LARGEST = "8 GiB"  # of a world, above which Dask would advise to send it in another way
 
 
 class ClusterError(RuntimeError):
-    """A cluster that cannot be used, or was lost: one line a fault."""
+    """A cluster that cannot be used, or was lost. `faults` has a line for each fault."""
 
     def __init__(self, *faults: str) -> None:
         super().__init__("\n".join(faults))
@@ -54,7 +54,7 @@ class Cluster(Remote):
             return self.client.submit(received, task, pure=False)
 
     def look(self) -> None:
-        """How many threads there are by now."""
+        """Update the number of threads."""
         self.threads = sum(self.client.nthreads().values())
         self.looked = time.monotonic()
 
@@ -65,18 +65,18 @@ class Cluster(Remote):
 
 
 def received(task: Task) -> Task:
-    """On a worker: what it was sent, as a result that it can pass on."""
+    """Runs on a worker: return what was sent, as a result that can be passed on."""
     return task
 
 
 def abandoned() -> bool:
-    """On a worker: ends the call that asks where it was cancelled, for its thread cannot be stopped from outside.
+    """Runs on a worker: end the calling task if it was cancelled. Its thread cannot be stopped from outside.
 
-    By an exception: half a result must not pass as one.
+    It ends by an exception, so that half a result never passes for a whole one. Otherwise returns False.
     """
     import distributed.worker as dask
 
-    state: Any = dask  # which names the call of a thread without listing that in its interface
+    state: Any = dask  # `thread_state` is not part of Dask's documented interface
     task = dask.get_worker().state.tasks.get(state.thread_state.key)
     if task is not None and task.state == "cancelled":
         raise CancelledError
@@ -90,10 +90,11 @@ def connect(
     note: Callable[[str], None] = lambda line: None,
     waiting: float = WAITING,
 ) -> Iterator[Cluster]:
-    """The cluster at a scheduler's address. ClusterError where there is none, or its workers are not as we are.
+    """Connect to the cluster of the scheduler at this address.
 
-    `say` is told what is being done; `note` of what may surprise: that there is no worker yet, that last bits may
-    differ. When the context is left, calls that still run are cancelled.
+    `say` is called with what is being done, `note` with a line on what may surprise: that there is no worker yet,
+    that last bits may differ. Leaving the context cancels calls that still run. ClusterError if there is no cluster,
+    or if its workers have other versions.
     """
     address = checked(address)
     try:
@@ -106,7 +107,7 @@ def connect(
         stack.enter_context(quiet())
         try:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # of Dask's versions; ours are compared below
+                warnings.simplefilter("ignore")  # about Dask's versions; ours are compared below
                 client: Any = Client(address, timeout=CONNECTING, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
             raise ClusterError(f"{address}: no Dask scheduler answers: {_line(error)}") from None
@@ -127,7 +128,7 @@ def connect(
             raise ClusterError(f"{address}: one worker after the other was killed at it: {_line(error)}") from None
         except (CancelledError, asyncio.CancelledError, CommClosedError, TimeoutError) as error:
             raise ClusterError(f"{address}: the scheduler was lost: {_line(error)}") from None
-        except OSError as error:  # of a connection, or of whatever else is done in this context
+        except OSError as error:  # of a connection, or of anything else in this context
             if address not in str(error):
                 raise
             raise ClusterError(f"{address}: the scheduler was lost: {_line(error)}") from None
@@ -135,7 +136,7 @@ def connect(
 
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
-    """What Dask would log comes back as our one line."""
+    """Silence Dask's log: its faults are raised as one line."""
     loggers = [logging.getLogger(name) for name in LOGGERS]
     levels = [logger.level for logger in loggers]
     for logger in loggers:
@@ -155,7 +156,11 @@ def wait_for_worker(client: Any, address: str, waiting: float) -> None:
 
 
 def compare(client: Any) -> list[str]:
-    """Notes on workers whose last bits may differ from ours. ClusterError for workers of other versions."""
+    """Notes on workers whose last bits may differ from ours. ClusterError for workers with other versions.
+
+    A worker with another version of raytree, numba or numpy is refused. A worker with another processor or C library
+    is accepted, with a note.
+    """
     faults: dict[str, list[str]] = {}
     notes: dict[str, list[str]] = {}
     for worker, found in sorted(client.run(described, on_error="return").items()):
@@ -171,19 +176,19 @@ def compare(client: Any) -> list[str]:
 
 
 def described() -> tuple[dict[str, str], dict[str, str]]:
-    """On a worker: what has to be the same there and here, and what had better be."""
+    """Runs on a worker: what must agree with the client, and what should."""
     return versions(), machine()
 
 
 def warm_up(client: Any) -> None:
-    """Let one worker of each machine compile the kernels, for the others there to load."""
+    """Let one worker of each machine compile the kernels; the others there load them."""
     first = {re.sub(r":\d+$", "", worker): worker for worker in client.nthreads()}
     options = {"allow_other_workers": True, "retries": RETRIES, "pure": False}
-    client.gather([client.submit(warm, workers=[worker], **options) for worker in first.values()])
+    client.gather([client.submit(warm_up_kernels, workers=[worker], **options) for worker in first.values()])
 
 
 def checked(address: str) -> str:
-    """With its protocol, tcp where none is given."""
+    """The address with its protocol, tcp by default."""
     found = re.fullmatch(r"(?:(\w+)://)?([^\s/]+:\d+)", address)
     if not found or (found[1] or "tcp") not in SCHEMES:
         raise ClusterError(f'a cluster\'s address must be like tcp://host:8786, got "{address}"')

@@ -1,23 +1,22 @@
-"""The tiles of an image, handed out to a pool of threads or a cluster, pass by pass.
-
-Tiles write disjoint pixels and no sum crosses a tile's border, so an image has the same bits for any number of threads
-and any order of tiles.
-"""
+"""Hands out the tiles of an image to a thread pool or a cluster, pass by pass."""
 
 import threading
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from queue import SimpleQueue
+from typing import Any
 
-from tracer.image.job import Cancelled, Job, Remote, Traced, never, trace_tiles
-from tracer.kernel.entry import Area
+import numpy as np
 
-AHEAD = 2  # calls a thread: one it works on, one that waits
-MOST_TILES = 16  # that another process is sent at a time, for a message costs a millisecond
-MOST_HERE = 8  # and a thread, for a call costs a tenth of that
+from tracer.image.film import Traced
+from tracer.image.task import Cancelled, Remote, Work, never, trace_works
 
-Finished = Callable[[Area, float], None]
+AHEAD = 2  # calls per thread: one that runs, one that waits
+MAX_TILES_REMOTE = 16  # tiles in a call to another process: a message costs a millisecond
+MAX_TILES_HERE = 8  # in a call to a thread, which costs a tenth of that
+
+Finished = Callable[[Traced, float], None]
 
 
 class Stopped(Exception):
@@ -25,32 +24,33 @@ class Stopped(Exception):
 
 
 def trace_passes(
-    job: Job,
-    all_passes: Sequence[Sequence[Area]],
+    task: Any,
+    passes: Sequence[Sequence[Work]],
     executor: Executor,
     threads: int,
-    finished: Finished = lambda area, share: None,
+    finished: Finished,
+    image: np.ndarray | None = None,
     cancelled: Cancelled = never,
 ) -> None:
-    """Trace the tiles of each pass in their order; Stopped where `cancelled` turns true.
+    """Trace the tiles of each pass. Stopped where `cancelled` turns true.
 
-    A pass begins when the one before has ended: a coarse square must not fall onto a finer one. `finished` is told of
-    each tile and of the share done, on this thread.
+    `task` is a Task, or what stands for it (`tracer.image.task.shared`). A pass begins when the one before has
+    ended, since a coarse square must not overwrite finer pixels. `finished` is called in this thread, with each tile
+    and the share done. `image`: where threads of this process write their colours.
     """
     here = isinstance(executor, ThreadPoolExecutor)
-    if not here and len(all_passes) > 1:
+    if not here and len(passes) > 1:
         raise ValueError("several passes need threads of this process: a finer pass leaves the pixels of a coarser one")
-    total = sum(len(areas) for areas in all_passes)
+    total = sum(len(works) for works in passes)
     done = due = 0
-    ended = threading.Event()  # where this thread is interrupted the others are to end, too
-    task = job.shared_with(executor) if isinstance(executor, Remote) else job.task
+    ended = threading.Event()  # if this thread is interrupted, the others stop, too
     if here:
-        ways = (job.pixels, lambda: ended.is_set() or cancelled())
+        options = (image, lambda: ended.is_set() or cancelled())
     else:
-        ways = (None, executor.abandoned if isinstance(executor, Remote) else never)
-    for areas in all_passes:
-        due += len(areas)
-        waiting = deque(shared_out(areas, threads, MOST_HERE if here else MOST_TILES))
+        options = (None, executor.abandoned if isinstance(executor, Remote) else never)
+    for works in passes:
+        due += len(works)
+        waiting = deque(shared_out(works, threads, MAX_TILES_HERE if here else MAX_TILES_REMOTE))
         news: SimpleQueue[Future[list[Traced]]] = SimpleQueue()
         running: set[Future[list[Traced]]] = set()
         try:
@@ -58,8 +58,7 @@ def trace_passes(
                 if isinstance(executor, Remote):
                     threads = max(threads, executor.threads)
                 while waiting and len(running) < AHEAD * threads and not cancelled():
-                    some = waiting.popleft()
-                    future = executor.submit(trace_tiles, task, some, *ways, job.ways_on(some, here))
+                    future = executor.submit(trace_works, task, waiting.popleft(), *options)
                     running.add(future)
                     future.add_done_callback(news.put)
                 if not running:
@@ -67,9 +66,8 @@ def trace_passes(
                 future = news.get()
                 running.remove(future)
                 for traced in future.result():
-                    job.keep(traced)
                     done += 1
-                    finished(traced.area, done / total)
+                    finished(traced, done / total)
         finally:
             if running:
                 ended.set()
@@ -79,11 +77,13 @@ def trace_passes(
             raise Stopped
 
 
-def shared_out(areas: Sequence[Area], threads: int, most: int) -> Iterator[Sequence[Area]]:
-    """The tiles a call is given, fewer and fewer, so that all threads end together (guided self-scheduling:
-    Polychronopoulos & Kuck, IEEE Trans. Computers 36(12), 1987)."""
+def shared_out(works: Sequence[Work], threads: int, most: int) -> Iterator[Sequence[Work]]:
+    """The tiles of each call, fewer and fewer, so that all threads finish together.
+
+    Guided self-scheduling: Polychronopoulos & Kuck, IEEE Trans. Computers 36(12), 1987.
+    """
     first = 0
-    while first < len(areas):
-        count = min(most, -(-(len(areas) - first) // (4 * threads)))
-        yield areas[first : first + count]
+    while first < len(works):
+        count = min(most, -(-(len(works) - first) // (4 * threads)))
+        yield works[first : first + count]
         first += count

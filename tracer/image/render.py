@@ -1,4 +1,4 @@
-"""The image: every pixel's tree, tile by tile on a pool of threads or a cluster, of each tree only the colour kept."""
+"""Renders an image: every pixel's tree, of which only the colour is kept."""
 
 import math
 import os
@@ -11,44 +11,41 @@ from numbers import Real
 
 import numpy as np
 
-from tracer.compile.jit import is_compiled
-from tracer.formulas.sampler import JITTERED, SAMPLERS, SOBOL, make_samples
+from tracer.choices import JITTERED, SAMPLERS, SOBOL
+from tracer.formulas.sampler import make_samples
 from tracer.image.converge import MAX_SAMPLES, ConvergingImage, RoundStats
-from tracer.image.job import SMALL_TILE, TILE, Cancelled, Job, Remote, never, passes
+from tracer.image.film import Film, Traced
 from tracer.image.passes import Stopped, trace_passes
-from tracer.kernel.entry import trace_area
+from tracer.image.task import Cancelled, Remote, Task, Work, never, shared
+from tracer.image.tiles import SIDE, SMALL_SIDE, make_tiles
+from tracer.image.warmup import warm_up
 from tracer.kernel.limits import MAX_NODES, make_limits
 from tracer.kernel.nodes import KINDS
-from tracer.kernel.world import World, prepare
-from tracer.scene import Material, Object, Scene
-from tracer.shapes.sphere import Sphere
-from tracer.tree.bounds import radiance_bound
-from tracer.tree.raytree import checked_size, trace
-
-BALL = Scene((Object(Sphere((0.0, 0.0, -1.0), 0.5), Material()),))  # what kernels are warmed up with
+from tracer.kernel.world import World
+from tracer.scene.radiance_bound import radiance_bound
 
 Progress = Callable[[float], None]
 
 
 @dataclass(eq=False, repr=False)
 class Image:
-    """A finished image and what it took."""
+    """A finished image, and what it took."""
 
     pixels: np.ndarray  # (height, width, 3) float64, linear RGB
-    seconds: dict[str, float]  # compile, trace
-    rays: dict[str, int]  # traced, by kind
+    seconds: dict[str, float]  # of "compile" and "trace"
+    rays: dict[str, int]  # by kind
     tests: int  # of a ray against a surface
-    residual: dict[str, float]  # max, mean over the pixels
+    residual: dict[str, float]  # weight that was cut: "max" of a pixel, "mean" over the pixels
     threads: int
-    size: tuple[int, int]
-    samples: int  # of a pixel; where they differ, the most
-    depth: int | None  # None: no limit but the tolerance
+    size: tuple[int, int]  # width, height
+    samples: int  # of a pixel; the most, where they differ
+    depth: int | None  # None: limited by the tolerance only
     tolerance: float | None
-    bound: float  # no component of a pixel lacks more than this for rays that were cut; infinite: nothing bounds it
-    left_out: list[str]
-    counts: np.ndarray | None = None  # (height, width) samples, where pixels have as many as their error asks for
-    reached: RoundStats | None = None  # and how far they came
-    ended: str = ""  # by what: "error", "seconds", or "samples" where no pixel could have any more
+    bound: float  # no component of a pixel lacks more than this because rays were cut; inf where there is no bound
+    left_out: list[str]  # capabilities that the scene did without
+    counts: np.ndarray | None = None  # (height, width) samples of each pixel, of an image that converged
+    stats: RoundStats | None = None  # how far it converged
+    ended: str = ""  # what ended it: "error", "seconds", or "samples" if no pixel may have more
 
     def __repr__(self) -> str:
         width, height = self.size
@@ -59,7 +56,7 @@ class Image:
 class Goal:
     """When an image that converges is good enough; whichever comes first."""
 
-    error: float | None = None  # estimated: root mean square over pixels and components, linear
+    error: float | None = None  # estimated root mean square over pixels and components, linear light
     seconds: float | None = None
     began: float = field(default_factory=time.perf_counter)
 
@@ -73,10 +70,11 @@ class Goal:
 
     @property
     def is_late(self) -> bool:
+        """Whether the time is up."""
         return self.seconds is not None and time.perf_counter() - self.began >= self.seconds
 
     def share(self, error: float) -> float:
-        """How much is done; an edge's error falls as N^-3/4."""
+        """The share of the work that is done, if the error falls as N^-3/4, like that of an edge."""
         shares = [0.0]
         if self.error is not None and error >= self.error:
             shares.append((self.error / error) ** (4.0 / 3.0))
@@ -103,78 +101,90 @@ def render(
     progress: Progress = lambda share: None,
     cancelled: Cancelled = never,
 ) -> Image:
-    """The scene's image. Size, depth and model are the scene's by default, threads as many as there are processors.
+    """Render the scene's image.
 
-    Tiles go to an `executor` where one is given, `threads` calls at a time: any of `concurrent.futures`, or a cluster
-    (`tracer.image.cluster`). The pixels are the same.
+    `size` (width, height), `depth` and `model` are the scene's by default; `threads` as many as there are
+    processors. With an `executor` (of `concurrent.futures`, or a `tracer.cluster`), the tiles are traced there,
+    `threads` calls at a time. The pixels have the same bits.
 
-    One sample, the default, is the pixel's centre; more are the mean of the sampler's first points: Sobol's, or at
-    random, or jittered, whose number must be a square. `until_error` and `until_seconds` give each pixel as many as its
-    error asks for (`adaptive`), until that error is estimated for the image or so much time has passed, but
-    `samples` of a pixel at most and two at least. With a `tolerance` the rays that a pixel lacks weigh no more than
-    that in sum; the depth counts only if it is given. `progress` gets the finished share, and where `cancelled` turns
-    true, Stopped is raised within a tile's time. ValueError for what can be none of these.
+    One of `samples` is the pixel's centre; of more, the pixel is the mean over the first points of the `sampler`.
+    The number of jittered points must be a square. `until_error` and `until_seconds` give each pixel as many samples
+    as its error asks for, until the image's estimated error is that low or so much time has passed; each gets two at
+    least, and `samples` at most.
+
+    `min_weight` cuts rays whose largest weight is below it. With a `tolerance`, the weights of the rays that a pixel
+    lacks sum up to no more than that; the depth is then limited only if it is given.
+
+    `progress` is called with the share that is done. Where `cancelled` returns true, Stopped is raised within a
+    tile's time. ValueError for a value that is not allowed.
     """
     goal = Goal(until_error, until_seconds)
     points = make_samples(1 if goal else samples or 1, sampler)
-    if goal and points.sampler == JITTERED:
+    if goal and points.sampler.kind == JITTERED:
         raise ValueError("jittered samples cannot be added to: an image that converges needs sobol or random ones")
     if goal and samples is not None and samples < 2:
         raise ValueError(f"samples must be >= 2 in an image that converges, got {samples}")
     elsewhere = isinstance(executor, Remote)
     threads = threads or (executor.threads if elsewhere else processors())
-    compiling = 0.0 if elsewhere else warm()
-    view = world.view(checked_size(size))
+    compiling = 0.0 if elsewhere else warm_up()
+    view = world.view(size)
     limits = make_limits(world, depth, min_weight, tolerance, max_nodes, model, records=False)
     began = time.perf_counter()
     with nullcontext(executor) if executor else ThreadPoolExecutor(threads) as pool:
         if goal:
-            made = ConvergingImage(world, view, limits, points.sampler, most=samples or MAX_SAMPLES)
-            ended = _converge(made, replace(goal, began=began), pool, threads, progress, cancelled)
-            job, pixels, residual, reached = made.job, made.sampled.means(), made.residual(), made.reached
+            image = ConvergingImage(world, view, limits, SAMPLERS.index(sampler), most=samples or MAX_SAMPLES)
+            ended = _converge(image, replace(goal, began=began), pool, threads, progress, cancelled)
+            totals, pixels, residual = image.totals, image.statistics.means(), image.residual()
+            stats, counts = image.stats, image.statistics.counts
         else:
-            job, made, ended, reached = Job(world, view, limits, points), None, "", None
-            tiles = passes(view.width, view.height, side=TILE if tolerance is None else SMALL_TILE)
-            trace_passes(job, tiles, pool, threads, lambda area, share: progress(share), cancelled)
-            pixels, residual = job.pixels, job.residual()
+            film, ended, stats, counts = Film(view.width, view.height), "", None, None
+            task = Task.of(world, view, limits, points.sampler)
+            tiles = make_tiles(view.width, view.height, SIDE if tolerance is None else SMALL_SIDE)
+            works = [Work(tile, points.first, points.first + points.count) for tile in tiles]
+
+            def finished(traced: Traced, share: float) -> None:
+                film.add(traced)
+                progress(share)
+
+            trace_passes(shared(task, pool), [works], pool, threads, finished, film.pixels, cancelled)
+            totals, pixels, residual = film.totals, film.pixels, film.residual()
     return Image(
         pixels=pixels,
         seconds={"compile": compiling, "trace": time.perf_counter() - began},
-        rays={kind: int(n) for kind, n in zip(KINDS, job.rays, strict=True)},
-        tests=job.tests,
+        rays={kind: int(n) for kind, n in zip(KINDS, totals.rays, strict=True)},
+        tests=totals.tests,
         residual=residual,
         threads=threads,
         size=(view.width, view.height),
-        samples=reached.most if reached else points.count,
+        samples=stats.most if stats else points.count,
         depth=limits.depth if depth is not None or tolerance is None else None,
         tolerance=tolerance,
         bound=residual["max"] * radiance_bound(world.scene) if residual["max"] > 0.0 else 0.0,
         left_out=world.left_out,
-        counts=made.sampled.counts if made else None,
-        reached=reached,
+        counts=counts,
+        stats=stats,
         ended=ended,
     )
 
 
 def _converge(
-    made: ConvergingImage, goal: Goal, executor: Executor, threads: int, progress: Progress, cancelled: Cancelled
+    image: ConvergingImage, goal: Goal, executor: Executor, threads: int, progress: Progress, cancelled: Cancelled
 ) -> str:
-    """Round after round up to the goal; by what it ended. Time is up when it is, but every pixel has two samples."""
-
-    def stops() -> bool:
-        return cancelled() or (goal.is_late and made.sampled.counts.min() > 1)
-
+    """Trace rounds until the goal is reached. Returns what ended it. Every pixel gets at least two samples."""
     error = math.nan
 
-    def told(*_: object) -> None:
+    def is_over() -> bool:
+        return cancelled() or (goal.is_late and image.statistics.counts.min() > 1)
+
+    def finished(*_: object) -> None:
         progress(goal.share(error))
 
     try:
-        for reached in made.rounds(executor, threads, told, stops):
-            error = reached.error
-            if goal.error is not None and reached.error <= goal.error:
+        for stats in image.rounds(executor, threads, finished, is_over):
+            error = stats.error
+            if goal.error is not None and stats.error <= goal.error:
                 return "error"
-            if goal.is_late and reached.least > 1:
+            if goal.is_late and stats.least > 1:
                 return "seconds"
     except Stopped:
         if cancelled():
@@ -183,21 +193,6 @@ def _converge(
     return "samples"
 
 
-def warm() -> float:
-    """Get the kernel compiled, or loaded from the cache; the seconds it took, 0 where it was at hand."""
-    if is_compiled(trace_area):
-        return 0.0
-    began = time.perf_counter()
-    trace(prepare(BALL), ray=((0.0, 0.0, 0.0), (0.0, 0.0, -1.0)))
-    return time.perf_counter() - began
-
-
-def fill_cache() -> None:
-    """Compile everything that any scene may need, for later starts to load."""
-    warm()
-    prepare(BALL, hierarchy=True)
-
-
 def processors() -> int:
-    """How many this process may use."""
+    """The number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

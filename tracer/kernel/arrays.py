@@ -1,82 +1,65 @@
-"""The rows of a world's arrays: what kernels know of surfaces, objects, materials and lights."""
+"""The world as kernels see it: rows of surfaces, objects, materials and lights, and the hierarchy over the surfaces."""
 
 from typing import NamedTuple
 
-import numpy as np
+from tracer.accel.rows import BlockRow, NodeRow
+from tracer.compile.rows import Bool, Float, Float3, Int32, Numbers, Row, Rows, dtype_of
+from tracer.kernel.formulas import Formulas
+from tracer.shapes.surface_row import SurfaceRow
 
-SURFACE = np.dtype(
-    [
-        ("a", np.float64, 3),  # a..count: as the shape's file says under "Packed as"
-        ("b", np.float64, 3),
-        ("c", np.float64, 3),
-        ("normal", np.float64, 3),  # unit, of a flat face
-        ("low", np.float64, 3),  # what rounding took from it, times any one number near 1
-        ("r", np.float64),
-        ("first", np.int32),  # of a polygon's corners, -1 for none
-        ("count", np.int32),  # corners of a flat face, 1 for a sphere, 0 for what has none
-        ("form", np.int32),  # which shape, as CODES numbers them
-        ("object", np.int32),
-        (
-            "coincident",
-            np.int32,
-        ),  # the first surface that is curved the very same way in the same place: for most, itself
-        ("smooth", np.int32),  # row of `smooth`, -1 for none
-    ],
-    align=True,
-)
 
-OBJECT = np.dtype(
-    [
-        ("material", np.int32),
-        ("solid", np.int32),  # its rank among the transparent solids, -1 for what bounds no medium
-        ("closed", np.bool_),  # whether this solid has an inside that a point can be tested for
-        ("tiled", np.bool_),  # whether a checker lies along its own two axes
-        ("u", np.float64, 3),
-        ("v", np.float64, 3),
-    ],
-    align=True,
-)
+class ObjectRow(Row):
+    """One object."""
 
-MATERIAL = np.dtype(
-    [
-        ("color", np.float64, 3),
-        ("checker_color", np.float64, 3),
-        ("checker_size", np.float64),  # 0: no checker
-        ("ambient", np.float64),
-        ("diffuse", np.float64),
-        ("specular", np.float64),
-        ("shininess", np.float64),
-        ("reflect", np.float64),
-        ("transmit", np.float64),
-        ("ior", np.float64),
-    ],
-    align=True,
-)
+    material: Int32
+    solid: Int32  # its rank among the transparent solids, -1 if it bounds no medium
+    closed: Bool  # whether the solid has an inside
+    tiled: Bool  # whether its checkers lie along u and v
+    u: Float3
+    v: Float3
 
-LIGHT = np.dtype(
-    [
-        ("position", np.float64, 3),
-        ("towards", np.float64, 3),  # unit, of a light at infinity: from the scene to it
-        ("color", np.float64, 3),
-        ("distant", np.bool_),
-    ],
-    align=True,
-)
+
+class MaterialRow(Row):
+    """One material. Fields are the author's of the same name (`tracer.scene.Material`); `checker_x` is `checker.x`."""
+
+    color: Float3
+    checker_color: Float3
+    checker_size: Float  # 0: no checker
+    ambient: Float
+    diffuse: Float
+    specular: Float
+    shininess: Float
+    reflect: Float
+    transmit: Float
+    ior: Float
+
+
+class LightRow(Row):
+    """One light."""
+
+    position: Float3
+    towards: Float3  # of a light at infinity: unit vector from the scene to it
+    color: Float3
+    distant: Bool
+
+
+OBJECT, MATERIAL, LIGHT = dtype_of(ObjectRow), dtype_of(MaterialRow), dtype_of(LightRow)
 
 
 class Arrays(NamedTuple):
-    """The world as kernels see it. Every scene has the same types, so none has to wait for a compiler."""
+    """All that kernels read. Every scene has the same types, so no scene waits for a compilation."""
 
-    surfaces: np.ndarray
-    corners: np.ndarray  # (n, 3) of polygons
-    smooth: np.ndarray  # (n, 3, 3) vertex normals of smooth faces
-    objects: np.ndarray
-    materials: np.ndarray
-    lights: np.ndarray
-    indices: np.ndarray  # of refraction, by a solid's rank
-    background: np.ndarray
-    ambient: np.ndarray
-    unboxed: np.ndarray  # surfaces that every ray is tested against: those without end, and all where they are few
-    nodes: np.ndarray  # of the hierarchy of boxes over the others
-    blocks: np.ndarray  # of triangles in it
-    inverse_unit: np.ndarray  # (1,) of the hierarchy, one over its unit of length
+    surfaces: Rows[SurfaceRow]
+    corners: Numbers  # (n, 3) of polygons
+    smooth: Numbers  # (n, 3, 3) vertex normals of faces that have them
+    objects: Rows[ObjectRow]
+    materials: Rows[MaterialRow]
+    lights: Rows[LightRow]
+    indices: Numbers  # of refraction, by the rank of a solid
+    background: Numbers
+    ambient: Numbers
+    unboxed: Numbers  # ids of the surfaces tested against every ray: the infinite ones, and all where they are few
+    nodes: Rows[NodeRow]  # of the hierarchy over the other surfaces
+    blocks: Rows[BlockRow]
+    inverse_unit: Numbers  # (1,): one over the hierarchy's unit of length
+    formulas: Formulas

@@ -1,45 +1,39 @@
-"""A tree to a tolerance: the heaviest ray first, until what is left weighs too little in sum.
+"""One pixel's ray tree, best-first, to a tolerance: the heaviest ray next, until the rest weighs too little in sum.
 
-Glass plates double the tree at every face while the weights hardly decay: a limit to the depth or to the weight of a
-single ray cuts off no one knows how much. Here the open rays wait in a heap. Their weights' sum bounds what is missing
-at any moment, and following the heaviest lowers it fastest. Tracing can stop anywhere: the tree is the best so far.
+Between glass plates the tree doubles at every face while the weights hardly decay. A limit on the depth, or on the
+weight of a single ray, then cuts off an unknown amount. Here the rays that are not traced yet are in a priority queue.
+The sum of their weights bounds what is missing, and tracing the heaviest lowers it fastest. Whenever tracing stops, the
+tree is the best so far.
 
-The heap is a binary one (Williams, CACM 7(6), 1964). An open ray takes little room: where it is followed, its parent is
-asked again what it sends out.
+The queue is a binary heap (Williams, CACM 7(6), 1964). An open ray takes little memory: when its turn comes, the hit of
+its parent is scattered again.
 """
 
-from typing import Any
-
-import numpy as np
-
 from tracer.compile.jit import compiled, inlined
+from tracer.compile.rows import Rows
 from tracer.formulas.double_double import dd_add
 from tracer.formulas.vector import max_component, vector
+from tracer.kernel.arrays import Arrays
 from tracer.kernel.limits import Limits
 from tracer.kernel.nodes import NODES, NONE, SURFACE, TOLERANCE
 from tracer.kernel.scatter import cut_reason, scatter, start_child
 from tracer.kernel.trace import accumulate_radiance, direct_light, trace_ray
-
-OPEN_RAY = np.dtype(
-    [
-        ("weight", np.float64),  # its largest component
-        ("number", np.int64),  # of equal ones the first to be created is followed first
-        ("parent", np.int64),
-        ("refracted", np.bool_),
-    ],
-    align=True,
-)
+from tracer.kernel.workspace import OpenRow, Space
 
 
 @compiled
-def trace_best_first(world: Any, limits: Limits, space: Any) -> int:
-    """Rows of the tree whose camera ray stands in row 0, in the order of tracing, each with its shadow rays behind it;
-    -1 where the table is too short for it."""
+def trace_best_first(world: Arrays, limits: Limits, space: Space) -> int:
+    """Trace the tree whose camera ray is row 0. Rows are in order of tracing, each followed by its shadow rays.
+
+    Returns the number of rows, -1 if the table is too short.
+    """
     table, heap = space.table, space.open
     lights = len(world.lights)
     i, count, waiting, created = 0, 1, 0, 0
-    planned = 1 + lights  # rows spoken for, whether an image needs them or not: it is to end where the tree does
-    left = (0.0, 0.0)  # sum of the weights of what is open or cut
+    planned = (
+        1 + lights
+    )  # counts shadow rays that an image does not trace, so that it ends where the recorded tree does
+    left = (0.0, 0.0)  # sum of the weights of open and cut rays, in double-double
     stopped_by = TOLERANCE
     while True:
         if count + lights + 1 > len(table):
@@ -86,15 +80,16 @@ def trace_best_first(world: Any, limits: Limits, space: Any) -> int:
 
 
 @inlined
-def precedes(heap: Any, a: int, b: int) -> bool:
+def precedes(heap: Rows[OpenRow], a: int, b: int) -> bool:
+    """Whether entry a is traced before entry b: heavier first, ties in order of creation."""
     if heap[a].weight != heap[b].weight:
         return heap[a].weight > heap[b].weight
     return heap[a].number < heap[b].number
 
 
 @inlined
-def heap_push(heap: Any, size: int, weight: float, number: int, parent: int, refracted: bool) -> None:
-    """A ray more in a heap of this size."""
+def heap_push(heap: Rows[OpenRow], size: int, weight: float, number: int, parent: int, refracted: bool) -> None:
+    """Push a ray onto a heap of `size` entries."""
     k = size
     heap[k].weight, heap[k].number, heap[k].parent, heap[k].refracted = weight, number, parent, refracted
     while k > 0 and precedes(heap, k, (k - 1) // 2):
@@ -103,8 +98,8 @@ def heap_push(heap: Any, size: int, weight: float, number: int, parent: int, ref
 
 
 @inlined
-def heap_pop(heap: Any, size: int) -> None:
-    """The first out of the heap, of which this many are left."""
+def heap_pop(heap: Rows[OpenRow], size: int) -> None:
+    """Remove the first entry; `size` entries are left."""
     heap_swap(heap, 0, size)
     k = 0
     while 2 * k + 1 < size:
@@ -118,7 +113,8 @@ def heap_pop(heap: Any, size: int) -> None:
 
 
 @inlined
-def heap_swap(heap: Any, a: int, b: int) -> None:
+def heap_swap(heap: Rows[OpenRow], a: int, b: int) -> None:
+    """Exchange two entries."""
     weight, number, parent, refracted = heap[a].weight, heap[a].number, heap[a].parent, heap[a].refracted
     heap[a].weight, heap[a].number = heap[b].weight, heap[b].number
     heap[a].parent, heap[a].refracted = heap[b].parent, heap[b].refracted

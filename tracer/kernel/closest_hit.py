@@ -1,12 +1,11 @@
-"""Which surface a ray meets next.
+"""Closest-hit search: the surface that a ray meets next.
 
-Surfaces are met in the order of (t, number of the surface), and a search starts behind the last one met in that order:
-there is no smallest distance below which hits are thrown away. A ray that starts on a surface meets that surface again
-only where its own geometry says so (`again`), never through rounding; so with any other in the very same place.
+Hits are ordered by (t, surface id), and a search starts after the last hit in that order. So there is no smallest
+distance below which hits are discarded. A ray that starts on a surface meets that surface again only where the geometry
+says so (`next_hit`), never because of rounding. The same holds for a surface that coincides with it.
 """
 
 import math
-from typing import Any
 
 import numpy as np
 
@@ -14,57 +13,59 @@ from tracer.accel.traversal import make_traversal
 from tracer.compile.intrinsics import as_unsigned
 from tracer.compile.jit import compiled, inlined
 from tracer.formulas.double_double import SMALLEST
+from tracer.kernel.arrays import Arrays
+from tracer.kernel.workspace import Space
 from tracer.rays import Ray
-from tracer.shapes import intersect, next_hit
 
 
 @inlined
 def hit_distance(
-    world: Any, s: int, ray: Ray, floor: float, floor_id: int, above: float, ceiling: float, exactly: bool
+    world: Arrays, s: int, ray: Ray, floor: float, floor_id: int, above: float, ceiling: float, exact: bool
 ) -> float:
-    """Distance to surface s, if it comes after the hit (floor, floor_id) and not beyond the ceiling.
+    """Distance to surface s, if the hit comes after (floor, floor_id) and not beyond the ceiling; else inf.
 
-    `above` is the number after `floor`. Not `exactly`: only whether there is one will be asked.
+    `above` is the float after `floor`. Unless `exact`, only whether there is a hit counts.
     """
     least = floor if s > floor_id else above
     surface = world.surfaces[as_unsigned(s)]
     if surface.coincident == ray.start:
-        t = next_hit(world, surface, ray)
+        t = world.formulas.next_hit(world, surface, ray)
         return t if t >= least else math.inf
-    return intersect(world, surface, ray, least, ceiling, exactly)
+    return world.formulas.intersect(world, surface, ray, least, ceiling, exact)
 
 
 @inlined
-def closest(world: Any, ray: Ray, floor: float, floor_id: int, space: Any) -> tuple[float, int, bool]:
-    """(t, surface, tied): the first hit after (floor, floor_id); surface -1 for none, tied: another is as close."""
+def closest(world: Arrays, ray: Ray, floor: float, floor_id: int, space: Space) -> tuple[float, int, bool]:
+    """(t, surface, tied) of the first hit after (floor, floor_id). Surface -1: none; tied: another is at the same t."""
     return closest_within(world, ray, floor, floor_id, math.inf, space)
 
 
 @compiled
 def closest_within(
-    world: Any, ray: Ray, floor: float, floor_id: int, limit: float, space: Any
+    world: Arrays, ray: Ray, floor: float, floor_id: int, limit: float, space: Space
 ) -> tuple[float, int, bool]:
-    """`closest` among the hits no farther than `limit`."""
+    """`closest` among the hits with t <= limit."""
     above = np.nextafter(floor, math.inf) if floor > 0.0 else SMALLEST
-    return search_nearest(world, ray, (floor, floor_id, above), (limit, -1, False), space)
+    return search_closest(world, ray, (floor, floor_id, above), (limit, -1, False), space)
 
 
 @inlined
 def try_surface(
-    world: Any, s: int, ray: Ray, after: tuple[float, int, float], known: tuple[float, int, bool], space: Any
+    world: Arrays, s: int, ray: Ray, after: tuple[float, int, float], found: tuple[float, int, bool], space: Space
 ) -> tuple[float, int, bool]:
+    """Test surface s."""
     space.tests[0] += 1
-    best, found, tied = known
+    best, surface, tied = found
     t = hit_distance(world, s, ray, after[0], after[1], after[2], best, True)
-    return update_closest(t, s, best, found, tied)
+    return update_closest(t, s, best, surface, tied)
 
 
-search_nearest = make_traversal(try_surface, nearest_first=True)
+search_closest = make_traversal(try_surface, nearest_first=True)
 
 
 @inlined
 def update_closest(t: float, s: int, best: float, found: int, tied: bool) -> tuple[float, int, bool]:
-    """What is known after surface s was found at t (infinite: not): of several at one distance, the first surface."""
+    """Update the closest hit with surface `s` at distance `t` (inf: no hit). Ties go to the lower surface id."""
     if t < best or (t == best and found < 0 and t < math.inf):
         return (t, s, False)
     if t == best and t < math.inf:
@@ -73,5 +74,6 @@ def update_closest(t: float, s: int, best: float, found: int, tied: bool) -> tup
 
 
 @inlined
-def transmit(world: Any, s: int) -> float:
+def transmit(world: Arrays, s: int) -> float:
+    """The `transmit` of the material of surface s."""
     return world.materials[world.objects[world.surfaces[s].object].material].transmit

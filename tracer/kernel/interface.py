@@ -1,33 +1,28 @@
-"""What a ray meets at one distance: which surface is seen there, and which media lie before and behind it.
+"""Interfaces: what a ray meets at one distance, and which media lie before and behind it.
 
-Surfaces at bitwise equal t are one interface. An opaque one among them ends it. Otherwise the ray changes its set of
-solids, and the surface belongs to whichever medium outranks the other; where the medium stays the same, the surface is
-hidden: no row, no depth, no shading. A thin sheet bounds no medium and is always seen.
+All surfaces at bitwise equal t are one interface. If one of them is opaque, the ray ends there. Otherwise the ray
+crosses them all, and its set of solids changes (`tracer.formulas.media`). Where the medium changes, the surface of
+the outranking solid is shown. Where it does not, the surfaces are hidden: they make no row, cost no depth and are
+not shaded. A thin sheet bounds no medium and is always shown.
 """
 
-from typing import Any
-
 from tracer.compile.jit import compiled, inlined
+from tracer.compile.rows import Numbers
 from tracer.formulas.media import contains, medium, set_inside
 from tracer.formulas.vector import dot, vector
+from tracer.kernel.arrays import Arrays
 from tracer.kernel.closest_hit import closest, closest_within, transmit
+from tracer.kernel.workspace import Space
 from tracer.rays import Ray
-from tracer.shapes import interaction
 from tracer.shapes.planar import PLANE_ERROR
 
 
 @inlined
-def is_entering(world: Any, s: int, ray: Ray, t: float) -> bool:
-    _, n, _ = interaction(world, world.surfaces[s], ray, t)
-    return dot(n, ray.direction) < 0.0
+def next_interface(world: Arrays, ray: Ray, solids: Numbers, space: Space) -> tuple[float, int]:
+    """(t, surface) of the first interface that is shown; surface -1 for none.
 
-
-@inlined
-def next_interface(world: Any, ray: Ray, solids: Any, space: Any) -> tuple[float, int]:
-    """(t, surface) of the first interface the ray shows; surface -1 for none.
-
-    `solids`: (2, words); the set the ray is in just before that interface, and just behind it. Hidden surfaces on the
-    way change both.
+    `solids` (2, words) are the sets of solids just before that interface and just behind it. Hidden surfaces on the way
+    change both.
     """
     before, behind = solids[0], solids[1]
     t, s, tied = closest(world, ray, 0.0, -1, space)
@@ -45,12 +40,12 @@ def next_interface(world: Any, ray: Ray, solids: Any, space: Any) -> tuple[float
 
 @compiled
 def cross_surfaces(
-    world: Any, ray: Ray, t: float, s: int, tied: bool, before: Any, behind: Any, space: Any
+    world: Arrays, ray: Ray, t: float, s: int, tied: bool, before: Numbers, behind: Numbers, space: Space
 ) -> tuple[int, float, int]:
-    """(surface shown or -1, t and surface last passed): goes through all surfaces at t, solid by solid.
+    """Cross all surfaces at t, solid by solid. Returns (surface shown or -1, t and id of the last surface crossed).
 
-    Faces of one mesh that rounding cannot tell from t belong to the same crossing. Entered twice, at the edge of two
-    faces, is entered; entered and left, at the edge that one sees as its outline, is grazed: nothing changes.
+    Faces of one mesh whose distances rounding cannot tell apart belong to the same crossing. Entering twice, at the
+    edge between two faces, counts once. Entering and leaving, at an edge on the silhouette, changes nothing.
     """
     opaque, sheet = -1, -1
     solid, closed, enters, leaves = -1, False, False, False
@@ -69,11 +64,11 @@ def cross_surfaces(
         else:
             if this.solid != solid:
                 if solid >= 0:
-                    change_medium(ray, solid, closed, enters, leaves, before, behind)
+                    change_medium(solid, closed, enters, leaves, before, behind)
                 solid, closed, enters, leaves = this.solid, this.closed, False, False
             entering = is_entering(world, s, ray, here)
             enters, leaves = enters or entering, leaves or not entering
-        # What lies behind matters only as far as rounding could have pulled it there.
+        # Surfaces farther away belong to this crossing only if rounding may have put them there.
         limit = t + (distance_uncertainty(world, last, ray) if solid >= 0 else 0.0)
         if not tied and limit == t:
             break
@@ -81,7 +76,7 @@ def cross_surfaces(
     if opaque >= 0:
         return (opaque, last_t, last)
     if solid >= 0:
-        change_medium(ray, solid, closed, enters, leaves, before, behind)
+        change_medium(solid, closed, enters, leaves, before, behind)
     old, new = medium(before), medium(behind)
     if old == new:
         return (sheet, last_t, last)
@@ -93,19 +88,27 @@ def cross_surfaces(
 
 
 @inlined
-def distance_uncertainty(world: Any, s: int, ray: Ray) -> float:
-    """How far apart two faces of a mesh may come out along the ray where they really meet; 0 for other shapes."""
-    surface = world.surfaces[s]
-    if surface.count != 3:
-        return 0.0
-    return 2.0 * PLANE_ERROR * (surface.r + ray.reach) / abs(dot(vector(surface.normal), ray.direction))
+def is_entering(world: Arrays, s: int, ray: Ray, t: float) -> bool:
+    """Whether the ray enters the solid of surface s at distance t."""
+    _, n, _ = world.formulas.interaction(world, world.surfaces[s], ray, t)
+    return dot(n, ray.direction) < 0.0
 
 
 @inlined
-def change_medium(ray: Ray, solid: int, closed: bool, enters: bool, leaves: bool, before: Any, behind: Any) -> None:
-    """Put a solid in or out of the set behind the surface.
+def distance_uncertainty(world: Arrays, s: int, ray: Ray) -> float:
+    """How far apart rounding may put the hits with two faces of a mesh that really meet there; 0 for other shapes."""
+    surface = world.surfaces[s]
+    if surface.count != 3:
+        return 0.0
+    return 2.0 * PLANE_ERROR * (surface.r + ray.magnitude) / abs(dot(vector(surface.normal), ray.direction))
 
-    An open solid that is left without having been entered was around the ray all along: only its surface can tell.
+
+@inlined
+def change_medium(solid: int, closed: bool, enters: bool, leaves: bool, before: Numbers, behind: Numbers) -> None:
+    """Add a solid to the set behind the surface, or remove it.
+
+    If an open solid is left without having been entered, the ray must have been inside all along: then it is added to
+    the set before the surface.
     """
     if enters and leaves:
         return

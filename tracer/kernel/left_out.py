@@ -1,124 +1,84 @@
-"""What a scene needs of the tracer, and what is left out because it does not: first of all for showing it."""
+"""The capabilities that a scene needs, and those that the world leaves out because it does not."""
 
-from __future__ import annotations
-
-import itertools
-import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-import numpy as np
+from enum import StrEnum
 
 from tracer.accel.bvh import MAX_UNBOXED
+from tracer.choices import FILTER, FRESNEL, MODELS, SHADOWS
 from tracer.compile.simd import WIDTH
-from tracer.shapes.cone import Cone
-from tracer.shapes.disc import Disc
+from tracer.scene import Material, Object, Scene
 from tracer.shapes.mesh import NO_FILE, Mesh
-from tracer.shapes.polygon import Polygon
-from tracer.shapes.triangle import Triangle
-
-if TYPE_CHECKING:
-    from tracer.scene import Material, Object, Scene, Shape
 
 
-TRANSMIT = ("transmits", "transmit")  # one, several
+class Capability(StrEnum):
+    """What an image may need. `tracer.measure.plan` renders each scene with and without it."""
+
+    REFLECTION = "reflection"
+    REFRACTION = "refraction"
+    MEDIA = "media"
+    FRESNEL = "fresnel"
+    SHADOW_RAYS = "shadow rays"
+    LIGHT_FROM_BEHIND = "light from behind"
+    LIGHT_THROUGH_GLASS = "light through glass"
+    CHECKER = "checker"
+    HIERARCHY = "hierarchy"
+    MESH_LIBRARY = "mesh library"
+    VERTEX_NORMALS = "vertex normals"
 
 
 @dataclass(frozen=True, slots=True)
 class Need:
-    """One capability of the tracer and what this scene makes of it."""
+    """Whether a scene needs a capability, and why."""
 
-    name: str
+    name: str  # a Capability, or a part of the window
     needed: bool
     why: str
 
 
+TRANSMITS = ("transmits", "transmit")  # singular and plural
+
+
 def needs(scene: Scene, surfaces: int, nodes: int, blocks: int) -> tuple[Need, ...]:
-    """Every capability, needed or left out, with the reason in the scene's own terms."""
+    """Each capability, with the reason in the scene's own terms.
+
+    `surfaces`, `nodes` and `blocks` are the counts of the prepared world.
+    """
     materials = list(dict.fromkeys(item.material for item in scene.objects))
     glass = [item for item in scene.objects if item.material.transmit > 0.0]
     solids = [item for item in glass if not item.thin]
     mirrors = [item for item in scene.objects if item.material.reflect > 0.0]
-    fresnel = scene.tracing.model == "fresnel"
-    lit = [m for m in materials if shines(m)]
-    meshes = [item for item in scene.objects if isinstance(item.shape, Mesh)]
-    files = [item for item in meshes if isinstance(item.shape, Mesh) and item.shape.file != NO_FILE]
-    smooth = [item for item in meshes if isinstance(item.shape, Mesh) and item.shape.geometry.normals is not None]
+    fresnel = scene.tracing.model == MODELS[FRESNEL]
+    lit = [m for m in materials if m.is_lit]
+    files = [item for item in scene.objects if isinstance(item.shape, Mesh) and item.shape.file != NO_FILE]
+    smooth = [item for item in scene.objects if item.shape.smooth() is not None]
     splitting = [item for item in solids if item.material.ior != 1.0]
-    return (
-        Need("reflection", bool(mirrors) or bool(splitting), _which(mirrors or splitting, "reflects", "reflect")),
-        Need("refraction", bool(glass), _which(glass, *TRANSMIT)),
-        Need("media", bool(solids), _which(solids, "bounds a medium", "bound media")),
-        Need("fresnel", fresnel and bool(glass), 'model = "fresnel"' if fresnel else 'model = "whitted"'),
-        Need("dispersion", False, "every index is one number" if glass else _which(glass, *TRANSMIT)),
-        Need("lens, glossy samples", False, "a pinhole, and every mirror is smooth"),
-        Need("shadow rays", bool(scene.lights) and bool(lit), _shadow_reason(len(scene.lights), len(lit))),
-        Need("light from behind", False, "it adds nothing to a surface" if scene.lights else "no light"),
-        Need(
-            "light through glass",
-            bool(glass) and bool(scene.lights) and scene.tracing.shadows == "filter",
-            _filter_reason(scene, glass),
-        ),
-        Need("checker", any(m.checker for m in materials), _checkered(materials)),
-        Need("hierarchy", nodes > 0, _hierarchy(surfaces, nodes, blocks)),
-        Need("mesh library", bool(files), _which(files, "comes from a mesh file", "come from mesh files")),
-        Need(
-            "vertex normals",
+    filtered = bool(glass) and bool(scene.lights) and scene.tracing.shadows == SHADOWS[FILTER]
+    found = {
+        Capability.REFLECTION: (bool(mirrors or splitting), _which(mirrors or splitting, "reflects", "reflect")),
+        Capability.REFRACTION: (bool(glass), _which(glass, *TRANSMITS)),
+        Capability.MEDIA: (bool(solids), _which(solids, "bounds a medium", "bound media")),
+        Capability.FRESNEL: (fresnel and bool(glass), f'model = "{scene.tracing.model}"'),
+        Capability.SHADOW_RAYS: (bool(scene.lights and lit), _shadow_reason(len(scene.lights), len(lit))),
+        Capability.LIGHT_FROM_BEHIND: (False, "it adds nothing to a surface" if scene.lights else "no light"),
+        Capability.LIGHT_THROUGH_GLASS: (filtered, _filter_reason(scene, glass)),
+        Capability.CHECKER: (any(m.checker for m in materials), _checkered(materials)),
+        Capability.HIERARCHY: (nodes > 0, _hierarchy(surfaces, nodes, blocks)),
+        Capability.MESH_LIBRARY: (bool(files), _which(files, "comes from a mesh file", "come from mesh files")),
+        Capability.VERTEX_NORMALS: (
             bool(smooth),
             _which(smooth, "has normals at its vertices", "have normals at their vertices"),
         ),
-    )
+    }
+    return tuple(Need(capability, *found[capability]) for capability in Capability)
 
 
-def shines(material: Material) -> bool:
-    """Whether light makes a surface brighter."""
-    return material.diffuse > 0.0 or material.specular > 0.0
-
-
-def hidden_solids(ranked: list[Object]) -> list[str]:
-    """Transparent solids that never show: inside another that outranks them. `ranked`: highest priority first.
-
-    A solid counts as inside where all corners of its box are: what is told is so, though not all that is so is told.
-    """
-    endless = np.full(3, math.inf)
-    boxes = [item.shape.bounds() for item in ranked]
-    low = np.array([-endless if box is None else box[:, 0].min(axis=0) for box in boxes]).reshape(-1, 3)
-    high = np.array([endless if box is None else box[:, 1].max(axis=0) for box in boxes]).reshape(-1, 3)
-    notes = []
-    for k, inner in enumerate(ranked):
-        if boxes[k] is None:
-            continue
-        around = ((low[:k] <= low[k]) & (high[:k] >= high[k])).all(axis=1)
-        corners = np.array(list(itertools.product(*zip(low[k], high[k], strict=True))))
-        for outer in (ranked[j] for j in np.flatnonzero(around)):
-            if all(outer.shape.contains(corner) for corner in corners):
-                notes.append(f'"{_name(inner)}" lies inside "{_name(outer)}" and never shows: raise its priority')
-                break
-    return notes
-
-
-def open_notes(opened: list[Object]) -> list[str]:
-    """Of media that begin at a surface without an inside, a line each: light that enters there may never leave."""
-    return [
-        f'"{_name(item)}" is open: light that enters through it stays in its medium; make it thin, or a closed mesh'
-        for item in opened
-    ]
-
-
-def is_open(shape: Shape) -> bool:
-    """Whether a shape has no inside."""
-    return not shape.is_closed() if isinstance(shape, Mesh) else isinstance(shape, Polygon | Triangle | Cone | Disc)
-
-
-def _name(item: Object) -> str:
-    return item.name or type(item.shape).__name__.lower()
-
-
-def _which(objects: list, does: str, do: str) -> str:
+def _which(objects: Sequence[Object], does: str, do: str) -> str:
+    """A sentence on these objects, like `"ball" and 2 more transmit`."""
     if not objects:
         return f"nothing {does}"
     first = objects[0]
-    name = f'"{first.name}"' if first.name else f"a {_name(first)}"
+    name = f'"{first.name}"' if first.name else f"a {first.shape.name}"
     return f"{name} and {len(objects) - 1} more {do}" if len(objects) > 1 else f"{name} {does}"
 
 
@@ -128,10 +88,10 @@ def _shadow_reason(lights: int, lit: int) -> str:
     return _count(lights, "light") if lit else "no surface that light makes brighter"
 
 
-def _filter_reason(scene: Scene, glass: list) -> str:
+def _filter_reason(scene: Scene, glass: Sequence[Object]) -> str:
     if glass and scene.lights:
         return f'shadows = "{scene.tracing.shadows}"'
-    return "no light" if glass else _which(glass, *TRANSMIT)
+    return "no light" if glass else _which(glass, *TRANSMITS)
 
 
 def _hierarchy(surfaces: int, nodes: int, blocks: int) -> str:
@@ -142,10 +102,10 @@ def _hierarchy(surfaces: int, nodes: int, blocks: int) -> str:
     return f"{count} in {_count(nodes, 'node')} of {WIDTH} boxes{triangles}"
 
 
-def _checkered(materials: list) -> str:
+def _checkered(materials: Sequence[Material]) -> str:
     names = [f'"{m.name}"' for m in materials if m.checker]
     return ", ".join(names) or "no material has a checker"
 
 
-def _count(n: int, one: str, many: str = "") -> str:
-    return f"{n} {one if n == 1 else many or one + 's'}"
+def _count(n: int, one: str) -> str:
+    return f"{n} {one if n == 1 else one + 's'}"

@@ -1,34 +1,30 @@
-"""How far a tree of rays goes, and by which model its edges weigh."""
+"""How far a ray tree goes, and by which model its rays are weighted."""
 
 from numbers import Integral, Real
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from tracer.kernel.world import World
+from tracer.choices import BLOCK, MODELS, SHADOWS
+from tracer.kernel.world import World
 
-WHITTED, FRESNEL = range(2)
-MODELS = ("whitted", "fresnel")
-
-
-MAX_NODES = 10**6  # rays of a tree, where no one asks for more or fewer
-MAX_DEPTH = 2**31 - 1  # what a row's depth can count to
+MAX_NODES = 10**6  # rows of a tree, unless asked otherwise
+MAX_DEPTH = 2**31 - 1  # limit of a row's `depth`
 BREADTH_FIRST = -1.0  # instead of a tolerance
 
 
 class Limits(NamedTuple):
-    """How far a tree goes, and what its edges weigh."""
+    """The limits as kernels take them."""
 
-    depth: int  # at most ANY_DEPTH
-    min_weight: float  # a ray whose largest weight is below is cut
-    max_nodes: int  # rows a tree may have
-    tolerance: float  # the heaviest ray first until those left weigh no more than this in sum; below 0: level by level
-    model: int
-    glass_blocks: bool  # shadow rays: glass casts a full shadow instead of filtering the light
-    records: bool  # the table will be read (a click): fill in what an image has no use for
+    depth: int  # at most MAX_DEPTH
+    min_weight: float  # a ray whose largest weight is below it is cut
+    max_nodes: int  # rows of a tree
+    tolerance: float  # best-first, until the weights of the rays left sum up to this at most; below 0: breadth-first
+    model: int  # as MODELS numbers them
+    glass_blocks: bool  # transparent surfaces block shadow rays instead of filtering them
+    records: bool  # the table will be read (a click): fill in what an image does not need
 
 
 def make_limits(
-    world: "World",
+    world: World,
     depth: int | None = None,
     min_weight: float = 0.0,
     tolerance: float | None = None,
@@ -37,7 +33,7 @@ def make_limits(
     *,
     records: bool,
 ) -> Limits:
-    """The kernel's limits, with the scene's own values where none are given; ValueError for what can be none."""
+    """The limits for a world. What is not given is the scene's own. ValueError for a value that is not allowed."""
     tracing = world.scene.tracing
     if depth is None:
         depth = tracing.depth if tolerance is None else MAX_DEPTH
@@ -53,5 +49,5 @@ def make_limits(
     if model not in MODELS:
         raise ValueError(f"model must be one of {', '.join(MODELS)}, got {model!r}")
     least = BREADTH_FIRST if tolerance is None else float(tolerance)
-    blocks = tracing.shadows == "block"
+    blocks = tracing.shadows == SHADOWS[BLOCK]
     return Limits(int(depth), float(min_weight), int(max_nodes), least, MODELS.index(model), blocks, records)

@@ -1,22 +1,24 @@
-"""Rows of the node table: how they begin, and how a shadow ray's is filled in for whoever reads it."""
+"""Rows of the node table: how they start, and how those of shadow rays are filled in for readers."""
 
 import math
-from typing import Any
 
 from tracer.compile.jit import compiled, inlined
+from tracer.compile.rows import Rows
 from tracer.formulas.vector import Vector, add, dot, multiply, scale, store, vector
+from tracer.kernel.arrays import Arrays
 from tracer.kernel.closest_hit import transmit
 from tracer.kernel.limits import Limits
-from tracer.kernel.nodes import BLOCKED, FILTERED, LIT, NONE, SHADOW
+from tracer.kernel.nodes import BLOCKED, FILTERED, LIT, NONE, SHADOW, NodeRow
 from tracer.kernel.shadows import nearest_occluder, transmittance
+from tracer.kernel.workspace import Space
 from tracer.rays import Ray, make_ray
 
 
 @inlined
 def start_row(
-    limits: Limits, table: Any, i: int, parent: int, kind: int, depth: int, factor: Vector, weight: Vector
-) -> Any:
-    """Row i as it is before anything is known of the ray but where it comes from."""
+    limits: Limits, table: Rows[NodeRow], i: int, parent: int, kind: int, depth: int, factor: Vector, weight: Vector
+) -> NodeRow:
+    """Row i before its ray is traced. All that is not given is absent."""
     row = table[i]
     row.kind = kind
     row.depth = depth
@@ -48,54 +50,57 @@ def start_row(
 
 @compiled
 def record_shadow(
-    world: Any,
+    world: Arrays,
     limits: Limits,
-    space: Any,
+    space: Space,
     i: int,
     parent: int,
     light: int,
     ray: Ray,
-    far: float,
+    distance: float,
     visible: float,
     glass: int,
     share: Vector,
 ) -> None:
-    """Row i: a shadow ray to a light at distance `far`, with what stands in its way by name."""
-    t, met, end = far, glass, FILTERED if glass >= 0 else LIT
+    """Write row i, a shadow ray to a light at `distance`. `visible` is the share of light that passes.
+
+    `glass` is the first transparent surface crossed, -1 for none; `share` the light's share of the local term.
+    """
+    t, met, end = distance, glass, FILTERED if glass >= 0 else LIT
     if visible == 0.0:
-        nearest, s = nearest_occluder(world, ray, far, limits.glass_blocks, space)
-        if nearest < far:  # else it was so much glass that nothing is left
+        nearest, s = nearest_occluder(world, ray, distance, limits.glass_blocks, space)
+        if nearest < distance:  # otherwise glass alone has absorbed all light
             t, met, end = nearest, s, BLOCKED
     write_shadow(world, limits, space.table, i, parent, light, ray, t, met, end, visible, share)
 
 
 @compiled
 def record_unlit(
-    world: Any, limits: Limits, space: Any, i: int, parent: int, light: int, to_light: Vector, far: float
+    world: Arrays, limits: Limits, space: Space, i: int, parent: int, light: int, to_light: Vector, distance: float
 ) -> None:
-    """Row i: a shadow ray to a light that adds nothing at its parent's hit, wherever it gets to.
+    """Write row i, a shadow ray to a light that adds nothing to the local term, whether it is reached or not.
 
-    Where the surface faces away from the light, it is itself the first that stands in the way: at no distance.
+    A surface that faces away from the light blocks its own shadow ray, at distance 0.
     """
     row = space.table[parent]
     s, nothing = row.surface, (0.0, 0.0, 0.0)
-    faces_it = dot(vector(row.face), to_light) > 0.0
+    faces_it = dot(vector(row.face_normal), to_light) > 0.0
     own = 1.0 if faces_it else transmit(world, s)
     side = row.hit_side if faces_it else -row.hit_side
     ray = make_ray(vector(row.point), to_light, world.surfaces[s].coincident, side, rounding_scale(row))
     if own == 0.0 or (limits.glass_blocks and not faces_it):
         write_shadow(world, limits, space.table, i, parent, light, ray, 0.0, s, BLOCKED, 0.0, nothing)
         return
-    visible, glass = transmittance(world, ray, far, limits.glass_blocks, space)
+    visible, glass = transmittance(world, ray, distance, limits.glass_blocks, space)
     first = glass if faces_it else s
-    record_shadow(world, limits, space, i, parent, light, ray, far, own * visible, first, nothing)
+    record_shadow(world, limits, space, i, parent, light, ray, distance, own * visible, first, nothing)
 
 
 @inlined
 def write_shadow(
-    world: Any,
+    world: Arrays,
     limits: Limits,
-    table: Any,
+    table: Rows[NodeRow],
     i: int,
     parent: int,
     light: int,
@@ -106,7 +111,7 @@ def write_shadow(
     visible: float,
     share: Vector,
 ) -> None:
-    """Row i, when all is known of the shadow ray: it ends at t, and met is a surface or -1."""
+    """Write row i of a shadow ray that ends at distance t, where it met the surface `met` (-1: none)."""
     attenuation = (visible, visible, visible)
     weight = multiply(vector(table[parent].weight), attenuation)
     row = start_row(limits, table, i, parent, SHADOW, table[parent].depth, attenuation, weight)
@@ -116,7 +121,7 @@ def write_shadow(
     store(row.local, share)
     store(row.radiance, share)
     row.end = end
-    row.start, row.side, row.reach, row.surface = ray.start, ray.side, ray.reach, met
+    row.start, row.side, row.magnitude, row.surface = ray.start, ray.side, ray.magnitude, met
     if met >= 0:
         row.object = world.surfaces[met].object
     if t < math.inf:
@@ -125,9 +130,9 @@ def write_shadow(
 
 
 @inlined
-def rounding_scale(row: Any) -> float:
-    """How large the numbers are that a hit was computed from: its rounding errors are small beside this.
+def rounding_scale(row: NodeRow) -> float:
+    """The magnitude of the numbers that a hit was computed from: its rounding errors are relative to it.
 
-    What the ray's own start was computed from counts too: a ray in a corner meets the next wall where it starts.
+    It includes that of the ray's origin: a ray that starts in a corner meets the next wall at distance 0.
     """
-    return max(row.reach, abs(row.origin[0]) + abs(row.origin[1]) + abs(row.origin[2]) + row.t)
+    return max(row.magnitude, abs(row.origin[0]) + abs(row.origin[1]) + abs(row.origin[2]) + row.t)

@@ -1,58 +1,61 @@
-"""The node table: one row a ray, level by level. What the kernel writes, the viewer draws and JSON spells out.
+"""The node table: one row per ray, level by level. The kernel writes it, viewer and JSON read it.
 
-A level's rays stand first, then its shadow rays, then the next level: so the tree of depth d is a prefix of the tree
-of depth d+1, and stepping the depth is slicing the table. Codes are whole numbers, -1 for none; NaN stands for absent.
+The rays of a level come first, then their shadow rays, then the next level. So the tree of depth d is a prefix of the
+tree of depth d + 1, and stepping the depth slices the table. Codes are integers, -1 for none. NaN stands for absent.
 """
 
-import numpy as np
+from tracer.compile.rows import Float, Float3, Int32, Int64, Row, dtype_of
 
 KINDS = ("camera", "reflection", "refraction", "tir", "shadow")
 CAMERA, REFLECTION, REFRACTION, TIR, SHADOW = range(5)
 
-# Why a ray has nothing below it; on a shadow row, what it met. -1: it has children and none was cut.
+# Why a ray has nothing below it; of a shadow ray, what it met. -1: it has children, and none was cut.
 ENDS = ("surface", "background", "depth", "weight", "tolerance", "nodes", "invalid", "lit", "filtered", "blocked")
 SURFACE, BACKGROUND, DEPTH, WEIGHT, TOLERANCE, NODES, INVALID, LIT, FILTERED, BLOCKED = range(10)
 
 NONE = -1
 
-NODE = np.dtype(
-    [
-        ("id", np.int64),
-        ("parent", np.int64),
-        ("kind", np.int32),
-        ("depth", np.int32),  # a shadow ray has its parent's
-        ("origin", np.float64, 3),
-        ("direction", np.float64, 3),  # unit
-        ("t", np.float64),  # distance to `point`
-        ("point", np.float64, 3),  # the hit; on a shadow row the occluder's, or the light's
-        ("normal", np.float64, 3),  # unit, on the side the ray comes from: the n of every formula at this hit
-        ("object", np.int32),  # what was hit; on a shadow row the occluder, or the first glass it went through
-        ("light", np.int32),  # shadow rows only
-        ("n1", np.float64),  # index of the medium the ray runs in
-        ("n2", np.float64),  # index behind a transparent surface
-        ("theta1", np.float64),  # radians
-        ("theta2", np.float64),
-        ("factor", np.float64, 3),  # what the parent multiplies this ray by
-        ("weight", np.float64, 3),  # the product of factors from the eye down
-        ("radicand", np.float64),  # 1 - n^2 (1 - c1^2): total internal reflection where it is <= 0
-        ("local", np.float64, 3),
-        ("radiance", np.float64, 3),  # local + sum of factor * radiance over the children but shadow rays
-        ("end", np.int32),
-        ("error", np.float64),  # how far rounding may have moved `point`, estimated to first order; a length
-        ("turn", np.float64),  # and how far it may have turned `direction`; radians
-        # From here on for the kernel alone:
-        ("start", np.int32),  # the surface the ray leaves, of twins the first
-        ("reach", np.float64),  # scale of the rounding errors in its origin
-        ("surface", np.int32),  # the surface it hits
-        ("side", np.float64),  # of its start's normal, on which it leaves: +1, -1
-        ("hit_side", np.float64),  # of the hit surface's normal, from which it comes
-        ("face", np.float64, 3),  # the hit face's own normal, on the side the ray comes from
-        ("cut", np.float64),  # weight of the rays it would send out that were cut: their largest components' sum
-        ("child", np.int64),  # the first ray it sends out, -1 for none
-        ("sibling", np.int64),  # the next that its parent sends out
-    ],
-    align=True,
-)
 
-_NAMES: tuple[str, ...] = NODE.names  # type: ignore[assignment]
-PUBLIC = np.dtype([(name, NODE[name]) for name in _NAMES[: _NAMES.index("start")]])
+class PublicRow(Row):
+    """The fields that readers see."""
+
+    id: Int64
+    parent: Int64
+    kind: Int32  # as KINDS numbers them
+    depth: Int32  # a shadow ray has its parent's
+    origin: Float3
+    direction: Float3  # unit vector
+    t: Float  # distance to `point`
+    point: Float3  # the hit; of a shadow ray, the occluder's hit or the light
+    normal: Float3  # unit normal on the side the ray comes from: the n of every formula at this hit
+    object: Int32  # what was hit; of a shadow ray, the occluder, or the first transparent object crossed
+    light: Int32  # of a shadow ray
+    n1: Float  # index of refraction of the medium that the ray is in
+    n2: Float  # index behind a transparent surface
+    theta1: Float  # angle of incidence, radians
+    theta2: Float  # angle of refraction, radians
+    factor: Float3  # what the parent multiplies this ray's radiance by
+    weight: Float3  # product of the factors from the eye down
+    radicand: Float  # 1 - n^2 (1 - c1^2): total internal reflection where it is <= 0
+    local: Float3  # local illumination
+    radiance: Float3  # local + sum of factor * radiance over the children that are no shadow rays
+    end: Int32  # as ENDS numbers them
+    error: Float  # estimated rounding error of `point`, a length
+    turn: Float  # estimated rounding error of `direction`, radians
+
+
+class NodeRow(PublicRow):
+    """All fields: those of readers, and those that only the kernel uses."""
+
+    start: Int32  # id of the surface that the ray leaves, -1 for the eye; of coincident surfaces the first
+    magnitude: Float  # scale of the rounding errors in `origin`, as in `tracer.rays.Ray`
+    surface: Int32  # id of the surface hit
+    side: Float  # +1 or -1: the side of the normal on which the ray leaves its start
+    hit_side: Float  # +1 or -1: the side of the normal from which the ray hits
+    face_normal: Float3  # unit normal of the face hit, on the side the ray comes from; `normal` may be interpolated
+    cut: Float  # sum of the largest weights of its children that were cut
+    child: Int64  # its first child that is no shadow ray, -1 for none
+    sibling: Int64  # the next child of its parent, -1 for none
+
+
+PUBLIC, NODE = dtype_of(PublicRow), dtype_of(NodeRow)

@@ -1,32 +1,35 @@
-"""What a hit sends out: a reflected ray, a refracted one, both or none, each with its weight.
+"""The rays that a hit sends out: a reflected one, a refracted one, both or none, each with its weight.
 
-Whitted gives every surface fixed weights, kr and kt. By Fresnel's law transparent surfaces share kt between the two by
-the angle. On total internal reflection one ray gets both weights; where the indices are equal, nothing is reflected.
+In Whitted's model every surface reflects kr and transmits kt. In Fresnel's, transparent surfaces divide kt between the
+two by the angle. On total internal reflection one ray gets kr + kt. Where the indices are equal, nothing is reflected.
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from tracer.choices import WHITTED
 from tracer.compile.jit import compiled, inlined
-from tracer.formulas.optics import cosine, fresnel_shares, mirrored, radicand, sine, transmission
+from tracer.formulas.optics import cosine, fresnel_shares, radicand
 from tracer.formulas.vector import Vector, max_component, multiply, store, vector
-from tracer.kernel.limits import WHITTED, Limits
+from tracer.kernel.arrays import Arrays, MaterialRow
+from tracer.kernel.limits import Limits
 from tracer.kernel.node_rows import rounding_scale, start_row
-from tracer.kernel.nodes import DEPTH, INVALID, NODES, NONE, REFLECTION, REFRACTION, SURFACE, TIR, WEIGHT
+from tracer.kernel.nodes import DEPTH, INVALID, NODES, NONE, REFLECTION, REFRACTION, SURFACE, TIR, WEIGHT, NodeRow
+from tracer.kernel.workspace import Space
 
 
 class Scattered(NamedTuple):
-    """The rays that a hit sends out; a factor of 0 stands for none."""
+    """The rays that a hit sends out. A factor of 0 means no ray."""
 
-    kind: int  # of the reflected ray: total internal reflection is one, too
-    reflected: float  # its factor
-    refracted: float  # the refracted ray's
-    through: Vector  # the refracted ray's direction
+    kind: int  # of the reflected ray: REFLECTION or TIR
+    reflected: float  # factor of the reflected ray
+    refracted: float  # factor of the refracted ray
+    through: Vector  # direction of the refracted ray
 
 
 @inlined
-def scatter(world: Any, limits: Limits, row: Any) -> Scattered:
-    """What becomes of a ray at its hit."""
+def scatter(world: Arrays, limits: Limits, row: NodeRow) -> Scattered:
+    """The rays that the hit of a row sends out."""
     material = world.materials[world.objects[row.object].material]
     kr, kt = material.reflect, material.transmit
     d = vector(row.direction)
@@ -37,13 +40,38 @@ def scatter(world: Any, limits: Limits, row: Any) -> Scattered:
         return Scattered(REFLECTION, 0.0, kt, d)
     if row.radicand <= 0.0 and not thin:
         return Scattered(TIR, kr + kt, 0.0, d)
-    reflected, refracted, through = dielectric_shares(limits, row, material, thin)
+    reflected, refracted, through = dielectric_shares(world, limits, row, material, thin)
     return Scattered(REFLECTION, reflected, refracted, through)
 
 
 @inlined
-def append_children(world: Any, limits: Limits, space: Any, i: int, count: int, planned: int) -> tuple[int, int]:
-    """(rows, rows planned) after the rays that row i sends out: each a row, or in row i's `end` why it is cut."""
+def dielectric_shares(
+    world: Arrays, limits: Limits, row: NodeRow, material: MaterialRow, thin: bool
+) -> tuple[float, float, Vector]:
+    """(factor of the reflected ray, of the refracted ray, its direction) at a transparent surface.
+
+    A thin sheet sends the refracted ray straight on, and reflects like one surface of its material.
+    """
+    d, n = vector(row.direction), vector(row.normal)
+    kr, kt, n2 = material.reflect, material.transmit, material.ior if thin else row.n2
+    c1 = cosine(d, n)
+    through = d if thin else world.formulas.transmission(d, n, row.n1, n2, c1, math.sqrt(row.radicand))
+    if limits.model == WHITTED:
+        return (kr, kt, through)
+    s1 = world.formulas.sine(d, n)
+    root = radicand(s1, row.n1, n2)
+    if root <= 0.0:
+        return (kr + kt, 0.0, through)
+    r, t = fresnel_shares(c1, s1, math.sqrt(root), row.n1, n2)
+    return (kr + kt * r, kt * t, through)
+
+
+@inlined
+def append_children(world: Arrays, limits: Limits, space: Space, i: int, count: int, planned: int) -> tuple[int, int]:
+    """Append the rays that row i sends out. Returns the new (rows, planned rows).
+
+    A ray that is cut gets no row; row i's `end` says why.
+    """
     row = space.table[i]
     if row.surface < 0:
         return (count, planned)
@@ -57,48 +85,28 @@ def append_children(world: Any, limits: Limits, space: Any, i: int, count: int, 
     return (count, planned)
 
 
-@inlined
-def dielectric_shares(limits: Limits, row: Any, material: Any, thin: bool) -> tuple[float, float, Vector]:
-    """(weight of the reflected ray, of the refracted ray, its direction) where a transparent surface splits the ray.
-
-    A thin sheet sends it straight on, and reflects as a single surface of its material does.
-    """
-    d, n = vector(row.direction), vector(row.normal)
-    kr, kt, n2 = material.reflect, material.transmit, material.ior if thin else row.n2
-    c1 = cosine(d, n)
-    through = d if thin else transmission(d, n, row.n1, n2, c1, math.sqrt(row.radicand))
-    if limits.model == WHITTED:
-        return (kr, kt, through)
-    s1 = sine(d, n)
-    root = radicand(s1, row.n1, n2)
-    if root <= 0.0:
-        return (kr + kt, 0.0, through)
-    r, t = fresnel_shares(c1, s1, math.sqrt(root), row.n1, n2)
-    return (kr + kt * r, kt * t, through)
-
-
 @compiled
 def append_child(
-    world: Any, limits: Limits, space: Any, i: int, rays: Scattered, refracted: bool, count: int, planned: int
+    world: Arrays, limits: Limits, space: Space, i: int, rays: Scattered, refracted: bool, count: int, planned: int
 ) -> tuple[int, int]:
-    """(rows, rows planned): one of the rays that row i sends out, or in its `end` and `cut` that it is not followed."""
+    """Append one of the rays that row i sends out, or cut it. Returns the new (rows, planned rows)."""
     parent = space.table[i]
     heaviest = max_component(vector(parent.weight)) * (rays.refracted if refracted else rays.reflected)
-    room = 1 + len(world.lights)
+    rows = 1 + len(world.lights)
     reason = cut_reason(limits, parent, rays, refracted, heaviest)
-    if reason == NONE and planned + room > limits.max_nodes:
+    if reason == NONE and planned + rows > limits.max_nodes:
         reason = NODES
     if reason != NONE:
         parent.end = reason
         parent.cut += heaviest
         return (count, planned)
     start_child(world, limits, space, i, rays, refracted, count)
-    return (count + 1, planned + room)
+    return (count + 1, planned + rows)
 
 
 @inlined
-def cut_reason(limits: Limits, parent: Any, rays: Scattered, refracted: bool, heaviest: float) -> int:
-    """Why a ray is not followed, whatever else is: its end; -1 where it may be."""
+def cut_reason(limits: Limits, parent: NodeRow, rays: Scattered, refracted: bool, heaviest: float) -> int:
+    """Why a ray is cut, whatever else is traced; NONE if it may be followed."""
     through = rays.through
     if refracted and not math.isfinite(through[0] + through[1] + through[2]):
         return INVALID
@@ -110,8 +118,10 @@ def cut_reason(limits: Limits, parent: Any, rays: Scattered, refracted: bool, he
 
 
 @inlined
-def start_child(world: Any, limits: Limits, space: Any, i: int, rays: Scattered, refracted: bool, count: int) -> None:
-    """Row `count`: one of the rays that row i sends out, as it is before it is traced."""
+def start_child(
+    world: Arrays, limits: Limits, space: Space, i: int, rays: Scattered, refracted: bool, count: int
+) -> None:
+    """Write row `count`, one of the rays that row i sends out, as it is before it is traced."""
     table, solids = space.table, space.solids
     parent = table[i]
     d, n = vector(parent.direction), vector(parent.normal)
@@ -120,10 +130,10 @@ def start_child(world: Any, limits: Limits, space: Any, i: int, rays: Scattered,
     kind = REFRACTION if refracted else rays.kind
     row = start_row(limits, table, count, i, kind, parent.depth + 1, factor, multiply(vector(parent.weight), factor))
     store(row.origin, vector(parent.point))
-    store(row.direction, rays.through if refracted else mirrored(d, n))
+    store(row.direction, rays.through if refracted else world.formulas.mirrored(d, n))
     row.start = world.surfaces[parent.surface].coincident
     row.side = -parent.hit_side if refracted else parent.hit_side
-    row.reach = rounding_scale(parent)
+    row.magnitude = rounding_scale(parent)
     own = 1 if refracted else 0
     for k_word in range(solids.shape[2]):
         solids[count, 0, k_word] = solids[i, own, k_word]

@@ -1,8 +1,8 @@
-"""What a ray meets on its way to a light, and how much of the light gets through.
+"""Shadow rays: how much of a light's radiance gets through to a point.
 
-An opaque surface on the way blocks it. Each transparent one multiplies it by its `transmit`, straight through and
-unbent: a simplification, since the light that really arrives there was bent on its way. Or, if the scene wants it,
-glass blocks too.
+An opaque surface on the way blocks the light. Each transparent one multiplies it by its `transmit`, without bending the
+ray. This is a simplification: light that really gets there through glass is bent on its way. With `glass_blocks`,
+transparent surfaces block it, too.
 """
 
 import math
@@ -13,47 +13,49 @@ import numpy as np
 from tracer.accel.traversal import STOP, make_traversal
 from tracer.compile.intrinsics import noinline
 from tracer.compile.jit import compiled, inlined
+from tracer.compile.rows import Rows
 from tracer.formulas.double_double import SMALLEST
 from tracer.formulas.vector import Vector, length, scale, subtract, unit, vector
+from tracer.kernel.arrays import Arrays, LightRow
 from tracer.kernel.closest_hit import closest, hit_distance, transmit
+from tracer.kernel.workspace import CrossingRow, Space
 from tracer.rays import Ray
 
-# A transparent surface crossed on the way, and the room for so many before the slower way is taken.
-CROSSING = np.dtype([("t", np.float64), ("surface", np.int64)])
-MAX_CROSSINGS = 32
-
-# Between these lengths squares neither vanish nor overflow.
+# Squares of lengths between these neither underflow nor overflow.
 SHORTEST, LONGEST = 1e-140, 1e140
 
 OPAQUE, OVERFLOW = -1, -2  # instead of a number of crossings
 
 
 @inlined
-def light_direction(light: Any, point: Vector) -> tuple[Vector, float]:
-    """(unit direction, distance) from a point to a light; a light at infinity is infinitely far."""
+def light_direction(light: LightRow, point: Vector) -> tuple[Vector, float]:
+    """(unit direction, distance) from a point to a light. A light at infinity is at distance inf."""
     if light.distant:
         return ((light.towards[0], light.towards[1], light.towards[2]), math.inf)
-    way = subtract(vector(light.position), point)
-    far = length(way)
-    if far < SHORTEST or far > LONGEST:
-        return scaled_direction(way)
-    return (scale(1.0 / far, way), far)
+    to_light = subtract(vector(light.position), point)
+    distance = length(to_light)
+    if distance < SHORTEST or distance > LONGEST:
+        return scaled_direction(to_light)
+    return (scale(1.0 / distance, to_light), distance)
 
 
 @compiled
-def scaled_direction(way: Vector) -> tuple[Vector, float]:
-    """(unit direction, length) of a vector whose squares are out of range; nowhere where the light is in the point."""
+def scaled_direction(v: Vector) -> tuple[Vector, float]:
+    """(unit direction, length) of a vector whose squares underflow or overflow; (0, 0) for the zero vector."""
     noinline()
-    size = max(abs(way[0]), max(abs(way[1]), abs(way[2])))
+    size = max(abs(v[0]), max(abs(v[1]), abs(v[2])))
     if size == 0.0:
-        return (way, 0.0)
-    way = (way[0] / size, way[1] / size, way[2] / size)
-    return (unit(way), size * length(way))
+        return (v, 0.0)
+    v = (v[0] / size, v[1] / size, v[2] / size)
+    return (unit(v), size * length(v))
 
 
 @inlined
-def transmittance(world: Any, ray: Ray, end: float, glass_blocks: bool, space: Any) -> tuple[float, int]:
-    """(share of the light, first transparent surface crossed or -1); 0 where an opaque one is nearer than `end`."""
+def transmittance(world: Arrays, ray: Ray, end: float, glass_blocks: bool, space: Space) -> tuple[float, int]:
+    """(share of the light that passes, first transparent surface crossed or -1), over the distance `end`.
+
+    The share is 0 where an opaque surface is in the way.
+    """
     count = collect_crossings(world, ray, end, glass_blocks, space)
     if count == 0:
         return (1.0, -1)
@@ -65,21 +67,23 @@ def transmittance(world: Any, ray: Ray, end: float, glass_blocks: bool, space: A
 
 
 @compiled
-def collect_crossings(world: Any, ray: Ray, end: float, glass_blocks: bool, space: Any) -> int:
-    """How many times transparent surfaces are crossed nearer than `end`, gathered in no order; OPAQUE as soon as
-    anything is found that lets no light through; TOO_MANY."""
+def collect_crossings(world: Arrays, ray: Ray, end: float, glass_blocks: bool, space: Space) -> int:
+    """Any-hit search: the number of transparent surfaces crossed before `end`, stored in no order in `space.crossed`.
+
+    OPAQUE as soon as a surface is found that lets no light through; OVERFLOW if there are too many.
+    """
     return search_occluders(world, ray, glass_blocks, (end, 0), space)[1]
 
 
 @inlined
 def test_occluder(
-    world: Any, s: int, ray: Ray, glass_blocks: bool, known: tuple[float, int], space: Any
+    world: Arrays, s: int, ray: Ray, glass_blocks: bool, found: tuple[float, int], space: Space
 ) -> tuple[float, int]:
-    """(how far to look on, count) after surface s has been looked at."""
+    """(search limit, count) after a test of surface s."""
     space.tests[0] += 1
-    end, count = known
+    end, count = found
     if hit_distance(world, s, ray, 0.0, -1, SMALLEST, end, False) >= end:
-        return known
+        return found
     if glass_blocks or transmit(world, s) == 0.0:
         return (STOP, OPAQUE)
     return (end, add_crossings(world, s, ray, end, space.crossed, count))
@@ -89,8 +93,8 @@ search_occluders = make_traversal(test_occluder, nearest_first=False)
 
 
 @compiled
-def add_crossings(world: Any, s: int, ray: Ray, end: float, crossed: Any, count: int) -> int:
-    """Note where the transparent surface s is crossed: a ball may be crossed twice."""
+def add_crossings(world: Arrays, s: int, ray: Ray, end: float, crossed: Rows[CrossingRow], count: int) -> int:
+    """Store each crossing of the transparent surface s. A ball may be crossed twice."""
     noinline()
     t, above = 0.0, SMALLEST
     while True:
@@ -106,10 +110,10 @@ def add_crossings(world: Any, s: int, ray: Ray, end: float, crossed: Any, count:
 
 
 @compiled
-def filter_sorted(world: Any, crossed: Any, count: int) -> tuple[float, int]:
-    """(product of `transmit`, first surface) over the crossings gathered, nearest first.
+def filter_sorted(world: Arrays, crossed: Any, count: int) -> tuple[float, int]:
+    """(product of `transmit`, first surface) over the stored crossings, nearest first.
 
-    Surfaces of one object at the same distance are one: a ray through the edge between two faces crosses once.
+    Surfaces of one object at the same distance count once: a ray through the edge of two faces crosses once.
     """
     noinline()
     share, first = 1.0, -1
@@ -130,8 +134,8 @@ def filter_sorted(world: Any, crossed: Any, count: int) -> tuple[float, int]:
 
 
 @compiled
-def filter_stepwise(world: Any, ray: Ray, end: float, space: Any) -> tuple[float, int]:
-    """The same, crossing by crossing, however many there are."""
+def filter_stepwise(world: Arrays, ray: Ray, end: float, space: Space) -> tuple[float, int]:
+    """The same for any number of crossings, by one closest-hit search each."""
     noinline()
     share, first = 1.0, -1
     last_t, last_object = -1.0, -1
@@ -148,8 +152,8 @@ def filter_stepwise(world: Any, ray: Ray, end: float, space: Any) -> tuple[float
 
 
 @compiled
-def nearest_occluder(world: Any, ray: Ray, end: float, glass_blocks: bool, space: Any) -> tuple[float, int]:
-    """(t, surface) of the nearest one that blocks."""
+def nearest_occluder(world: Arrays, ray: Ray, end: float, glass_blocks: bool, space: Space) -> tuple[float, int]:
+    """(t, surface) of the nearest surface that blocks the light."""
     t, s, _ = closest(world, ray, 0.0, -1, space)
     while s >= 0 and t < end and not glass_blocks and transmit(world, s) > 0.0:
         t, s, _ = closest(world, ray, t, s, space)

@@ -1,22 +1,21 @@
-"""The light and the surroundings of a file that brings none, such as a bare mesh."""
+"""Light and surroundings for a file that has none, such as a bare mesh."""
 
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from tracer.formulas.vector import Vector
+from tracer.formulas.vector import Vector, as_floats
 from tracer.scene.scene import Background, Light, Object, Tracing, middle_and_radius
 
 
 def default_lights(objects: Sequence[Object]) -> tuple[Light, ...]:
-    """A key light from above on one side, and a weaker one from the other."""
+    """A key light from above on one side, and a weaker one from the other. The objects must be bounded."""
     boxes = [box for item in objects if (box := item.shape.bounds()) is not None]
     middle, radius = middle_and_radius(np.concatenate(boxes))
 
     def at(x: float, y: float, z: float) -> Vector:
-        place = middle + radius * np.array([x, y, z])
-        return (float(place[0]), float(place[1]), float(place[2]))
+        return as_floats(middle + radius * np.array([x, y, z]))
 
     return (
         Light("key", position=at(3.0, 4.0, 4.0), color=(0.8, 0.8, 0.78)),
@@ -25,4 +24,5 @@ def default_lights(objects: Sequence[Object]) -> tuple[Light, ...]:
 
 
 def default_surroundings() -> dict[str, Any]:
+    """A blue background and white ambient light, as arguments of `Scene`."""
     return {"background": Background((0.55, 0.65, 0.8)), "tracing": Tracing(ambient=(1.0, 1.0, 1.0))}

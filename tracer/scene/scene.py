@@ -1,7 +1,7 @@
 """What an author writes: a scene as frozen dataclasses, each field with its rule and its default beside it.
 
-Format 1 of the scene file has the same names; `formats/` reads files into these. Lengths are in the author's unit,
-colours linear RGB, angles in degrees, the frame right-handed.
+Format 1 of scene files uses the same names. Lengths are in the author's unit, colours in linear RGB, angles in degrees;
+the frame is right-handed.
 """
 
 import math
@@ -12,28 +12,18 @@ from typing import Any
 import numpy as np
 
 from tracer import fields
+from tracer.choices import MODELS, SHADOWS
 from tracer.formulas.media import INDICES
 from tracer.formulas.vector import Vector
-from tracer.shapes.box import Box
-from tracer.shapes.cone import Cone
-from tracer.shapes.disc import Disc
-from tracer.shapes.mesh import Mesh
-from tracer.shapes.plane import Plane
-from tracer.shapes.polygon import Polygon
-from tracer.shapes.sphere import Sphere
-from tracer.shapes.triangle import Triangle
-
-Shape = Sphere | Plane | Polygon | Triangle | Box | Cone | Disc | Mesh
-
-NOT_YET = "0 (this version traces no other)"
+from tracer.shapes import Shape
 
 
 def _zero() -> Any:
-    """A number of format 1 whose effect is not traced yet: better refused than silently ignored."""
+    """A number of format 1 that is not traced yet. It is refused, not ignored."""
 
     def read(value: Any) -> float:
         if value != 0 or isinstance(value, bool):
-            raise fields.Refused(NOT_YET)
+            raise fields.Refused("0 (this version traces no other)")
         return 0.0
 
     return fields.rule(read)
@@ -56,7 +46,7 @@ def _index() -> Any:
 
 @dataclass(frozen=True, slots=True)
 class Camera:
-    position: Vector | None = field(default=None, metadata=fields.point())  # None: where the whole scene is seen
+    position: Vector | None = field(default=None, metadata=fields.point())  # None: where it sees the whole scene
     look_at: Vector | None = field(default=None, metadata=fields.point())  # None: the middle of the scene
     up: Vector = field(default=(0.0, 1.0, 0.0), metadata=fields.direction())
     fov: float = field(default=40.0, metadata=fields.number(above=0, below=180))  # degrees over the image's full height
@@ -88,8 +78,8 @@ class Background:
 @dataclass(frozen=True, slots=True)
 class Tracing:
     depth: int = field(default=3, metadata=fields.whole(0, 10**9))  # 0: camera rays and their shadow rays only
-    shadows: str = field(default="filter", metadata=fields.choice("filter", "block"))  # what glass does to shadow rays
-    model: str = field(default="whitted", metadata=fields.choice("whitted", "fresnel"))
+    shadows: str = field(default=SHADOWS[0], metadata=fields.choice(*SHADOWS))  # what glass does to shadow rays
+    model: str = field(default=MODELS[0], metadata=fields.choice(*MODELS))
     ambient: Vector = field(default=(1.0, 1.0, 1.0), metadata=fields.color())
 
 
@@ -97,7 +87,7 @@ class Tracing:
 class Light:
     name: str = field(default="", metadata=fields.text())
     position: Vector | None = field(default=None, metadata=fields.point())
-    direction: Vector | None = field(default=None, metadata=fields.direction())  # the way its light travels
+    direction: Vector | None = field(default=None, metadata=fields.direction())  # in which its light travels
     color: Vector = field(default=(1.0, 1.0, 1.0), metadata=fields.color())
     radius: float = field(default=0.0, metadata=_zero())
 
@@ -128,6 +118,11 @@ class Material:
     roughness: float = field(default=0.0, metadata=_zero())
     checker: Checker | None = None
 
+    @property
+    def is_lit(self) -> bool:
+        """Whether light makes it brighter."""
+        return self.diffuse > 0.0 or self.specular > 0.0
+
 
 @dataclass(frozen=True, slots=True)
 class Object:
@@ -149,8 +144,22 @@ class Scene:
     title: str = ""
     path: Path | None = None  # the file it came from
 
+    @property
+    def caption(self) -> str:
+        """Its title, else the name of its file."""
+        return self.title or (self.path.name if self.path else "scene")
+
+    def object_name(self, k: int) -> str:
+        """The name of object k, or its shape and number if the author gave none."""
+        item = self.objects[k]
+        return item.name or f"{item.shape.name} {k}"
+
+    def light_name(self, j: int) -> str:
+        """The name of light j, or its number if the author gave none."""
+        return self.lights[j].name or f"light {j}"
+
     def faults(self) -> list[str]:
-        """Every value that is not allowed, one line each; the same rules as for a file."""
+        """Every value that is not allowed, a line each, by the same rules as for a file."""
         found = []
         parts = [("camera", self.camera), ("image", self.image), ("background", self.background)]
         parts += [("tracing", self.tracing)]
@@ -169,7 +178,7 @@ class Scene:
 
 
 class SceneError(ValueError):
-    """A scene that cannot be used: one line a fault."""
+    """A scene that cannot be used. `faults` has a line for each fault."""
 
     def __init__(self, faults: list[str]) -> None:
         super().__init__("\n".join(faults))
@@ -177,11 +186,11 @@ class SceneError(ValueError):
 
 
 def place(table: str, k: int, name: str = "") -> str:
-    """`object[2] "ball"`: the k-th table of that kind, counted from 0, and its name where it has one."""
+    """The place of a fault in a file, like `object[2] "ball"`: the k-th table of a kind, counted from 0."""
     return f'{table}[{k}] "{name}"' if name else f"{table}[{k}]"
 
 
 def middle_and_radius(bounds: np.ndarray) -> tuple[np.ndarray, float]:
-    """A ball about the boxes (n, 2, 3): what a camera must see to see the scene."""
+    """(centre, radius) of a ball around boxes (n, 2, 3)."""
     low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
     return 0.5 * (low + high), 0.5 * math.dist(low, high)

@@ -1,12 +1,13 @@
-"""Box: all p with low <= p <= high, its faces along the axes. Packed as a = low, b = high.
+"""Box: all p with low <= p <= high, its faces parallel to the axes. Packed as a = low, b = high.
 
-The ray is inside between the last of the three planes it enters by and the first it leaves by (Kay & Kajiya, SIGGRAPH
-1986). A direction of 0 along an axis never crosses that pair of planes: it is decided by where the ray starts.
+The slab test (Kay & Kajiya, SIGGRAPH 1986): the ray is inside between the last of the three planes at which it enters a
+slab and the first at which it leaves one. A direction that is 0 along an axis never crosses that slab's planes: there
+the ray's origin decides.
 """
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -15,14 +16,23 @@ from tracer.compile.jit import inlined
 from tracer.formulas.vector import Vector, add, scale
 from tracer.rays import Ray
 from tracer.shapes import planar
-
-NAME = "box"
+from tracer.shapes.polygon import Polygon
+from tracer.shapes.shape import Shape
+from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
+from tracer.shapes.tessellation import flat
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class Box(Shape):
+    name: ClassVar[str] = "box"
+    curved: ClassVar[bool] = False
+
     min: Vector = field(metadata=fields.point())
     max: Vector = field(metadata=fields.point())
+
+    @classmethod
+    def example(cls) -> "Box":
+        return cls((-1.0, -0.5, -0.75), (1.0, 0.5, 0.75))
 
     def pack(self, rows: Any) -> None:
         rows["a"] = self.min
@@ -30,6 +40,9 @@ class Box:
 
     def bounds(self) -> np.ndarray:
         return np.array([self.min, self.max])[None]
+
+    def is_closed(self) -> bool:
+        return True
 
     def contains(self, p: np.ndarray) -> bool:
         return bool(np.all(np.less(self.min, p)) and np.all(np.less(p, self.max)))
@@ -39,12 +52,38 @@ class Box:
             return []
         return [f"max must be above min along each axis, got min {list(self.min)} and max {list(self.max)}"]
 
+    def triangles(self, middle: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
+        low, high = np.array(self.min), np.array(self.max)
+        faces = []
+        for axis in range(3):
+            u, v = np.eye(3)[(axis + 1) % 3], np.eye(3)[(axis + 2) % 3]
+            for side, end in ((1.0, high), (-1.0, low)):
+                at = np.where(np.arange(3) == axis, end, low)
+                p, q = u * (high - low), v * (high - low)
+                square = [at, at + p, at + p + q, at + q][:: int(side)]
+                faces += [[square[0], square[1], square[2]], [square[0], square[2], square[3]]]
+        return flat(np.array(faces))
+
+    def faces(self) -> list[tuple[Shape, ...]]:
+        """Its six sides."""
+        low, high = np.array(self.min), np.array(self.max)
+        found: list[tuple[Shape, ...]] = []
+        for axis in range(3):
+            u, v = (axis + 1) % 3, (axis + 2) % 3
+            for end in (low, high):
+                corners = np.tile(end, (4, 1))
+                corners[:, u] = (low[u], high[u], high[u], low[u])
+                corners[:, v] = (low[v], low[v], high[v], high[v])
+                found.append((Polygon(tuple(tuple(corner) for corner in corners.tolist())),))
+        return found
+
 
 @inlined
-def slab_interval(surface: Any, ray: Ray) -> tuple[float, float]:
-    """The distances at which the ray enters and leaves; entering is after leaving where it misses.
+def slab_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
+    """The distances at which the ray enters and leaves. It misses where the first is larger.
 
-    Both are worked out as a plane's are, by one division: a box that stands on a plane meets the ray where that does.
+    Each is computed by one division, like the distance to a plane: where a box stands on a plane, both are met at the
+    same t.
     """
     enter, leave = -math.inf, math.inf
     for k in range(3):
@@ -60,7 +99,8 @@ def slab_interval(surface: Any, ray: Ray) -> tuple[float, float]:
 
 
 @inlined
-def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
+    """Where the ray enters the box or, from inside, leaves it."""
     enter, leave = slab_interval(surface, ray)
     if enter > leave:
         return math.inf
@@ -72,15 +112,15 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
 
 
 @inlined
-def next_hit(world: Any, surface: Any, ray: Ray) -> float:
-    """From its own surface a ray meets the box once more if it goes inwards: where it leaves."""
+def next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
+    """A ray that starts on the box and goes inwards meets it once more, where it leaves."""
     _, leave = slab_interval(surface, ray)
     return leave if ray.side < 0.0 and leave > 0.0 else math.inf
 
 
 @inlined
-def interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-    """The hit, put exactly on the face whose plane is crossed at t."""
+def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+    """The hit point, exactly on the face whose plane is crossed at t, and that face's normal twice."""
     enter, _ = slab_interval(surface, ray)
     entering = enter == t
     p = add(ray.origin, scale(t, ray.direction))

@@ -1,19 +1,23 @@
-"""Cone: the side of a cone, of a frustum or, with equal radii, of a cylinder: open at both ends, as in E. Haines' NFF.
+"""Cone: the side of a cone, of a frustum or, with equal radii, of a cylinder. Open at both ends, as in E. Haines' NFF.
 
-Packed as a = the narrow end, b = unit axis from there to the wide end, r = radius at a, c = (cosine and sine of the
-angle between axis and side, height). From the narrow end, because there every digit of a short distance counts.
+Packed as a = centre of the narrow end, b = unit axis from there to the wide end, r = radius at a, c = (cosine and
+sine of the angle between axis and side, height). Heights count from the narrow end, where short distances need their
+digits.
 
-|across|^2 = radius(height)^2 is a quadratic A t^2 + 2 B t + C. Multiplied by the cosine squared nothing in it grows
-without limit however flat the cone is, and a cylinder is no special case. With f, d the ray's start and direction
-across the axis, rho and rise the radius there and its growth along the ray, all four times the cosine,
+|across|^2 = radius(height)^2 is a quadratic A t^2 + 2 B t + C in t. Times cosine^2, no coefficient grows without
+bound however flat the cone is, and a cylinder is no special case. Let f and d be the parts of the ray's origin and
+direction across the axis, rho the radius at the origin's height and rise its change along the ray, all times the
+cosine:
+
     A = d.d - rise^2    B = f.d - rise rho    C = f.f - rho^2    B^2 - A C = |rho d - rise f|^2 - |f x d|^2
-(Lagrange's identity): each difference of squares is written as a product, the last one instead of the difference of
-large numbers that it equals. The root that would cancel is the product of both over the other (as in `sphere`).
+
+(the last by Lagrange's identity). Differences of squares are computed as products. The root that would cancel is C/q
+(as in `sphere`).
 """
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -23,23 +27,30 @@ from tracer.compile.jit import compiled, inlined
 from tracer.formulas.vector import Vector, add, cross, dot, length, negate, rescale, scale, subtract, unit, vector
 from tracer.rays import Ray
 from tracer.shapes.disc import Disc
-
-NAME = "cone"
+from tracer.shapes.shape import Shape
+from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
+from tracer.shapes.tessellation import unit_circle
 
 
 @dataclass(frozen=True, slots=True)
-class Cone:
+class Cone(Shape):
+    name: ClassVar[str] = "cone"
+
     base: Vector = field(metadata=fields.point())
     base_radius: float = field(metadata=fields.number(least=0))
     apex: Vector = field(metadata=fields.point())
     apex_radius: float = field(metadata=fields.number(least=0))
+
+    @classmethod
+    def example(cls) -> "Cone":
+        return cls((0.0, -1.0, 0.0), 1.0, (0.0, 1.0, 0.0), 0.5)
 
     def ends(self) -> tuple[Vector, Vector]:
         """The centres of the narrow and of the wide end; of a cylinder, base and apex."""
         return (self.base, self.apex) if self.base_radius <= self.apex_radius else (self.apex, self.base)
 
     def axis(self) -> Vector:
-        """From the narrow end to the wide one, as long as the cone is high."""
+        """The vector from the narrow end to the wide end, as long as the cone is high."""
         narrow, wide = self.ends()
         return subtract(wide, narrow)
 
@@ -53,14 +64,11 @@ class Cone:
         rows["c"] = (height / side, growth / side, height)
 
     def bounds(self) -> np.ndarray:
-        """Those of its two ends: between them it is straight."""
+        """The box about its two end discs: the side between them is straight."""
         axis = self.axis()
         rims = [Disc(self.base, axis, self.base_radius).bounds(), Disc(self.apex, axis, self.apex_radius).bounds()]
         both = np.concatenate(rims)
         return np.stack([both[:, 0].min(axis=0), both[:, 1].max(axis=0)])[None]
-
-    def contains(self, p: np.ndarray) -> bool:
-        return False
 
     def faults(self) -> list[str]:
         found = []
@@ -70,17 +78,33 @@ class Cone:
             found.append("base_radius or apex_radius must be > 0, got 0 for both")
         return found
 
+    def triangles(self, middle: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
+        """A strip between its two circles, with the cone's normals. A tip needs one triangle of each pair."""
+        narrow, wide = self.ends()
+        axis = self.axis()
+        height, growth = math.hypot(*axis), abs(self.base_radius - self.apex_radius)
+        circle = unit_circle(axis)
+        r = min(self.base_radius, self.apex_radius)
+        low, high = np.array(narrow) + r * circle, np.array(wide) + (r + growth) * circle
+        n = (height * circle - growth * np.array(unit(rescale(axis)))) / math.hypot(height, growth)
+        corners = np.stack([low[:-1], high[1:], high[:-1]], axis=1)
+        normals = np.stack([n[:-1], n[1:], n[:-1]], axis=1)
+        if r > 0.0:
+            corners = np.concatenate([corners, np.stack([low[:-1], low[1:], high[1:]], axis=1)])
+            normals = np.concatenate([normals, np.stack([n[:-1], n[1:], n[1:]], axis=1)])
+        return corners, normals
+
 
 @inlined
 def split_along(axis: Vector, v: Vector) -> tuple[float, Vector]:
-    """How far v goes along a unit axis, and its part across."""
+    """(component of v along a unit axis, part of v across it)."""
     along = dot(axis, v)
     return (along, subtract(v, scale(along, axis)))
 
 
 @inlined
-def quadratic_terms(surface: Any, ray: Ray) -> tuple[float, float, Vector, Vector, float, float]:
-    """(height of the ray's start, its climb, f, d, rho, rise)."""
+def quadratic_terms(surface: SurfaceRow, ray: Ray) -> tuple[float, float, Vector, Vector, float, float]:
+    """(height of the ray's origin, its change along the ray, f, d, rho, rise)."""
     axis = vector(surface.b)
     cosine, sine = surface.c[0], surface.c[1]
     height, f = split_along(axis, subtract(ray.origin, vector(surface.a)))
@@ -96,27 +120,28 @@ def difference_of_squares(a: float, b: float) -> float:
 
 
 @inlined
-def is_within_height(surface: Any, height: float) -> bool:
-    """Whether this height is the cone's; then it is on the right one of the double cone's halves too."""
+def is_within_height(surface: SurfaceRow, height: float) -> bool:
+    """Whether the height is between the two ends, and so on the right half of the double cone."""
     return 0.0 <= height <= surface.c[2]
 
 
 @compiled
-def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
+    """The first root of the quadratic that is between the two ends."""
     noinline()
     height, climb, f, d, rho, rise = quadratic_terms(surface, ray)
     bend = length(subtract(scale(rho, d), scale(rise, f)))
-    beside = dot(vector(surface.b), cross(f, d))  # f and d have no part along the axis, their product has no other
+    beside = dot(vector(surface.b), cross(f, d))  # f and d are across the axis, so f x d is along it
     discriminant = difference_of_squares(bend, beside)
     if discriminant < 0.0:
         return math.inf
     b = dot(f, d) - rise * rho
     q = -(b + math.copysign(math.sqrt(discriminant), b))
-    if q == 0.0:  # it runs along the side, or starts where it touches it
+    if q == 0.0:  # the ray runs along the side, or starts where it touches it
         return math.inf
     a = difference_of_squares(length(d), rise)
     one = difference_of_squares(length(f), rho) / q
-    other = q / a if a != 0.0 else math.inf  # none: it is parallel to the side somewhere
+    other = q / a if a != 0.0 else math.inf  # one root only: the ray is parallel to a line of the side
     near, far = min(one, other), max(one, other)
     if near > 0.0 and near >= floor and is_within_height(surface, height + near * climb):
         return near
@@ -126,10 +151,10 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
 
 
 @inlined
-def next_hit(world: Any, surface: Any, ray: Ray) -> float:
-    """Where a ray that leaves inwards meets the side once more: C is 0, and t = -2 B / A.
+def next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
+    """Where a ray that leaves the side inwards meets it again: C is 0, so t = -2 B / A.
 
-    Inwards B < 0. Where A <= 0 the ray is steeper than the side and meets the double cone only behind it.
+    Inwards, B < 0. Where A <= 0, the ray is steeper than the side and meets the double cone only behind its origin.
     """
     height, climb, f, d, rho, rise = quadratic_terms(surface, ray)
     a, b = difference_of_squares(length(d), rise), dot(f, d) - rise * rho
@@ -140,11 +165,11 @@ def next_hit(world: Any, surface: Any, ray: Ray) -> float:
 
 
 @inlined
-def interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-    """The hit moved along the normal onto the side. At the very tip the normal is the axis, outwards.
+def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+    """The hit point, moved along the normal onto the side, and the normal twice. At the tip it is the axis, outwards.
 
-    The height's rounding leaves a part along the axis in f: taken out again. Where that was most of f, f was nothing
-    but rounding, and the hit is on the axis.
+    Rounding of the height leaves a part along the axis in f, which is removed. If that was most of f, then f is only
+    rounding error, and the hit is on the axis.
     """
     axis = vector(surface.b)
     cosine, sine = surface.c[0], surface.c[1]
@@ -160,12 +185,12 @@ def interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, V
 
 
 @inlined
-def normal_derivative(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
-    """About the axis only: along the side the normal stays."""
+def normal_derivative(world: ShapeArrays, surface: SurfaceRow, p: Vector, v: Vector) -> Vector:
+    """The normal turns only about the axis; along a line of the side it is constant."""
     axis = vector(surface.b)
     _, across = split_along(axis, subtract(p, vector(surface.a)))
     size = length(across)
     if size == 0.0:
-        return (math.inf, math.inf, math.inf)  # at the tip it may be anything
+        return (math.inf, math.inf, math.inf)  # at the tip the normal is undefined
     around = scale(1.0 / size, cross(axis, across))
     return scale(surface.c[0] / size * dot(around, v), around)

@@ -1,8 +1,8 @@
-"""Disc: a round flat face. Packed as a plane, a = its centre, and b[0] = its radius."""
+"""Disc: a round flat face. Packed as in `planar`, with a = its centre and b[0] = its radius."""
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -13,16 +13,25 @@ from tracer.formulas.double_double import dd_vector
 from tracer.formulas.vector import Vector, add, length, rescale, scale, subtract, unit, vector
 from tracer.rays import Ray
 from tracer.shapes import planar
-from tracer.shapes.planar import may_cross, outline_slack, pack_normal, plane_distance
-
-NAME = "disc"
+from tracer.shapes.planar import may_cross, outline_slack, pack_normal
+from tracer.shapes.shape import Shape
+from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
+from tracer.shapes.tessellation import flat, unit_circle
 
 
 @dataclass(frozen=True, slots=True)
-class Disc:
+class Disc(Shape):
+    name: ClassVar[str] = "disc"
+    curved: ClassVar[bool] = False
+    checker_in_plane: ClassVar[bool] = True
+
     center: Vector = field(metadata=fields.point())
     normal: Vector = field(metadata=fields.direction())
     radius: float = field(metadata=fields.number(above=0))
+
+    @classmethod
+    def example(cls) -> "Disc":
+        return cls((0.0, 0.0, 0.0), (1.0, 2.0, 2.0), 1.0)
 
     def pack(self, rows: Any) -> None:
         rows["a"] = self.center
@@ -31,21 +40,27 @@ class Disc:
         rows["r"] = np.abs(self.center).sum()
 
     def bounds(self) -> np.ndarray:
-        """Along an axis it reaches as far as its normal leaves that axis: radius times sqrt(1 - n_k^2)."""
+        """Along axis k it reaches radius * sqrt(1 - n_k^2) from its centre."""
         x, y, z = unit(rescale(self.normal))
         reach = self.radius * np.array([math.hypot(y, z), math.hypot(z, x), math.hypot(x, y)])
         return np.stack([self.center - reach, self.center + reach])[None]
 
-    def contains(self, p: np.ndarray) -> bool:
-        return False
+    def plane(self) -> tuple[Vector, Vector]:
+        return self.center, unit(rescale(self.normal))
+
+    def triangles(self, middle: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
+        """A fan about its centre."""
+        rim = np.array(self.center) + self.radius * unit_circle(self.normal)
+        return flat(np.stack([np.broadcast_to(self.center, rim[1:].shape), rim[:-1], rim[1:]], axis=1))
 
 
 @compiled
-def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
+    """The distance to the plane, where the hit is no farther from the centre than the radius."""
     noinline()
     if not may_cross(surface, ray, ceiling):
         return math.inf
-    t = plane_distance(world, surface, ray, floor, ceiling, True)
+    t = world.formulas.plane_distance(world, surface, ray, floor, ceiling, True)
     if t == math.inf:
         return math.inf
     from_center = add(subtract(ray.origin, vector(surface.a)), scale(t, ray.direction))

@@ -1,8 +1,10 @@
-"""What plane, polygon, triangle and disc share. Packed as a = a point of it, normal + low, r = its |x| + |y| + |z|.
+"""Functions that plane, polygon, triangle and disc share.
 
-t = n.(a - o) / n.d. Where a ray starts closer to the plane than rounding can tell, the sign of that t says nothing,
-and no threshold would: at the corner of a room the next wall must be hit at once, at the edge of a cube it must not.
-The answer is in the corners: a ray that leaves face A lies on that side of face B on which A lies.
+Packed as a = a point of the plane, normal + normal_low = its unit normal, r = |a.x| + |a.y| + |a.z|.
+
+t = n.(a - o) / n.d. Where a ray starts nearer to the plane than rounding can tell, the sign of this t means nothing,
+and no threshold could replace it: in the corner of a room the next wall must be hit at once, at the edge of a cube
+it must not. The corners decide: a ray that leaves face A starts on that side of face B on which A lies.
 """
 
 import math
@@ -26,19 +28,22 @@ from tracer.formulas.double_double import (
 )
 from tracer.formulas.vector import Vector, add, as_floats, dot, scale, subtract, vector
 from tracer.rays import Ray
+from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
 
-# Rounding errors of n.(a - o): three products, three differences and two sums, and as many again in the point of the
-# surface the ray leaves; each at most 2^-53 of |a| + |o| in the 1-norm.
+# Bound on the rounding error of n.(a - o), relative to |a| + |o| in the 1-norm: three products, three differences and
+# two sums, and as many again in the point of the surface that the ray leaves; each at most 2^-53.
 PLANE_ERROR = 16 * U
 
-FAR_ANCHOR = 4.0  # times the way to the hit: where the plane's own point lies farther, it is the one with fewer digits
+FAR_ANCHOR = 4.0  # times the distance to the hit: where the plane's point is farther, it has fewer digits than the hit
 
-SPHERE_COUNT = 1  # the number of corners of a sphere
+SPHERE_COUNT = 1  # `count` of a sphere, which is a corner with a radius
+
+IN_PLANE, ON_BOTH_SIDES = 0, 2  # besides +1 and -1: where a face lies relative to a plane
 
 
 @inlined
-def corner(world: Any, surface: Any, k: int) -> Vector:
-    """The k-th corner of a face with `surface.count` corners (none: the face is a whole plane)."""
+def corner(world: ShapeArrays, surface: SurfaceRow, k: int) -> Vector:
+    """Corner k of a face with `surface.count` corners. A plane has none."""
     if surface.first >= 0:
         return vector(world.corners[surface.first + k])
     if k == 0:
@@ -49,8 +54,8 @@ def corner(world: Any, surface: Any, k: int) -> Vector:
 
 
 @compiled
-def side_of(world: Any, face: Any, plane: Any) -> int:
-    """On which side of the plane all of a face lies: +1, -1, 0 in it, 2 on both. A ball is a corner with a radius."""
+def side_of(world: ShapeArrays, face: SurfaceRow, plane: SurfaceRow) -> int:
+    """The side of the plane on which all of a face or sphere lies: +1, -1, IN_PLANE or ON_BOTH_SIDES."""
     above = below = False
     normal, a = vector(plane.normal), vector(plane.a)
     radius = face.r if face.count == SPHERE_COUNT else 0.0
@@ -61,27 +66,29 @@ def side_of(world: Any, face: Any, plane: Any) -> int:
         above = above or height + radius > error
         below = below or height - radius < -error
     if above:
-        return 2 if below else 1
-    return -1 if below else 0
+        return ON_BOTH_SIDES if below else 1
+    return -1 if below else IN_PLANE
 
 
 @inlined
-def plane_rounding(surface: Any, ray: Ray) -> float:
-    """How far from the plane of a face a ray's start may be computed that lies in it."""
-    return PLANE_ERROR * (surface.r + ray.reach)
+def plane_rounding(surface: SurfaceRow, ray: Ray) -> float:
+    """Bound on the computed distance between the plane and the start of a ray that starts in it."""
+    return PLANE_ERROR * (surface.r + ray.magnitude)
 
 
 @inlined
-def height_and_speed(surface: Any, ray: Ray) -> tuple[float, float]:
-    """n.(a - o) and n.d; their ratio is the distance to the plane."""
+def height_and_speed(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
+    """n.(a - o) and n.d. Their ratio is the distance to the plane."""
     normal = vector(surface.normal)
     return (dot(normal, subtract(vector(surface.a), ray.origin)), dot(normal, ray.direction))
 
 
 @inlined
-def may_cross(surface: Any, ray: Ray, ceiling: float) -> bool:
-    """Whether the ray may cross the plane no farther than the ceiling: most planes lie behind or too far, and that is
-    seen without dividing. Nothing is dropped that rounding could have put there."""
+def may_cross(surface: SurfaceRow, ray: Ray, ceiling: float) -> bool:
+    """Whether the ray may cross the plane no farther than the ceiling.
+
+    Decides without a division, since most planes lie behind the ray or too far away. Never false because of rounding.
+    """
     height, speed = height_and_speed(surface, ray)
     error = plane_rounding(surface, ray)
     behind = (height > 0.0) != (speed > 0.0) and abs(height) > error and abs(speed) > PLANE_ERROR
@@ -89,23 +96,27 @@ def may_cross(surface: Any, ray: Ray, ceiling: float) -> bool:
 
 
 @inlined
-def outline_slack(surface: Any, ray: Ray) -> float:
-    """How far outside of a face's outline rounding may have put a point on the edge of this face and the one the ray
-    starts on; 0 where it starts elsewhere."""
+def outline_slack(surface: SurfaceRow, ray: Ray) -> float:
+    """How far outside the face's outline rounding may have put the start of a ray that starts on its edge.
+
+    Such a ray leaves a neighbouring face. The slack is 0 for a ray that starts away from the plane.
+    """
     height, _ = height_and_speed(surface, ray)
     error = plane_rounding(surface, ray)
     return 2.0 * error if ray.start >= 0 and abs(height) <= error else 0.0
 
 
 @inlined
-def plane_distance(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
-    """t > 0 to the plane of the face, 0 where the ray starts on it and crosses it; infinite where not within limits."""
+def plane_distance(
+    world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool
+) -> float:
+    """Distance t > 0 to the plane, 0 if the ray starts on it and crosses it; inf if not between floor and ceiling."""
     height, speed = height_and_speed(surface, ray)
     error = plane_rounding(surface, ray)
     if ray.start >= 0 and abs(height) <= error:
         t = contact_distance(world, surface, ray, speed)
-    elif is_aligned(surface) or (
-        not exactly
+    elif is_axis_aligned(surface) or (
+        not exact
         and (abs(speed) + PLANE_ERROR) * floor + error < abs(height) < (abs(speed) - PLANE_ERROR) * ceiling - error
     ):
         t = height / speed
@@ -115,51 +126,52 @@ def plane_distance(world: Any, surface: Any, ray: Ray, floor: float, ceiling: fl
 
 
 @inlined
-def is_aligned(surface: Any) -> bool:
-    """Whether the normal is along an axis: then n.(a - o) is one difference and n.d one number."""
+def is_axis_aligned(surface: SurfaceRow) -> bool:
+    """Whether the normal is parallel to an axis. Then n.(a - o) is one difference and n.d one number."""
     x, y, z = surface.normal[0] == 0.0, surface.normal[1] == 0.0, surface.normal[2] == 0.0
     return (x and y) or (y and z) or (z and x)
 
 
 @inlined
-def exact_normal(surface: Any) -> DDVector:
-    n, low = surface.normal, surface.low
+def dd_normal(surface: SurfaceRow) -> DDVector:
+    """The normal in double-double."""
+    n, low = surface.normal, surface.normal_low
     return ((n[0], low[0]), (n[1], low[1]), (n[2], low[2]))
 
 
 @compiled
-def exact_distance(surface: Any, ray: Ray) -> float:
-    """n.(a - o) / n.d in pairs, so that neither a grazing ray nor a far point of the plane costs digits."""
-    normal = exact_normal(surface)
+def exact_distance(surface: SurfaceRow, ray: Ray) -> float:
+    """n.(a - o) / n.d in double-double: accurate for grazing rays and for far points of the plane."""
+    normal = dd_normal(surface)
     height = dd_dot(normal, exact_difference(vector(surface.a), ray.origin))
     speed = dd_dot(normal, dd_vector(ray.direction))
     return dd_divide(height, speed) if speed[0] != 0.0 else math.inf
 
 
 @compiled
-def contact_distance(world: Any, surface: Any, ray: Ray, speed: float) -> float:
+def contact_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, speed: float) -> float:
     """`plane_distance` for a ray whose start cannot be told from a point of the plane."""
     noinline()
     if speed == 0.0:
         return math.inf
     start = world.surfaces[ray.start]
     t = exact_distance(surface, ray)
-    side = side_of(world, start, surface) if start.count > 0 else 2
-    if side == 2:  # it has no corners, or the plane cuts it: nothing better to go by than t itself
+    side = side_of(world, start, surface) if start.count > 0 else ON_BOTH_SIDES
+    if side == ON_BOTH_SIDES:  # it has no corners, or crosses the plane: only t itself is left to decide
         return t if t > 0.0 else math.inf
-    if side == 0 or side * speed > 0.0:
+    if side == IN_PLANE or side * speed > 0.0:
         return math.inf
     if surface.count >= 3:
         heading = 1 if dot(vector(start.normal), ray.direction) > 0.0 else -1
-        beyond = side_of(world, surface, start) if start.count >= 3 else 2
-        if beyond != 2 and beyond != heading:
+        beyond = side_of(world, surface, start) if start.count >= 3 else ON_BOTH_SIDES
+        if beyond != ON_BOTH_SIDES and beyond != heading:
             return math.inf
     return max(t, 0.0)
 
 
 @inlined
 def is_near_edge(ax: float, ay: float, bx: float, by: float, slack: float) -> bool:
-    """Whether the edge from a to b passes the ray, at (0, 0), no farther than `slack`."""
+    """Whether the edge from a to b passes the ray, which is at (0, 0), no farther than `slack`."""
     ex, ey = bx - ax, by - ay
     size = math.sqrt(ex * ex + ey * ey)
     along = -(ax * ex + ay * ey)
@@ -167,35 +179,47 @@ def is_near_edge(ax: float, ay: float, bx: float, by: float, slack: float) -> bo
 
 
 @inlined
-def interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-    """The hit moved into the plane, so that rounding does not lift it off."""
+def plane_interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+    """The hit point, projected into the plane so that rounding does not lift it off, and the normal twice."""
     n = vector(surface.normal)
     p = add(ray.origin, scale(t, ray.direction))
-    if surface.r > FAR_ANCHOR * (ray.reach + t) and not is_aligned(surface):
+    if surface.r > FAR_ANCHOR * (ray.magnitude + t) and not is_axis_aligned(surface):
         height = exact_height(surface, p)
     else:
         height = dot(n, subtract(p, vector(surface.a)))
     return (subtract(p, scale(height, n)), n, n)
 
 
+@inlined
+def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+    """`plane_interaction`, or what a world's formulas have in its place."""
+    return world.formulas.plane_interaction(world, surface, ray, t)
+
+
 @compiled
-def exact_height(surface: Any, p: Vector) -> float:
-    """n.(p - a) in pairs, for an `a` so far from the hit that it has fewer digits."""
+def exact_height(surface: SurfaceRow, p: Vector) -> float:
+    """n.(p - a) in double-double, for an `a` so far from the hit that it has fewer digits."""
     noinline()
-    return dd_dot(exact_normal(surface), exact_difference(p, vector(surface.a)))[0]
+    return dd_dot(dd_normal(surface), exact_difference(p, vector(surface.a)))[0]
 
 
 @inlined
-def no_next_hit(world: Any, surface: Any, ray: Ray) -> float:
-    """A flat surface is not met again by a ray that leaves it."""
+def no_next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
+    """Infinite: a ray that leaves a flat surface never meets it again."""
     return math.inf
 
 
-def newell_normal(corners: np.ndarray) -> DDVector:
-    """A normal, of any length, of a closed line of corners (n, 3), seen counter-clockwise from its tip; 0 for no area.
+@inlined
+def constant_normal(world: ShapeArrays, surface: SurfaceRow, p: Vector, v: Vector) -> Vector:
+    """No change: a flat face has the same normal everywhere."""
+    return (0.0, 0.0, 0.0)
 
-    Sum of the cross products of neighbouring corners about the first (M. Newell's rule; Sutherland, Sproull &
-    Schumacker, Computing Surveys 6(1), 1974), in pairs.
+
+def newell_normal(corners: np.ndarray) -> DDVector:
+    """A normal, of any length, of a closed outline (n, 3), counter-clockwise seen from its tip; 0 for no area.
+
+    The sum of the cross products of neighbouring corners about the first one (M. Newell's rule; Sutherland, Sproull &
+    Schumacker, Computing Surveys 6(1), 1974), in double-double.
     """
     arms = [exact_difference(as_floats(corner), as_floats(corners[0])) for corner in corners[1:]]
     area = dd_vector((0.0, 0.0, 0.0))
@@ -205,24 +229,18 @@ def newell_normal(corners: np.ndarray) -> DDVector:
     return area
 
 
-@inlined
-def constant_normal(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
-    """The normal of a flat face is the same everywhere."""
-    return (0.0, 0.0, 0.0)
-
-
 def unit_normal(corners: np.ndarray) -> np.ndarray:
-    """`newell` with length 1; 0 for no area."""
+    """`newell_normal` with length 1; 0 for no area."""
     area = np.array([high for high, _ in newell_normal(corners)])
     return area / (math.hypot(*area) or 1.0)
 
 
 def pack_normal(rows: Any, area: DDVector) -> None:
-    """Fill in `normal` and `low` from normals of any length above 0, numbers or arrays."""
-    _, exponent = np.frexp(np.max(np.abs([high for high, _ in area]), axis=0))  # so that no square vanishes
-    tamed = [(np.ldexp(high, -exponent), np.ldexp(low, -exponent)) for high, low in area]
-    size = np.sqrt(sum(high * high for high, _ in tamed))
-    for k, (high, low) in enumerate(tamed):
+    """Fill in `normal` and `normal_low` from normals of any length above 0. The components may be arrays."""
+    _, exponent = np.frexp(np.max(np.abs([high for high, _ in area]), axis=0))  # no square may underflow
+    scaled = [(np.ldexp(high, -exponent), np.ldexp(low, -exponent)) for high, low in area]
+    size = np.sqrt(sum(high * high for high, _ in scaled))
+    for k, (high, low) in enumerate(scaled):
         rows["normal"][..., k] = n = high / size
         product, error = two_product(n, size)
-        rows["low"][..., k] = ((high - product) - error + low) / size
+        rows["normal_low"][..., k] = ((high - product) - error + low) / size

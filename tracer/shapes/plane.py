@@ -1,26 +1,41 @@
-"""Plane: all p with n.(p - a) = 0, without end. As a solid it is the half-space its normal points away from."""
+"""Plane: all p with n.(p - a) = 0, infinite. As a solid, the half-space that its normal points away from.
+
+Packed as in `planar`.
+"""
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from tracer import fields
 from tracer.compile.jit import inlined
 from tracer.formulas.double_double import dd_vector
-from tracer.formulas.vector import Vector, rescale
+from tracer.formulas.vector import Vector, rescale, unit
 from tracer.rays import Ray
 from tracer.shapes import planar
-from tracer.shapes.planar import may_cross, pack_normal, plane_distance
+from tracer.shapes.planar import may_cross, pack_normal
+from tracer.shapes.shape import Shape
+from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
+from tracer.shapes.tessellation import flat
 
-NAME = "plane"
+REACH = 12.0  # radii of the scene: half the side of the square that the 3D view shows
 
 
 @dataclass(frozen=True, slots=True)
-class Plane:
+class Plane(Shape):
+    name: ClassVar[str] = "plane"
+    curved: ClassVar[bool] = False
+    checker_in_plane: ClassVar[bool] = True
+    has_edges: ClassVar[bool] = False
+
     point: Vector = field(metadata=fields.point())
     normal: Vector = field(metadata=fields.direction())
+
+    @classmethod
+    def example(cls) -> "Plane":
+        return cls((0.0, 0.0, 0.0), (0.0, 1.0, 0.0))
 
     def pack(self, rows: Any) -> None:
         rows["a"] = self.point
@@ -28,18 +43,35 @@ class Plane:
         rows["r"] = np.abs(self.point).sum()
 
     def bounds(self) -> None:
-        """None: it has no end."""
         return
+
+    def plane(self) -> tuple[Vector, Vector]:
+        return self.point, unit(rescale(self.normal))
+
+    def is_closed(self) -> bool:
+        return True
 
     def contains(self, p: np.ndarray) -> bool:
         return bool(np.dot(np.subtract(p, self.point), self.normal) < 0.0)
 
+    def triangles(self, middle: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
+        """A square about the foot of the perpendicular from the scene's middle."""
+        point, normal = self.plane()
+        n = np.array(normal)
+        foot = middle - ((middle - point) @ n) * n
+        aside = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
+        aside /= np.linalg.norm(aside)
+        u, v = REACH * radius * aside, REACH * radius * np.cross(n, aside)
+        a, b, c, d = foot - u - v, foot + u - v, foot + u + v, foot - u + v
+        return flat(np.array([[a, b, c], [a, c, d]]))
+
 
 @inlined
-def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
-    return (
-        plane_distance(world, surface, ray, floor, ceiling, exactly) if may_cross(surface, ray, ceiling) else math.inf
-    )
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
+    """The distance to the plane."""
+    if not may_cross(surface, ray, ceiling):
+        return math.inf
+    return world.formulas.plane_distance(world, surface, ray, floor, ceiling, exact)
 
 
 next_hit = planar.no_next_hit

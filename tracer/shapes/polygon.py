@@ -1,56 +1,64 @@
-"""Polygon: a flat face with any number of corners, convex or not. Packed as a plane, its corners in world.corners.
+"""Polygon: a flat face with any number of corners, convex or not.
 
-Inside is where a line from the hit to infinity crosses the outline an odd number of times. The crossings are counted
-in the ray's own sheared coordinates, in which an edge shared by two faces is the same two numbers for both.
+Packed as in `planar`, with its corners in `world.corners` from `first` on.
+
+A point is inside if a line from it to infinity crosses the outline an odd number of times. Crossings are counted in the
+ray's sheared frame (`tracer.rays`), in which an edge that two faces share has the same coordinates for both.
 """
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from tracer import fields
 from tracer.compile.jit import inlined
-from tracer.formulas.vector import Vector
+from tracer.formulas.vector import Vector, unit
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.planar import (
-    is_near_edge,
-    may_cross,
-    newell_normal,
-    outline_slack,
-    pack_normal,
-    plane_distance,
-    unit_normal,
-)
+from tracer.shapes.planar import is_near_edge, may_cross, newell_normal, outline_slack, pack_normal, unit_normal
+from tracer.shapes.shape import Shape
+from tracer.shapes.surface_row import SURFACE, ShapeArrays, SurfaceRow
+from tracer.shapes.tessellation import flat
 
-NAME = "polygon"
-
-FLATNESS = 1e-5  # of its size: how far a corner may lie off the polygon's plane (format 1)
+FLATNESS = 1e-5  # how far a corner may lie off the polygon's plane, relative to the polygon's size (format 1)
 
 
 @dataclass(frozen=True, slots=True)
-class Polygon:
+class Polygon(Shape):
+    name: ClassVar[str] = "polygon"
+    curved: ClassVar[bool] = False
+    checker_in_plane: ClassVar[bool] = True
+
     vertices: tuple[Vector, ...] = field(metadata=fields.points(at_least=3))
+
+    @classmethod
+    def example(cls) -> "Polygon":
+        """An L."""
+        corners = ((-1, -1), (1, -1), (1, 0), (0, 0), (0, 1), (-1, 1))
+        return cls(tuple((float(x), float(y), 0.0) for x, y in corners))
 
     def pack(self, rows: Any) -> None:
         rows["a"] = self.vertices[0]
-        pack_normal(rows, newell_normal(self.corners()))
+        pack_normal(rows, newell_normal(self.outline()))
         rows["r"] = np.abs(self.vertices[0]).sum()
         rows["count"] = len(self.vertices)
-
-    def corners(self) -> np.ndarray:
-        return np.array(self.vertices, float)
 
     def bounds(self) -> np.ndarray:
         return np.stack([np.min(self.vertices, axis=0), np.max(self.vertices, axis=0)])[None]
 
-    def contains(self, p: np.ndarray) -> bool:
-        return False
+    def outline(self) -> np.ndarray:
+        return np.array(self.vertices, float)
+
+    def plane(self) -> tuple[Vector, Vector]:
+        """The normal is that of the packed row."""
+        row = np.zeros(1, SURFACE)
+        self.pack(row)
+        return self.vertices[0], unit(row["normal"][0])
 
     def faults(self) -> list[str]:
-        corners = self.corners()
+        corners = self.outline()
         normal = unit_normal(corners)
         if not normal.any():
             return ["vertices must enclose an area, got corners on one line"]
@@ -65,9 +73,27 @@ class Polygon:
             ]
         return []
 
+    def triangles(self, middle: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
+        """Its ears, cut off one by one in its own plane."""
+        import mapbox_earcut
+
+        corners = self.outline()
+        n = unit_normal(corners)
+        u = corners[1] - corners[0]
+        u = u - (u @ n) * n
+        u /= np.linalg.norm(u)
+        plane = np.stack([(corners - corners[0]) @ u, (corners - corners[0]) @ np.cross(n, u)], axis=1)
+        plane /= np.abs(plane).max()  # scaled, since float64 coordinates may be out of the library's range
+        cut = mapbox_earcut.triangulate_float64(plane, np.array([len(plane)], np.uint32)).reshape(-1, 3)
+        found = corners[cut]
+        turned = (np.cross(found[:, 1] - found[:, 0], found[:, 2] - found[:, 0]) @ n) < 0.0
+        found[turned] = found[turned][:, ::-1]
+        return flat(found)
+
 
 @inlined
-def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
+    """The distance to the plane, where the ray crosses it inside the outline."""
     if not may_cross(surface, ray, ceiling):
         return math.inf
     slack = outline_slack(surface, ray)
@@ -76,17 +102,17 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
     for k in range(surface.count):
         x1, y1 = sheared(ray, world.corners[surface.first + k])
         if (y0 > 0.0) != (y1 > 0.0):
-            # On which side of the ray the edge passes. Rounding never turns this sign over, it can only make it 0:
-            # then the edge goes through the ray itself, and that counts as inside, for either neighbour.
+            # The sign says on which side of the ray the edge passes. Rounding never flips it, but it can become 0. Then
+            # the edge goes through the ray itself, which counts as inside, for both faces that share the edge.
             turn = x0 * y1 - x1 * y0
             if turn == 0.0:
-                return plane_distance(world, surface, ray, floor, ceiling, exactly)
+                return world.formulas.plane_distance(world, surface, ray, floor, ceiling, exact)
             if (turn > 0.0) == (y1 > y0):
                 inside = not inside
         if slack > 0.0 and is_near_edge(x0, y0, x1, y1, slack):
-            return plane_distance(world, surface, ray, floor, ceiling, exactly)
+            return world.formulas.plane_distance(world, surface, ray, floor, ceiling, exact)
         x0, y0 = x1, y1
-    return plane_distance(world, surface, ray, floor, ceiling, exactly) if inside else math.inf
+    return world.formulas.plane_distance(world, surface, ray, floor, ceiling, exact) if inside else math.inf
 
 
 next_hit = planar.no_next_hit

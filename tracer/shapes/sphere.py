@@ -1,14 +1,15 @@
 """Sphere: |p - c|^2 = r^2. Packed as a = centre, r = radius.
 
-The slides' quadratic. Whether the ray hits, and about where, is asked of the form by Haines, Günther & Akenine-Möller
-(Ray Tracing Gems, ch. 7): the discriminant from the ray's distance to the centre, not from two large numbers. Spheres
-much larger or much smaller than their distance leave it too few digits. So a root that is kept takes one Newton step
-from a residual that does not cancel; and where the form cannot decide, the quadratic is solved in pairs.
+The slides' quadratic, solved in three steps. First the form by Haines, Günther & Akenine-Möller (Ray Tracing Gems,
+ch. 7) decides whether the ray hits, and about where: its discriminant comes from the distance between ray and
+centre, not from the difference of two large numbers. Then a root that is kept takes one Newton step, from a residual
+in double-double: a sphere much larger or smaller than its distance leaves the first form too few digits. Where the
+first form cannot decide, the whole quadratic is solved in double-double.
 """
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -36,25 +37,34 @@ from tracer.formulas.double_double import (
 from tracer.formulas.vector import Vector, add, dot, scale, subtract, unit, vector
 from tracer.rays import Ray
 from tracer.shapes.planar import SPHERE_COUNT
+from tracer.shapes.shape import Shape
+from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
+from tracer.shapes.tessellation import unit_ball
 
-NAME = "sphere"
-
-# The quick form gets the ray's closest point to the centre wrong by 8 u |f| at most, f from the centre to the ray's
-# start; so the discriminant by less than SHARE of (CLOSE (r^2 + beside^2) + ROUGH |f|^2), since 2xy <= x^2 + y^2.
+# The first form puts the ray's closest point to the centre off by at most 8 u |f|, f from the centre to the ray's
+# origin. So its discriminant is off by less than SHARE (CLOSE (r^2 + beside^2) + ROUGH |f|^2), since 2xy <= x^2 + y^2.
 SHARE = 2.0**-10
 CLOSE = 2.0**-20
 ROUGH = (8 * U) ** 2 / (SHARE * SHARE * CLOSE)
-POWER = 32 * U  # |f|^2 - r^2 has the right sign where it is more than this of |f|^2 + r^2
+POWER_ERROR = 32 * U  # |f|^2 - r^2 has the right sign where it is more than this times |f|^2 + r^2
 
-# Times the way to the hit: a sphere so large has a centre too far, one so small a surface too fine, to start from.
+# Times the distance to the hit: above LARGE the centre is too far away, below 1/SMALL the surface too fine, for a hit
+# point to be computed from the centre.
 LARGE = 4.0
 SMALL = 2.0**20
 
 
 @dataclass(frozen=True, slots=True)
-class Sphere:
+class Sphere(Shape):
+    name: ClassVar[str] = "sphere"
+    has_edges: ClassVar[bool] = False
+
     center: Vector = field(metadata=fields.point())
     radius: float = field(metadata=fields.number(above=0))
+
+    @classmethod
+    def example(cls) -> "Sphere":
+        return cls((0.0, 0.0, 0.0), 1.0)
 
     def pack(self, rows: Any) -> None:
         rows["a"] = self.center
@@ -62,35 +72,42 @@ class Sphere:
         rows["count"] = SPHERE_COUNT
 
     def bounds(self) -> np.ndarray:
-        """(1, 2, 3): lowest and highest corner."""
         center = np.array(self.center)
         return np.stack([center - self.radius, center + self.radius])[None]
+
+    def is_closed(self) -> bool:
+        return True
 
     def contains(self, p: np.ndarray) -> bool:
         return math.dist(p, self.center) < self.radius
 
+    def triangles(self, middle: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
+        corners, faces = unit_ball()
+        return (np.array(self.center) + self.radius * corners)[faces], corners[faces]
+
 
 @inlined
-def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
+    """The first root of the quadratic between floor and ceiling."""
     f = subtract(ray.origin, vector(surface.a))
     b = -dot(f, ray.direction)
     beside = add(f, scale(b, ray.direction))  # from the centre to the ray's closest point
     r2, beside2 = surface.r * surface.r, dot(beside, beside)
     discriminant = r2 - beside2
-    doubt = CLOSE * (r2 + beside2) + ROUGH * (b * b)
-    if discriminant < -doubt:
+    error = CLOSE * (r2 + beside2) + ROUGH * (b * b)
+    if discriminant < -error:
         return math.inf
-    power = dot(f, f) - r2  # the product of both roots: above 0 outside
-    if not (discriminant > doubt and abs(power) > POWER * (power + 2.0 * r2)):
+    power = dot(f, f) - r2  # the product of both roots, positive outside the sphere
+    if not (discriminant > error and abs(power) > POWER_ERROR * (power + 2.0 * r2)):
         return first_root(surface, ray, floor, ceiling)
     if power > 0.0 and b < 0.0:
         return math.inf
     half_chord = math.sqrt(discriminant)
     first = b - math.copysign(half_chord, power)
-    doubt = SHARE * half_chord + POWER * abs(b)
-    if first - doubt > ceiling:
+    error = SHARE * half_chord + POWER_ERROR * abs(b)
+    if first - error > ceiling:
         return math.inf
-    if not exactly and first - doubt > floor and first + doubt < ceiling:
+    if not exact and first - error > floor and first + error < ceiling:
         return first
     t = refined_root(surface, ray, first)
     if t < floor and power > 0.0:
@@ -99,12 +116,16 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
 
 
 @inlined
-def refined_root(surface: Any, ray: Ray, t: float) -> float:
-    """The root near t, to the last digit, by a Newton step: g(t) = |f + t d|^2 - r^2, g'(t) = 2 (f + t d).d."""
+def refined_root(surface: SurfaceRow, ray: Ray, t: float) -> float:
+    """The root near t, accurate to the last digit.
+
+    A Newton step for g(t) = |f + t d|^2 - r^2 with g'(t) = 2 (f + t d).d; both roots in double-double where one step is
+    not enough.
+    """
     p, g = residual(surface, ray, t)
     slope = dot((p[0][0], p[1][0], p[2][0]), ray.direction)
     step = g / (2.0 * slope)
-    # What a second step would still move it by, and what the slope's own rounding does.
+    # The left side bounds what a second step would change, and the effect of rounding in the slope.
     if abs(step) * (abs(step) + 8 * U * surface.r) <= 0.125 * U * abs(t * slope):
         return t - step
     near, far = roots(surface, ray)
@@ -112,8 +133,8 @@ def refined_root(surface: Any, ray: Ray, t: float) -> float:
 
 
 @inlined
-def residual(surface: Any, ray: Ray, t: float) -> tuple[DDVector, float]:
-    """From the centre to the point at t, and that vector's |p|^2 - r^2."""
+def residual(surface: SurfaceRow, ray: Ray, t: float) -> tuple[DDVector, float]:
+    """(p, |p|^2 - r^2), where p is the vector from the centre to the ray's point at t."""
     x = dd_coordinate(ray.origin[0], surface.a[0], t, ray.direction[0])
     y = dd_coordinate(ray.origin[1], surface.a[1], t, ray.direction[1])
     z = dd_coordinate(ray.origin[2], surface.a[2], t, ray.direction[2])
@@ -128,15 +149,15 @@ def residual(surface: Any, ray: Ray, t: float) -> tuple[DDVector, float]:
 
 @inlined
 def dd_coordinate(o: float, c: float, t: float, d: float) -> DD:
-    """o - c + t d."""
+    """o - c + t d in double-double."""
     start, way = two_sum(o, -c), two_product(t, d)
     total = two_sum(start[0], way[0])
     return quick_two_sum(total[0], total[1] + (start[1] + way[1]))
 
 
 @compiled
-def first_root(surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
-    """`intersect` where the quick form cannot tell."""
+def first_root(surface: SurfaceRow, ray: Ray, floor: float, ceiling: float) -> float:
+    """`intersect` where the first form cannot decide."""
     noinline()
     near, far = roots(surface, ray)
     t = near if near > 0.0 and near >= floor else far
@@ -144,10 +165,10 @@ def first_root(surface: Any, ray: Ray, floor: float, ceiling: float) -> float:
 
 
 @compiled
-def roots(surface: Any, ray: Ray) -> tuple[float, float]:
-    """Both roots of A t^2 + 2 B t + C = 0, solved in pairs; infinite where there are none.
+def roots(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
+    """Both roots of A t^2 + 2 B t + C = 0, solved in double-double; inf where there are none.
 
-    The discriminant B^2 - A C is A r^2 - |f x d|^2 (Lagrange's identity); q/A and C/q never cancel.
+    The discriminant B^2 - A C is A r^2 - |f x d|^2 (Lagrange's identity). The roots q/A and C/q never cancel.
     """
     noinline()
     f, d = exact_difference(ray.origin, vector(surface.a)), dd_vector(ray.direction)
@@ -169,18 +190,18 @@ def roots(surface: Any, ray: Ray) -> tuple[float, float]:
 
 
 @inlined
-def next_hit(world: Any, surface: Any, ray: Ray) -> float:
-    """The other end of the chord, for a ray that starts on this sphere: t = -2 f.d, no quadratic left to solve."""
+def next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
+    """The other end of the chord, for a ray that starts on this sphere: t = -2 f.d."""
     chord = -2.0 * dot(subtract(ray.origin, vector(surface.a)), ray.direction)
     return max(chord, SMALLEST) if ray.side < 0.0 else math.inf
 
 
 @inlined
-def interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-    """The hit, put onto the sphere, and its normal."""
-    reach = ray.reach + t
+def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+    """The hit point, moved onto the sphere, and the normal twice."""
+    reach = ray.magnitude + t
     if surface.r > LARGE * reach or reach > SMALL * surface.r:
-        return careful_interaction(surface, ray, t)
+        return accurate_interaction(surface, ray, t)
     center = vector(surface.a)
     f = subtract(add(ray.origin, scale(t, ray.direction)), center)
     n = unit(f)
@@ -188,17 +209,17 @@ def interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, V
 
 
 @compiled
-def careful_interaction(surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-    """`locate` on a sphere whose centre or whose size is out of all proportion to the way there."""
+def accurate_interaction(surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+    """`interaction` on a sphere that is much larger or much smaller than the distance to the hit."""
     noinline()
     d, r = ray.direction, surface.r
     f, g = residual(surface, ray, t)
     to_hit = (f[0][0], f[1][0], f[2][0])
-    if r > ray.reach + t:  # the centre has fewer digits than the hit: move this along the normal, no more
+    if r > ray.magnitude + t:  # the centre has fewer digits than the hit: move the hit along the normal only
         n = unit(to_hit)
         p = add(ray.origin, scale(t, d))
         return (subtract(p, scale(0.5 * g / r, n)), n, n)
-    # t has fewer digits than the sphere: from the ray's closest point, half a chord back or on.
+    # t has fewer digits than the sphere: start from the ray's closest point to the centre, and go half a chord.
     along = dot(to_hit, d)
     beside = scale(1.0 / r, subtract(to_hit, scale(along, d)))
     half_chord = math.sqrt(max(1.0 - dot(beside, beside), 0.0))
@@ -209,6 +230,7 @@ def careful_interaction(surface: Any, ray: Ray, t: float) -> tuple[Vector, Vecto
 
 
 @inlined
-def normal_derivative(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
+def normal_derivative(world: ShapeArrays, surface: SurfaceRow, p: Vector, v: Vector) -> Vector:
+    """The part of v in the tangent plane, divided by the radius."""
     n = unit(subtract(p, vector(surface.a)))
     return scale(1.0 / surface.r, subtract(v, scale(dot(n, v), n)))

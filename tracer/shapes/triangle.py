@@ -1,13 +1,13 @@
-"""Triangle: three corners, counter-clockwise seen from outside; also the piece meshes are made of.
+"""Triangle: three corners, counter-clockwise seen from outside. Meshes are made of them.
 
-Packed as a, b, c, normal; `smooth` is its row in world.smooth (three vertex normals), -1 for a flat one. The inside
-test is Woop's (JCGT 2(1), 2013): the ray passes on the same side of all three edges. The distance comes from the
-plane: through the sheared coordinates it would lose digits on large flat triangles.
+Packed as in `planar`, with its corners as a, b, c; `smooth` is its index into `world.smooth` (three vertex normals), -1
+for none. The inside test is Woop's (JCGT 2(1), 2013): the ray passes on the same side of all three edges. The distance
+comes from the plane, since the sheared coordinates would lose digits on large triangles.
 """
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -18,22 +18,22 @@ from tracer.formulas.double_double import dd_cross, exact_difference
 from tracer.formulas.vector import Vector, add, cross, dot, length, scale, subtract, unit, vector
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.planar import (
-    PLANE_ERROR,
-    is_near_edge,
-    may_cross,
-    outline_slack,
-    pack_normal,
-    plane_distance,
-    unit_normal,
-)
-
-NAME = "triangle"
+from tracer.shapes.planar import PLANE_ERROR, is_near_edge, may_cross, outline_slack, pack_normal, unit_normal
+from tracer.shapes.shape import Shape
+from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
+from tracer.shapes.tessellation import flat
 
 
 @dataclass(frozen=True, slots=True)
-class Triangle:
+class Triangle(Shape):
+    name: ClassVar[str] = "triangle"
+    curved: ClassVar[bool] = False
+
     vertices: tuple[Vector, ...] = field(metadata=fields.points(exactly=3))
+
+    @classmethod
+    def example(cls) -> "Triangle":
+        return cls(((-1.0, -0.5, 0.0), (1.0, -0.5, 0.25), (0.0, 1.0, 0.0)))
 
     def pack(self, rows: Any) -> None:
         pack_triangles(rows, np.array(self.vertices)[None])
@@ -41,17 +41,21 @@ class Triangle:
     def bounds(self) -> np.ndarray:
         return np.stack([np.min(self.vertices, axis=0), np.max(self.vertices, axis=0)])[None]
 
-    def contains(self, p: np.ndarray) -> bool:
-        return False
+    def plane(self) -> tuple[Vector, Vector]:
+        x, y, z = unit_normal(np.array(self.vertices, float)).tolist()
+        return self.vertices[0], (x, y, z)
 
     def faults(self) -> list[str]:
         if unit_normal(np.array(self.vertices, float)).any():
             return []
         return ["vertices must enclose an area, got corners on one line"]
 
+    def triangles(self, middle: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
+        return flat(np.array(self.vertices)[None])
+
 
 def pack_triangles(rows: Any, corners: np.ndarray) -> None:
-    """Fill one row a triangle from corners (n, 3, 3); none may be without area."""
+    """Fill one row for each of the triangles (n, 3, 3), all of which must have an area."""
     rows["a"], rows["b"], rows["c"] = corners[:, 0], corners[:, 1], corners[:, 2]
     a, b, c = (tuple(corners[:, k].T) for k in range(3))
     pack_normal(rows, dd_cross(exact_difference(b, a), exact_difference(c, a)))
@@ -60,7 +64,8 @@ def pack_triangles(rows: Any, corners: np.ndarray) -> None:
 
 
 @inlined
-def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, exactly: bool) -> float:
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
+    """The distance to the plane, where the ray passes on the same side of all three edges."""
     if not may_cross(surface, ray, ceiling):
         return math.inf
     ax, ay = sheared(ray, surface.a)
@@ -78,16 +83,17 @@ def intersect(world: Any, surface: Any, ray: Ray, floor: float, ceiling: float, 
         )
         if not beside:
             return math.inf
-    return plane_distance(world, surface, ray, floor, ceiling, exactly)
+    return world.formulas.plane_distance(world, surface, ray, floor, ceiling, exact)
 
 
 @inlined
 def candidate_mask(block: Any, ray: Ray, inverse_unit: float) -> int:
-    """Which of a block's triangles (see `bvh`) the ray may pass inside of, bit by bit: the same sums, eight at once.
+    """Bit mask of the triangles of a BVH block (`tracer.accel.bvh`) that the ray may hit: eight are tested at once.
 
-    None is dropped that `intersect` would find: the slack is that of corners rounded off, and of `outline_slack`.
+    Contains every triangle that `intersect` finds: the slack covers the rounding of the block's corners to float32, and
+    `outline_slack`.
     """
-    anchor, o = block.anchor, scale(inverse_unit, ray.turned)
+    anchor, o = block.anchor, scale(inverse_unit, ray.permuted_origin)
     origin = (o[0] - anchor[ray.axis], o[1] - anchor[ray.across], o[2] - anchor[ray.up])
     ax, ay = sheared_lanes(ray, origin, block.corners, 0)
     bx, by = sheared_lanes(ray, origin, block.corners, 3)
@@ -95,14 +101,14 @@ def candidate_mask(block: Any, ray: Ray, inverse_unit: float) -> int:
     u = cx * by - cy * bx
     v = ax * cy - ay * cx
     w = bx * ay - by * ax
-    slack = (block.doubt + 16.0 * PLANE_ERROR * (block.reach + inverse_unit * ray.reach)) * block.edge
+    slack = (block.rounding + 16.0 * PLANE_ERROR * (block.reach + inverse_unit * ray.magnitude)) * block.edge
     least, most = lanes_min(u, lanes_min(v, w)), lanes_max(u, lanes_max(v, w))
     return block.lanes & ~(mask_less(least, broadcast(-slack)) & mask_less(broadcast(slack), most))
 
 
 @inlined
 def sheared_lanes(ray: Ray, origin: Vector, corners: Any, first: int) -> tuple[Any, Any]:
-    """`sheared` of eight points whose coordinates stand from row `first` on."""
+    """`sheared` of eight points, whose x, y and z are the rows `first`, `first` + 1 and `first` + 2 of `corners`."""
     along = load_lanes(corners[first + ray.axis]) - origin[0]
     across = load_lanes(corners[first + ray.across]) - origin[1]
     up = load_lanes(corners[first + ray.up]) - origin[2]
@@ -113,8 +119,8 @@ next_hit = planar.no_next_hit
 
 
 @inlined
-def interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-    """The hit, the face's normal, and the normal interpolated between the corners where the mesh has them."""
+def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+    """The hit point, the face's normal, and the interpolated normal where the mesh has vertex normals."""
     p, n, _ = planar.interaction(world, surface, ray, t)
     if surface.smooth < 0:
         return (p, n, n)
@@ -125,8 +131,8 @@ def interaction(world: Any, surface: Any, ray: Ray, t: float) -> tuple[Vector, V
 
 
 @inlined
-def interpolated_normal(world: Any, surface: Any, p: Vector) -> Vector:
-    """The corners' normals, each weighed as the triangle between p and the edge opposite to it; of any length."""
+def interpolated_normal(world: ShapeArrays, surface: SurfaceRow, p: Vector) -> Vector:
+    """The vertex normals weighted by p's barycentric coordinates; of any length."""
     n, a, b, c = vector(surface.normal), vector(surface.a), vector(surface.b), vector(surface.c)
     pa, pb, pc = subtract(a, p), subtract(b, p), subtract(c, p)
     u, v, w = dot(cross(pb, pc), n), dot(cross(pc, pa), n), dot(cross(pa, pb), n)
@@ -135,8 +141,8 @@ def interpolated_normal(world: Any, surface: Any, p: Vector) -> Vector:
 
 
 @inlined
-def normal_derivative(world: Any, surface: Any, p: Vector, v: Vector) -> Vector:
-    """The mixture is linear in p: how it changes with v, but for what only changes its length."""
+def normal_derivative(world: ShapeArrays, surface: SurfaceRow, p: Vector, v: Vector) -> Vector:
+    """The derivative of the interpolated normal, linear in p, without the part that only changes its length."""
     if surface.smooth < 0:
         return (0.0, 0.0, 0.0)
     mixed = interpolated_normal(world, surface, p)

@@ -1,17 +1,11 @@
-"""The tree of rays as text: a line a ray, so that it can be read in a terminal and compared line by line."""
-
-from __future__ import annotations
+"""The ray tree as text, a line per ray, for terminals and for comparison line by line."""
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
-
-import numpy as np
 
 from tracer.kernel.nodes import NODES, SHADOW
-
-if TYPE_CHECKING:
-    from tracer.tree.raytree import RayTree
+from tracer.tree.digits import degrees_text, number_text, rgb_text
+from tracer.tree.table import TreeTable
 
 HEADINGS = ("ray", "meets", "distance", "index", "angle", "weight", "sends up (r g b)", "why it ends")
 
@@ -29,9 +23,11 @@ END_REASONS = {
     "blocked": "blocked",
 }
 
+MAX_INDENT = 60  # levels that are indented; a deeper tree shows its levels as numbers
 
-def tree_text(tree: RayTree, most: int | None = None) -> str:
-    """The tree, children below their parent, with a head of two lines; of more than `most` rays the heaviest."""
+
+def tree_text(tree: TreeTable, most: int | None = None) -> str:
+    """The tree with each ray's children below it, after a head of two lines. Of more than `most` rays, the heaviest."""
     rows: list[tuple[str, ...]] = [HEADINGS]
     shown = set(range(len(tree)))
     head = _head(tree)
@@ -39,15 +35,17 @@ def tree_text(tree: RayTree, most: int | None = None) -> str:
         shown = heaviest_rows(tree, most, shown)
         head.append(f"the heaviest {len(shown)} of {len(tree)} rays are shown")
     stems = _stems(tree, shown)
-    for i in tree.walk():
+    for i in tree.preorder():
         if i in shown:
             rows.append(_row(tree, i, stems[i]))
     return "\n".join([*head, "", *columns(rows)]) + "\n"
 
 
-def heaviest_rows(tree: RayTree, most: int, rows: set[int]) -> set[int]:
-    """At most about `most` of these rows: the heaviest rays with their shadow rays. A child is never heavier than its
-    parent, so every row that is kept keeps its parent."""
+def heaviest_rows(tree: TreeTable, most: int, rows: set[int]) -> set[int]:
+    """About `most` of the rows at most: the heaviest rays, with their shadow rays.
+
+    The parent of a row that is kept is kept, too, since no ray is heavier than its parent.
+    """
     if len(rows) <= most:
         return rows
     weights = tree.nodes["weight"].max(axis=1)
@@ -62,16 +60,15 @@ def heaviest_rows(tree: RayTree, most: int, rows: set[int]) -> set[int]:
 
 
 def columns(rows: Sequence[Sequence[str]]) -> list[str]:
-    """A table's lines, each column as wide as its widest cell."""
+    """The lines of a table, each column as wide as its widest cell."""
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
 
 
-def _head(tree: RayTree) -> list[str]:
-    where = f"pixel {tree.pixel[0]},{tree.pixel[1]} of {tree.size[0]}x{tree.size[1]}" if tree.pixel else "a ray"
-    title = tree.scene.title or (tree.scene.path.name if tree.scene.path else "scene")
+def _head(tree: TreeTable) -> list[str]:
+    where = f"{tree.place} of {tree.size[0]}x{tree.size[1]}" if tree.pixel else tree.place
     rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
-    head = [f"{title}: {where}, depth {tree.depth}, {tree.model}, {rays}"]
+    head = [f"{tree.scene.caption}: {where}, depth {tree.depth}, {tree.model}, {rays}"]
     head.append(f"colour {rgb_text(tree.radiance)} (linear r g b); {cut_summary(tree)}")
     lost = [i for i in range(len(tree)) if tree.object_name(i) and tree.nodes["error"][i] > 0.0 and tree.digits(i) == 0]
     if lost:
@@ -79,8 +76,8 @@ def _head(tree: RayTree) -> list[str]:
     return head
 
 
-def cut_summary(tree: RayTree) -> str:
-    """What the rays that were cut weigh, and how much light they can have brought at most."""
+def cut_summary(tree: TreeTable) -> str:
+    """The weight of the rays that were cut, and a bound on the light that is missing for them."""
     if tree.residual == 0.0:
         return "no ray was cut"
     carry = f"rays that were cut carry {number_text(tree.residual)} of the weight"
@@ -92,23 +89,20 @@ def cut_summary(tree: RayTree) -> str:
 
 
 def missing_light(bound: float) -> str:
-    """The end of a sentence about rays that were cut."""
+    """The end of a sentence on rays that were cut: how much light they miss."""
     if math.isinf(bound):
-        return ", and nothing bounds the light they miss"
+        return ", and no upper bound is known for the light they miss"
     return f": at most {number_text(bound)} of light is missing"
 
 
-MAX_INDENT = 60  # levels that are indented: a tree of a million would be no wider than long
-
-
-def _stems(tree: RayTree, shown: set[int]) -> dict[int, str]:
-    """The lines that lead to each row, as a file tree has them; in a very deep tree its level instead."""
+def _stems(tree: TreeTable, shown: set[int]) -> dict[int, str]:
+    """What each line begins with: the branches that lead to it, or its level in a very deep tree."""
     levels = tree.nodes["depth"]
     if levels.max() > MAX_INDENT:
         return {i: f"level {levels[i]}: " for i in shown}
     stems = {0: ""}
     trunks = {0: ""}
-    for i in tree.walk():
+    for i in tree.preorder():
         below = [child for child in tree.children[i] if child in shown]
         for child in below:
             last = child == below[-1]
@@ -117,7 +111,7 @@ def _stems(tree: RayTree, shown: set[int]) -> dict[int, str]:
     return stems
 
 
-def _row(tree: RayTree, i: int, stem: str) -> tuple[str, ...]:
+def _row(tree: TreeTable, i: int, stem: str) -> tuple[str, ...]:
     row = tree.nodes[i]
     kind = tree.kind(i)
     met = tree.object_name(i) or ""
@@ -130,52 +124,16 @@ def _row(tree: RayTree, i: int, stem: str) -> tuple[str, ...]:
         number_text(row["t"], row["error"]),
         "" if shadow else _pair(number_text(row["n1"]), number_text(row["n2"])),
         "" if shadow else _pair(degrees_text(row["theta1"], row["turn"]), degrees_text(row["theta2"], row["turn"])),
-        rgb_text(row["weight"], same=True),
+        rgb_text(row["weight"], shorten=True),
         rgb_text(row["radiance"]),
         end_reason(tree, i),
     )
 
 
-def end_reason(tree: RayTree, i: int) -> str:
-    """Why nothing follows ray i, or what becomes of a shadow ray."""
+def end_reason(tree: TreeTable, i: int) -> str:
+    """Why nothing follows ray i; of a shadow ray, whether it reaches its light."""
     return "adds nothing: the surface faces away" if tree.faces_away(i) else END_REASONS[tree.end(i)]
 
 
 def _pair(first: str, second: str) -> str:
     return f"{first} → {second}" if first and second else first
-
-
-def number_text(x: float, error: float = 0.0) -> str:
-    """Five digits, or as many as the error has left: "?" for none; nothing for what is absent."""
-    if math.isnan(x):
-        return ""
-    digits = 5 if x == 0.0 else min(5, significant_digits(abs(x), error))
-    return f"{x:.{digits}g}" if digits > 0 else "?"
-
-
-def degrees_text(radians: float, error: float = 0.0) -> str:
-    """Two decimals, or as many as the error has left: "?" where none of its digits is."""
-    if math.isnan(radians):
-        return ""
-    decimals = min(2, degree_decimals(error))
-    return f"{math.degrees(radians):.{decimals}f}°" if decimals >= 0 else "?"
-
-
-def significant_digits(size: float, error: float) -> int:
-    """How many digits of a number of this size an error of that size leaves, of the 17 that a float may have."""
-    if not error > 0.0:
-        return 17
-    return max(0, math.floor(math.log10(size / error))) if error < size else 0
-
-
-def degree_decimals(turn: float) -> int:
-    """How many decimals of an angle in degrees an error in radians leaves; -1 where not even the degrees are sure."""
-    wrong = math.degrees(turn)
-    return significant_digits(1.0, wrong) if wrong < 1.0 else -1
-
-
-def rgb_text(rgb: Sequence[float] | np.ndarray, same: bool = False) -> str:
-    """Three numbers, or with `same` one where all are equal."""
-    if same and rgb[0] == rgb[1] == rgb[2]:
-        return f"{rgb[0]:.4g}"
-    return " ".join(f"{x:.4f}" for x in rgb)

@@ -7,23 +7,23 @@ import math
 
 import numpy as np
 
-from viewer.base.theme import MAP, Color, in_bytes
+from viewer.base.theme import MAP, Color, rgb_bytes
 
 RANGES = {"error": (1e-4, 1e-1), "samples": (1, 256)}  # where the scale begins and ends
 STEPS = 256
 
 
-def strip(count: int) -> list[Color]:
+def gradient(count: int) -> list[Color]:
     """Colours from one end of the scale to the other."""
     places = np.linspace(0.0, len(MAP) - 1.0, count)
     channels = [np.interp(places, range(len(MAP)), [color[k] for color in MAP]) for k in range(3)]
     return [(float(r), float(g), float(b), 1.0) for r, g, b in zip(*channels, strict=True)]
 
 
-TABLE = np.array([(*in_bytes(color), 255) for color in strip(STEPS)], np.uint8)
+TABLE = np.array([(*rgb_bytes(color), 255) for color in gradient(STEPS)], np.uint8)
 
 
-def colored(values: np.ndarray, shows: str) -> np.ndarray:
+def colorize(values: np.ndarray, shows: str) -> np.ndarray:
     """8-bit sRGB (height, width, 4) of numbers (height, width); what is not known is as dark as nothing."""
     low, high = RANGES[shows]
     with np.errstate(divide="ignore"):

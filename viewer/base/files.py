@@ -16,7 +16,7 @@ class Unusable(Exception):
         self.faults = faults
 
 
-def every(*checks: Callable[[], Any]) -> list[Any]:
+def collect(*checks: Callable[[], Any]) -> list[Any]:
     """What each gives; Unusable with all their faults where any has one."""
     given, faults = [], []
     for check in checks:

@@ -5,6 +5,7 @@ a scene of light years and one of nanometres, and 32-bit floats have the digits 
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -148,7 +149,7 @@ class Orbit:
         return lens @ look
 
 
-class Chosen(Protocol):
+class ViewAngles(Protocol):
     """A view that an author chose: degrees, distance in radii of the scene, target in the world or its middle."""
 
     @property
@@ -161,16 +162,22 @@ class Chosen(Protocol):
     def target(self) -> tuple[float, float, float] | None: ...
 
 
-def home(world: World, frame: Frame, chosen: Chosen | None) -> Orbit:
-    """From where a scene is seen at first: as chosen, or beside its camera with both in the picture."""
-    camera, up = world.view(), world.scene.camera.up
-    if chosen:
-        orbit = Orbit.beside(camera, up, chosen.azimuth, chosen.elevation, chosen.distance)
-        if chosen.target:
-            orbit.target = frame.inside(chosen.target)
-        return orbit
-    orbit = Orbit.beside(camera, up, AZIMUTH, ELEVATION, DISTANCE)
-    eye = frame.inside(camera.eye)
+def orbit_beside(
+    world: World, frame: Frame, azimuth: float, elevation: float, distance: float, target: Sequence[float] | None
+) -> Orbit:
+    """An eye at these angles (degrees) from the scene's camera. `target` is a point of the world."""
+    orbit = Orbit.beside(world.view(), world.scene.camera.up, azimuth, elevation, distance)
+    if target:
+        orbit.target = frame.inside(tuple(target))
+    return orbit
+
+
+def initial_orbit(world: World, frame: Frame, view: ViewAngles | None) -> Orbit:
+    """The first view of a scene: the author's, or beside the scene's camera with both in the picture."""
+    if view:
+        return orbit_beside(world, frame, view.azimuth, view.elevation, view.distance, view.target)
+    orbit = orbit_beside(world, frame, AZIMUTH, ELEVATION, DISTANCE, None)
+    eye = frame.inside(world.view().eye)
     orbit.target = 0.35 * eye
     orbit.take_in(np.stack([eye, np.zeros(3)]))
     return orbit

@@ -1,64 +1,44 @@
-"""Pictures as files: PNG clipped to 8-bit sRGB, NumPy and OpenEXR linear. A new format: a writer, a line in WRITERS."""
+"""Image files: PNG (clipped, 8-bit sRGB), NumPy, OpenEXR (linear). A new format: a function, and a line in WRITERS."""
+
+from __future__ import annotations
 
 import io
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from viewer.base.files import Unusable, write_atomically
-from viewer.base.theme import Color
 
-BINS = 4096  # of linear light: more than sRGB's steepest slope of 255 * 12.92, so that none holds two borders
+if TYPE_CHECKING:
+    import numpy as np
 
-
-def _linear(encoded: np.ndarray) -> np.ndarray:
-    """The light that sRGB (IEC 61966-2-1) encodes so, both in 0..1."""
-    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
-
-
-BORDERS = np.append(_linear((np.arange(255) + 0.5) / 255.0), np.inf)  # where 8-bit value k ends and k + 1 begins
-FIRST = np.searchsorted(BORDERS, np.arange(BINS + 1) / BINS, "right").astype(np.uint8)  # the value a bin begins with
-
-
-def srgb(linear: np.ndarray) -> np.ndarray:
-    """8-bit sRGB of linear RGB, clipped to 0..1. By table: a power for each pixel takes longer than simple rays."""
-    x = np.fmin(np.fmax(linear, 0.0), 1.0)
-    value = FIRST[(x * BINS).astype(np.intp)]
-    return value + (x >= BORDERS[value])
-
-
-LUMINANCE = (0.2126, 0.7152, 0.0722)  # of sRGB's red, green and blue (Rec. 709)
-
-
-def as_shown(rgb: object) -> Color:
-    """Linear RGB as the colour a picture shows."""
-    r, g, b = (srgb(np.asarray(rgb, float)) / 255.0).tolist()
-    return (r, g, b, 1.0)
-
-
-COMPRESSION = 4  # of zlib's levels: half the time of its usual 6, for 5 % more bytes
+COMPRESSION = 4  # zlib's level: takes half the time of its default, 6, for 5 % more bytes
 
 
 def png(pixels: np.ndarray) -> bytes:
-    """PNG of linear RGB (height, width, 3), or of 8-bit sRGB as it is."""
+    """PNG of linear RGB (height, width, 3), or of 8-bit sRGB."""
+    import numpy as np
     from PIL import Image
 
+    from viewer.base.srgb import srgb
+
     buffer = io.BytesIO()
-    Image.fromarray(pixels if pixels.dtype == np.uint8 else srgb(pixels)).save(
-        buffer, "PNG", compress_level=COMPRESSION
-    )
+    encoded = pixels if pixels.dtype == np.uint8 else srgb(pixels)
+    Image.fromarray(encoded).save(buffer, "PNG", compress_level=COMPRESSION)
     return buffer.getvalue()
 
 
 def npy(pixels: np.ndarray) -> bytes:
+    import numpy as np
+
     buffer = io.BytesIO()
     np.save(buffer, pixels)
     return buffer.getvalue()
 
 
 def exr(pixels: np.ndarray) -> bytes:
+    import numpy as np
     import OpenEXR
 
     header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
@@ -68,13 +48,16 @@ def exr(pixels: np.ndarray) -> bytes:
         return path.read_bytes()
 
 
-WRITERS: dict[str, Callable[[np.ndarray], bytes]] = {".png": png, ".npy": npy, ".exr": exr}
+WRITERS: dict[str, Callable[[np.ndarray], bytes]] = {"png": png, "npy": npy, "exr": exr}
+SUFFIXES = tuple(f".{name}" for name in WRITERS)
 
 
 def check_format(path: Path) -> None:
-    if path.suffix.lower() not in WRITERS:
-        raise Unusable(f"{path}: an image must be one of {', '.join(WRITERS)}, got {path.suffix or 'no suffix'}")
+    """Unusable if no writer has this suffix."""
+    if path.suffix.lower() not in SUFFIXES:
+        raise Unusable(f"{path}: an image must be one of {', '.join(SUFFIXES)}, got {path.suffix or 'no suffix'}")
 
 
 def write_picture(path: Path, pixels: np.ndarray) -> None:
-    write_atomically(path, WRITERS[path.suffix.lower()](pixels))
+    """Write an image (height, width, 3) in the format of the file's suffix. Unusable if the folder is not writable."""
+    write_atomically(path, WRITERS[path.suffix.lower().lstrip(".")](pixels))

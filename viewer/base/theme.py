@@ -17,7 +17,7 @@ def rgb(code: str, opacity: float = 1.0) -> Color:
     return (r, g, b, opacity)
 
 
-def in_bytes(color: Color) -> tuple[int, int, int]:
+def rgb_bytes(color: Color) -> tuple[int, int, int]:
     """Red, green and blue, each 0..255."""
     r, g, b, _ = (round(255 * x) for x in color)
     return (r, g, b)

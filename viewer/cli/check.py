@@ -1,10 +1,10 @@
-"""`raytree check` as a person reads it: a line a case, its exact answer, the textbook's and ours."""
+"""`raytree check`: for each case a line with the exact answer, the textbook's and ours."""
 
 import difflib
 import json
 import textwrap
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any
@@ -13,9 +13,12 @@ from tracer.measure.check.case import Case, Reading, Result
 from tracer.measure.check.check import CASES, TOPICS, run_all, to_dict
 from tracer.tree.text import columns
 from viewer.base.files import Unusable
+from viewer.base.progress import Progress
+from viewer.cli.options import CheckOptions
+from viewer.cli.terminal import compile_once, put
 
 LONGEST = 20  # characters of a word in the table
-NONE = "–"  # where the textbook has nothing to compare with
+NONE = "–"  # the textbook has nothing to compare with
 WIDTH = 100  # of running text
 HEADINGS = ("setting", "exact answer", "the textbook's", "error", "ours", "error", "")
 ABOUT = (
@@ -26,8 +29,23 @@ ABOUT = (
 )
 
 
+def check(options: CheckOptions) -> int:
+    cases = chosen(options.cases)
+    compile_once()
+    began = time.perf_counter()
+    with Progress("check") as progress:
+        results = run_all(cases, progress)
+    if options.json:
+        put(json.dumps(to_dict(results), indent=1, allow_nan=False, ensure_ascii=False) + "\n")
+    elif options.explain:
+        put("\n".join(explained(result) for result in results))
+    else:
+        put(table(results) + "\n" + verdict(results, time.perf_counter() - began) + "\n")
+    return 0 if all(result.ok for result in results) else 1
+
+
 def chosen(names: Sequence[str]) -> list[Case]:
-    """The cases of these names or groups (a name's first letter), all for none. Unusable for a name there is not."""
+    """The cases of these names or groups (a name's first letter); all if none is given. Unusable for unknown names."""
     if not names:
         return list(CASES)
     found: list[Case] = []
@@ -44,27 +62,8 @@ def chosen(names: Sequence[str]) -> list[Case]:
     return found
 
 
-def check(
-    cases: Sequence[Case],
-    explain: bool,
-    as_json: bool,
-    put: Callable[[str], None],
-    run: Callable[[Sequence[Case]], list[Result]] = run_all,
-) -> int:
-    """Run the cases and print them; 1 where one falls short."""
-    began = time.perf_counter()
-    results = run(cases)
-    if as_json:
-        put(json.dumps(to_dict(results), indent=1, allow_nan=False, ensure_ascii=False) + "\n")
-    elif explain:
-        put("\n".join(explained(result) for result in results))
-    else:
-        put(table(results) + "\n" + verdict(results, time.perf_counter() - began) + "\n")
-    return 0 if all(result.ok for result in results) else 1
-
-
 def table(results: Sequence[Result]) -> str:
-    """Topic by topic; a case's title, and below it the setting with the answers."""
+    """A table by topic: each case's title, and below it the setting with the answers."""
     head, *rows = columns([("  ", *HEADINGS), *(("  ", *cells(result.telling)) for result in results)])
     lines = [ABOUT, head]
     topic = ""
@@ -78,7 +77,7 @@ def table(results: Sequence[Result]) -> str:
 
 
 def explained(result: Result) -> str:
-    """One case in full: what it is, what goes wrong, every setting."""
+    """One case in full: its title, what goes wrong in the textbook's way, and every setting."""
     case = result.case
     lines = columns([HEADINGS, *(cells(reading) for reading in result.readings)])
     return "\n".join([f"{case.id}  {case.title}", "", textwrap.fill(case.wrong, WIDTH), "", *lines]) + "\n"
@@ -109,7 +108,7 @@ def cells(reading: Reading) -> tuple[str, ...]:
 
 
 def counted(reading: Reading) -> str:
-    """The error in units, with what is allowed; words are right or wrong."""
+    """The error in units with the allowed number of units; for words, whether they are right."""
     if isinstance(reading.exact, str) or reading.unit == 0.0:
         return "right" if reading.ok else "wrong"
     few = 0.0 < reading.error < 0.01
@@ -117,7 +116,7 @@ def counted(reading: Reading) -> str:
 
 
 def shown(value: Any) -> str:
-    """A number with ten digits, a word as it is."""
+    """A number with ten digits, or a word."""
     if isinstance(value, str):
         return value if len(value) <= LONGEST else value[: LONGEST - 1].rpartition(" ")[0] + " …"
     if value == float("inf"):

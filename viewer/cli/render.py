@@ -1,11 +1,10 @@
-"""`raytree render`: a scene's image into a file, or those of several scenes into a folder; here or on a cluster."""
+"""`raytree render`: the image of a scene into a file, or of several scenes into a folder; here or on a cluster."""
 
 import contextlib
 import json
 import math
 import sys
 import time
-from argparse import Namespace
 from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import Executor
@@ -16,23 +15,26 @@ from typing import Any
 import tracer
 from tracer.image.converge import MAX_SAMPLES, RoundStats
 from tracer.image.render import Image
-from tracer.tree.text import missing_light, number_text
+from tracer.tree.digits import number_text
+from tracer.tree.text import missing_light
 from viewer.base.files import Unusable, check_writable, write_atomically
-from viewer.base.pictures import WRITERS, check_format, write_picture
+from viewer.base.pictures import SUFFIXES, check_format, write_picture
 from viewer.base.progress import Progress
-from viewer.cli.commands import compile_once, faults, find
+from viewer.cli.loading import faults, find
+from viewer.cli.options import RenderOptions
+from viewer.cli.terminal import compile_once
 
 
 @dataclass(frozen=True)
 class Order:
-    """One image to be made."""
+    """One image to render."""
 
     name: str
     scene: Path
     target: Path
 
 
-def render(options: Namespace) -> int:
+def render(options: RenderOptions) -> int:
     orders = ordered(options)
     many = len(orders) > 1
     stats: list[dict[str, Any]] = []
@@ -46,7 +48,7 @@ def render(options: Namespace) -> int:
             except Unusable as fault:
                 if not many:
                     raise
-                progress.put(str(fault))  # the other scenes are rendered all the same
+                progress.put(str(fault))  # and go on with the other scenes
                 continue
             if not stats:
                 figures["seconds"]["compile"] += compiling + connecting
@@ -59,7 +61,7 @@ def render(options: Namespace) -> int:
 
 @dataclass(frozen=True)
 class Share:
-    """Of all images, from that of the k-th."""
+    """Turns the share of image k that is done into the share of all images."""
 
     progress: Progress
     k: int
@@ -69,14 +71,14 @@ class Share:
         self.progress((self.k + share) / self.count)
 
     def say(self, doing: str) -> None:
-        """What one image is waiting for; where there are several, the time left is that of all."""
+        """Show what a single image is waiting for. With several images, the line is about all of them."""
         if self.count == 1:
             self.progress.say(doing)
 
 
 @contextlib.contextmanager
 def executor_of(address: str | None, progress: Progress) -> Iterator[tuple[Executor | None, float]]:
-    """The cluster at this address and the seconds until it was ready; None where there is no address."""
+    """Connect to the cluster at an address. Yields it, and the seconds that took; None without an address."""
     if address is None:
         yield None, 0.0
         return
@@ -92,9 +94,9 @@ def executor_of(address: str | None, progress: Progress) -> Iterator[tuple[Execu
 
 
 def render_one(
-    order: Order, options: Namespace, executor: Executor | None, progress: Progress, share: Share
+    order: Order, options: RenderOptions, executor: Executor | None, progress: Progress, share: Share
 ) -> dict[str, Any]:
-    """Load, prepare, trace and write one image; what `--stats` says of it."""
+    """Load, prepare, trace and write one image. Returns its part of `--stats`."""
     with faults():
         began = time.perf_counter()
         share.say(f"load {order.name}")
@@ -125,9 +127,9 @@ def render_one(
     order.target.parent.mkdir(exist_ok=True)
     write_picture(order.target, image.pixels)
     name = f"{order.name}: " if share.count > 1 else ""
-    if image.reached:
-        progress.put(name + how_far(image, image.reached, options), sys.stdout)
-    if options.tolerance is not None or (image.reached and image.residual["max"] > 0.0):
+    if image.stats:
+        progress.put(name + summary(image, image.stats, options), sys.stdout)
+    if options.tolerance is not None or (image.stats and image.residual["max"] > 0.0):
         most = number_text(image.residual["max"])
         missing = f"a pixel's rays that were cut carry at most {most} of the weight{missing_light(image.bound)}"
         progress.put(name + missing, sys.stdout)
@@ -139,21 +141,21 @@ def render_one(
         "tests": image.tests,
         "threads": image.threads,
         "size": list(image.size),
-        "samples": image.reached.samples if image.reached else image.samples,
+        "samples": image.stats.samples if image.stats else image.samples,
         "depth": image.depth,
         "tolerance": image.tolerance,
         "residual": image.residual,
         "bound": image.bound if math.isfinite(image.bound) else None,
         "left_out": image.left_out,
-        **(reached(image, image.reached) if image.reached else {}),
+        **(convergence(image, image.stats) if image.stats else {}),
     }
 
 
-def how_far(image: Image, far: RoundStats, options: Namespace) -> str:
-    """What an image that converges has come to, in a line."""
-    mean = f"{far.samples:,.0f}" if far.samples >= 100 else f"{far.samples:.3g}"
-    spread = f"{mean} samples a pixel" + (f", {far.least} to {far.most}" if far.most > far.least else "")
-    if far.error == 0.0:
+def summary(image: Image, stats: RoundStats, options: RenderOptions) -> str:
+    """A line about an image that converged."""
+    mean = f"{stats.samples:,.0f}" if stats.samples >= 100 else f"{stats.samples:.3g}"
+    spread = f"{mean} samples a pixel" + (f", {stats.least} to {stats.most}" if stats.most > stats.least else "")
+    if stats.error == 0.0:
         end = "nothing is left to gain"
     elif image.ended == "error":
         end = f"{options.until_error:g} was asked for"
@@ -161,23 +163,23 @@ def how_far(image: Image, far: RoundStats, options: Namespace) -> str:
         end = "time is up"
     else:
         end = f"at most {options.samples or MAX_SAMPLES} of a pixel, and they double"
-    reach = f"{far.error:.2g} (RMSE, linear light) after {far.seconds:.2f} s and {far.rays:,} rays"
+    reach = f"{stats.error:.2g} (RMSE, linear light) after {stats.seconds:.2f} s and {stats.rays:,} rays"
     return f"estimated sampling error {reach}: {spread}; {end}"
 
 
-def reached(image: Image, far: RoundStats) -> dict[str, Any]:
-    """The same for programs."""
-    return {"error": far.error, "samples_least": far.least, "samples_most": far.most, "ended": image.ended}
+def convergence(image: Image, stats: RoundStats) -> dict[str, Any]:
+    """The part of `--stats` about an image that converged."""
+    return {"error": stats.error, "samples_least": stats.least, "samples_most": stats.most, "ended": image.ended}
 
 
-def ordered(options: Namespace) -> list[Order]:
-    """What is to be made of which scene. Unusable for every name and place that is none."""
+def ordered(options: RenderOptions) -> list[Order]:
+    """The images to render. Unusable, with all faults, if a scene or a target cannot be used."""
     into = Path(options.output)
     slash = options.output.endswith(("/", "\\"))
-    folder = len(options.scene) > 1 or into.is_dir() or slash
+    folder = len(options.scenes) > 1 or into.is_dir() or slash
     unusable: list[str] = []
     orders = []
-    for scene in options.scene:
+    for scene in options.scenes:
         try:
             path, lesson = find(scene)
         except Unusable as fault:
@@ -188,7 +190,7 @@ def ordered(options: Namespace) -> list[Order]:
     for name, count in Counter(order.name for order in orders).items():
         if count > 1:
             unusable.append(f"raytree render: {count} scenes would be written to the same file: {name}")
-    if folder and not into.is_dir() and (into.exists() or (into.suffix.lower() in WRITERS and not slash)):
+    if folder and not into.is_dir() and (into.exists() or (into.suffix.lower() in SUFFIXES and not slash)):
         unusable.append(f"raytree render: the images of several scenes need a folder, got {into}")
     if options.format and not folder:
         unusable.append(f"raytree render: --format is for images in a folder; {into} says its own")

@@ -1,6 +1,6 @@
-"""The commands that open the viewer: in a window, into a screenshot, and without a screen."""
+"""`raytree view`: the viewer in a window; or a screenshot of it, which needs no display."""
 
-from argparse import Namespace
+from dataclasses import replace
 from pathlib import Path
 
 import platformdirs
@@ -9,7 +9,10 @@ import tracer
 from viewer.base.files import Unusable, check_writable
 from viewer.base.pictures import write_picture
 from viewer.base.progress import Progress
-from viewer.cli.commands import COMPILING, compile_once, faults, prepared, put
+from viewer.cli.loading import faults, find, prepared
+from viewer.cli.options import ViewOptions
+from viewer.cli.terminal import COMPILING, compile_once, put
+from viewer.lessons import lesson as lessons
 from viewer.lessons.lesson import Lesson
 from viewer.session.session import Session
 from viewer.window.app import App
@@ -18,8 +21,10 @@ from viewer.window.backend import NoWindow, Offscreen, Window
 SIZE = (1280, 720)
 
 
-def show(path: Path, lesson: Lesson | None, options: Namespace) -> int:
-    """The viewer on a scene, as the options say."""
+def view(options: ViewOptions) -> int:
+    path, lesson = find(options.scene or lessons.names()[0])
+    if not path.exists():  # an unreadable file is shown with its faults, for it may be being written
+        raise Unusable(f"{path}: file not found")
     if options.screenshot:
         if options.screenshot.suffix.lower() != ".png":
             raise Unusable(f"{options.screenshot}: a screenshot must be a .png file")
@@ -31,7 +36,7 @@ def show(path: Path, lesson: Lesson | None, options: Namespace) -> int:
     except NoWindow as reason:
         return without_display(path, lesson, options, str(reason))
     app = App(window, Session())
-    app.session.takehome.remember(_settings().with_name("figure.json"))
+    app.session.export.remember(_settings().with_name("figure.json"))
     try:
         app.session.open(path, lesson, options.depth, options.pixel, options.model)
         app.run()
@@ -40,8 +45,8 @@ def show(path: Path, lesson: Lesson | None, options: Namespace) -> int:
     return 0
 
 
-def take_screenshot(path: Path, lesson: Lesson | None, options: Namespace, target: Path) -> None:
-    """Draw the viewer until the first full image and the tree are there, write it, leave."""
+def take_screenshot(path: Path, lesson: Lesson | None, options: ViewOptions, target: Path) -> None:
+    """Draw the viewer until the first full image and the tree are there, and write it."""
     try:
         app = App(Offscreen(options.size or SIZE), Session())
     except NoWindow as reason:
@@ -53,7 +58,6 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: Namespace, targe
         ):
 
             def say(doing: str) -> None:
-                """Nothing more is begun for what cannot be shown."""
                 if app.session.faults:
                     raise Unusable(*app.session.faults)
                 progress.say(doing)
@@ -64,8 +68,8 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: Namespace, targe
         app.close()
 
 
-def without_display(path: Path, lesson: Lesson | None, options: Namespace, reason: str) -> int:
-    """The same job where no window can be opened: the picked pixel's tree in the terminal, and a screenshot."""
+def without_display(path: Path, lesson: Lesson | None, options: ViewOptions, reason: str) -> int:
+    """If no window can be opened: print the picked pixel's tree, and take a screenshot."""
     put(f"{reason}.\n")
     compile_once()
     with faults():
@@ -78,13 +82,12 @@ def without_display(path: Path, lesson: Lesson | None, options: Namespace, reaso
     put(f"Drawing the viewer into {target} instead; this is the ray tree it shows:\n\n{tree.to_text()}")
     target.parent.mkdir(exist_ok=True)
     check_writable(target)
-    options.pixel = pixel
-    take_screenshot(path, lesson, options, target)
+    take_screenshot(path, lesson, replace(options, pixel=pixel), target)
     return 0
 
 
 def _settings() -> Path:
-    """Where the panels' places are kept from one start to the next."""
+    """The file that keeps the places of the panels from one start to the next."""
     folder = platformdirs.user_config_path("raytree")
     try:
         folder.mkdir(parents=True, exist_ok=True)

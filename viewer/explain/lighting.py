@@ -6,8 +6,8 @@ from tracer.formulas.shading import surface_color
 from tracer.formulas.vector import vector
 from tracer.kernel.world import World
 from tracer.scene import Material
-from tracer.tree.raytree import RayTree, light_name
-from viewer.base.wording import same, shown, triple
+from tracer.tree.raytree import RayTree
+from viewer.base.wording import format_number, format_rgb, format_weight
 from viewer.explain.sections import Section
 
 
@@ -18,25 +18,25 @@ def local_light(tree: RayTree, world: World, i: int) -> Section:
     section = Section("Local light", "I = A ka C + Σ S L (kd C (N·L) + ks (R·V)ᵖ)")
     color = _color(world, tree, i)
     ambient = np.array(world.scene.tracing.ambient) * material.ambient * color
-    section.add("colour C", triple(color, 3))
-    section.add("ka  kd  ks  p", "  ".join(shown(x, 3) for x in _numbers(material)))
-    section.add(f"ambient: A · {shown(material.ambient)} · C", triple(ambient, 4))
+    section.add("colour C", format_rgb(color, 3))
+    section.add("ka  kd  ks  p", "  ".join(format_number(x, 3) for x in _numbers(material)))
+    section.add(f"ambient: A · {format_number(material.ambient)} · C", format_rgb(ambient, 4))
     rows = {int(tree.nodes["light"][child]): child for child in tree.children[i]}
     for j, light in enumerate(world.scene.lights):
-        name = light_name(world.scene, j)
+        name = world.scene.light_name(j)
         child = rows[j]
         n_l, r_v = _cosines(tree, i, child)
         if n_l <= 0.0:
-            detail = f"N·L {shown(n_l, 3)}: faces away from it"
+            detail = f"N·L {format_number(n_l, 3)}: faces away from it"
         elif tree.end(child) == "blocked":
             detail = f"blocked by {tree.object_name(child)}"
         else:
-            section.add(f"{name}: L", triple(light.color, 3))
-            detail = f"N·L {shown(n_l, 3)}, R·V {shown(max(r_v, 0.0), 3)}"
+            section.add(f"{name}: L", format_rgb(light.color, 3))
+            detail = f"N·L {format_number(n_l, 3)}, R·V {format_number(max(r_v, 0.0), 3)}"
             if tree.end(child) == "filtered":
-                detail += f", × {shown(tree.nodes['factor'][child][0], 3)} through glass (S)"
-        section.add(f"{name}: {detail}", triple(tree.nodes["radiance"][child], 4))
-    section.add("local", triple(row["local"], 4))
+                detail += f", × {format_number(tree.nodes['factor'][child][0], 3)} through glass (S)"
+        section.add(f"{name}: {detail}", format_rgb(tree.nodes["radiance"][child], 4))
+    section.add("local", format_rgb(row["local"], 4))
     return section
 
 
@@ -48,18 +48,18 @@ def one_light(tree: RayTree, world: World, i: int, j: int) -> Section:
     material = world.scene.objects[row["object"]].material
     n_l, r_v = _cosines(tree, i, child)
     color = _color(world, tree, i)
-    section = Section(f"Light from {light_name(world.scene, j)}", "S L (kd C (N·L) + ks (R·V)ᵖ)")
-    section.add("light L", triple(light.color, 3))
-    section.add("N·L", shown(n_l))
+    section = Section(f"Light from {world.scene.light_name(j)}", "S L (kd C (N·L) + ks (R·V)ᵖ)")
+    section.add("light L", format_rgb(light.color, 3))
+    section.add("N·L", format_number(n_l))
     if n_l <= 0.0:
         section.add("N·L ≤ 0", "the surface faces away from it: no light")
         return section
-    section.add("kd C (N·L)", triple(material.diffuse * n_l * color, 4))
+    section.add("kd C (N·L)", format_rgb(material.diffuse * n_l * color, 4))
     highlight = material.specular * r_v**material.shininess if r_v > 0.0 else 0.0
-    section.add("R·V", shown(r_v))
-    section.add(f"ks (R·V)ᵖ, p = {shown(material.shininess)}", f"{highlight:.4f}")
-    section.add("S: gets through", same(tree.nodes["factor"][child]))
-    section.add("share", triple(tree.nodes["radiance"][child], 4))
+    section.add("R·V", format_number(r_v))
+    section.add(f"ks (R·V)ᵖ, p = {format_number(material.shininess)}", f"{highlight:.4f}")
+    section.add("S: gets through", format_weight(tree.nodes["factor"][child]))
+    section.add("share", format_rgb(tree.nodes["radiance"][child], 4))
     return section
 
 

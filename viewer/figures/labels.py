@@ -7,7 +7,7 @@ L to a light, as in Whitted's figure (CACM 23(6), 1980); E from the eye.
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import STYLES
-from viewer.base.wording import shown
+from viewer.base.wording import format_number
 
 # Under a leaf, in as few words as a slide has room for.
 ENDS = {
@@ -28,7 +28,7 @@ def ray_label(tree: RayTree, i: int) -> str:
 
 def factor_label(tree: RayTree, i: int) -> str:
     """What the parent multiplies this ray by: the largest of the three where they differ."""
-    return f"× {shown(float(tree.nodes['factor'][i].max()), 3)}"
+    return f"× {format_number(float(tree.nodes['factor'][i].max()), 3)}"
 
 
 def hit_label(tree: RayTree, i: int) -> str:
@@ -48,5 +48,5 @@ def ray_title(tree: RayTree, i: int) -> str:
             tree.end(i) or "", f"is blocked by {tree.object_name(i)}"
         )
         return f"{ray_label(tree, i)}: {style.label} to {tree.light_name(i)}, {fate}"
-    weight = shown(float(row["weight"].max()), 3)
+    weight = format_number(float(row["weight"].max()), 3)
     return f"{ray_label(tree, i)}: {style.label}, meets {hit_label(tree, i)}, weight {weight}"

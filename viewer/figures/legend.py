@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from viewer.base.theme import STYLES, Theme
 from viewer.figures import signs
 from viewer.figures.font import text_width
-from viewer.figures.layout.free_space import Vacant
+from viewer.figures.layout.free_space import FreeSpace
 from viewer.figures.marks import Line, Mark, Point, Rectangle, Stroke, Text
 
 LINE = 1.3  # from line to line, in sizes of the text
@@ -35,7 +35,7 @@ def legend(entries: Sequence[Entry], marks: Sequence[Mark], where: Rectangle, si
 
     What has no room at all is left out.
     """
-    vacant = Vacant(where, marks)
+    vacant = FreeSpace(where, marks)
     found: list[Mark] = []
     rays = [entry for entry in entries if entry.what in STYLES]
     lights = [entry for entry in entries if entry.what not in STYLES]
@@ -51,7 +51,7 @@ def legend(entries: Sequence[Entry], marks: Sequence[Mark], where: Rectangle, si
     return found
 
 
-def _take(vacant: Vacant, block: Sequence[Entry], corners: Sequence[str], size: float) -> Point | None:
+def _take(vacant: FreeSpace, block: Sequence[Entry], corners: Sequence[str], size: float) -> Point | None:
     """The place of a block's first line."""
     wide = max((entry.width(size) for entry in block), default=0.0)
     high = LINE * size * len(block)

@@ -20,7 +20,7 @@ Rectangle = tuple[float, float, float, float]  # left, top, right, bottom
 Piece = tuple[Point, Point]
 
 
-def shares_within(piece: Piece, box: Rectangle) -> tuple[float, float] | None:
+def clip_shares(piece: Piece, box: Rectangle) -> tuple[float, float] | None:
     """From which share to which a stretch is within a rectangle (Liang & Barsky, ACM Trans. Graph. 3(1), 1984)."""
     (x0, y0), (x1, y1) = piece
     enters, leaves = 0.0, 1.0
@@ -34,7 +34,7 @@ def shares_within(piece: Piece, box: Rectangle) -> tuple[float, float] | None:
     return (enters, leaves) if enters < leaves else None
 
 
-def along(piece: Piece, share: float) -> Point:
+def point_along(piece: Piece, share: float) -> Point:
     (x0, y0), (x1, y1) = piece
     return (x0 + share * (x1 - x0), y0 + share * (y1 - y0))
 
@@ -106,13 +106,13 @@ class Line(Mark):
     hole: Rectangle | None = None
 
     def at(self, share: float) -> Point:
-        return along((self.start, self.end), share)
+        return point_along((self.start, self.end), share)
 
     def pieces(self) -> list[Piece]:
         """What is drawn of it."""
         if self.hole is None:
             return [(self.start, self.end)]
-        inside = shares_within((self.start, self.end), self.hole)
+        inside = clip_shares((self.start, self.end), self.hole)
         if inside is None:
             return [(self.start, self.end)]
         enters, leaves = inside
@@ -135,7 +135,7 @@ class Text(Mark):
         return text_box(self.at, self.content, self.size, self.anchor)
 
 
-def inked(mark: Mark, share: float) -> Mark:
+def with_line_width(mark: Mark, share: float) -> Mark:
     """The mark with its lines so many times as thick."""
     stroke = getattr(mark, "stroke", None)
     return replace(mark, stroke=stroke.times(share)) if stroke else mark  # type: ignore[call-arg]
@@ -159,9 +159,3 @@ class Figure:
         for name, marks in groupby(self.marks, key=lambda mark: mark.name):
             group = list(marks)
             yield name, next((mark.title for mark in group if mark.title), ""), group
-
-    def _repr_svg_(self) -> str:
-        """What a notebook shows."""
-        from viewer.figures.writers.svg import write_svg
-
-        return write_svg(self).decode("utf-8")

@@ -1,11 +1,12 @@
 """What a notebook shows of a tree. `tracer` knows no viewer: it asks who has announced a drawer (pyproject.toml)."""
 
 from tracer.tree.raytree import RayTree
-from viewer.figures.figure.pages import Subject, Wishes, pages
+from viewer.figures.pages import pages
 from viewer.figures.steps import by_depth
+from viewer.figures.subject import FigureStyle, Subject
 from viewer.figures.writers.svg import write_svg
 
 
 def tree_svg(tree: RayTree) -> str:
-    (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(ground=True, swatches=True))
+    (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle(ground=True, swatches=True))
     return write_svg(figure).decode("utf-8")

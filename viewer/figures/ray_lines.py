@@ -59,7 +59,7 @@ def _escape(start: np.ndarray, direction: np.ndarray) -> np.ndarray:
     return start + (max(leaving, 0.0) * 0.35 + ESCAPE) * direction
 
 
-def family(tree: RayTree, row: int) -> set[int]:
+def relatives(tree: RayTree, row: int) -> set[int]:
     """A ray, those it came from, and all that came from it: what stays bright while it is selected."""
     kept = set()
     i = row

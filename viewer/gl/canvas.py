@@ -1,4 +1,4 @@
-"""What panels share of the GPU: the 3D stage and the picture's texture, made anew only when something has changed."""
+"""The pictures in panels: the 3D view, the rendered image and its maps. Each is made again only if it has changed."""
 
 import time
 from typing import NamedTuple
@@ -7,22 +7,22 @@ import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
-from tracer.kernel.entry import Area
-from tracer.tree.raytree import RayTree
-from viewer.base.colormap import colored
+from viewer.base.cached import Cached, Changed
+from viewer.base.colormap import colorize
 from viewer.figures.ray_lines import RayLine, ray_lines
-from viewer.gl.magnified import NEAR, Place, magnified
+from viewer.gl.magnified import NEAR, Place, magnify
+from viewer.gl.picture_texture import PictureTexture
 from viewer.gl.stage import ImagePlane, Stage
 from viewer.gl.stage_lines import StageLines, frustum_lines, glass_edges, image_plane, normal_lines, style_rays
-from viewer.session.progressive import Picture
+from viewer.session.image_renderer import Picture
 from viewer.session.session import Session
 
-REFRESH = 0.4  # seconds between the states of an unfinished image that the 3D view shows, at least
-RARELY = 10.0  # times the frame that draws it anew: else a slow one would be every frame
+REFRESH = 0.4  # least seconds between the states of an unfinished image that the 3D view shows
+RARELY = 10.0  # the same, in times of what such a frame takes
 
 
 class Seen(NamedTuple):
-    """A texture and the corners of its place on the screen."""
+    """A texture, and the corners of its place on the screen."""
 
     texture: moderngl.Texture
     first: tuple[float, float]
@@ -30,156 +30,101 @@ class Seen(NamedTuple):
 
 
 class Canvas:
+    """Shared by all panels. Besides the pictures it keeps where things were drawn last, for clicks to hit them."""
+
     def __init__(self, ctx: moderngl.Context, session: Session) -> None:
         self.ctx = ctx
         self.session = session
         self.stage = Stage(ctx)
-        self.image: moderngl.Texture | None = None
-        # As drawn last, for a click to hit: rays in the 3D view; the image's left, top and size of a pixel; tree nodes.
-        self.lines: list[RayLine] = []
-        self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)
-        self.nodes: dict[int, tuple[float, float]] = {}
+        self.image = PictureTexture(ctx)
+        self.lines: list[RayLine] = []  # rays in the 3D view
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
-        self.told: tuple[RayTree, int] | None = None  # which ray the panel of numbers was about
-        self.map_image: moderngl.Texture | None = None
-        self._mapped: object = None  # what of an image that converges is in that texture
-        self._near: Seen | None = None
-        self._near_key: object = None
-        self._sent: tuple[Picture | None, int] = (None, 0)  # the picture in the texture, and how many of its tiles
-        self._world: object = None
-        self._theme: object = None
-        self._drawn_key: object = None
-        self._image_in_view: object = None
-        self._picture: Picture | None = None  # that an unfinished state was asked of last
-        self._refreshed = 0.0
-        self._drawn_anew = False  # the 3D view, in this frame
-        self._cost = 0.0  # seconds of the last frame that did
+        self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)  # left, top, size of a pixel
+        self.nodes: dict[int, tuple[float, float]] = {}  # of the tree
+        self.ray_changed = Changed()  # the ray whose numbers are shown
+        self._map: Cached[moderngl.Texture | None] = Cached(_release)
+        self._near: Cached[Seen | None] = Cached(lambda seen: _release(seen and seen.texture))
+        self._view_changed = Changed()
+        self._world_changed = Changed()
+        self._edges_changed = Changed()
         self._plane: np.ndarray | None = None
+        self._pace = _Pace()
 
     def picture(self) -> moderngl.Texture | None:
-        """The rendered image as far as it is; its first row is the picture's top."""
+        """The rendered image as far as it is; its first row is the image's top."""
         shown = self.session.image.picture
-        if shown is None:
-            return None
-        height, width = shown.shown.shape[:2]
-        if self.image is None or self.image.size != (width, height):
-            if self.image:
-                self.image.release()
-            self.image = self.ctx.texture((width, height), 4)
-            self._sent = (None, 0)
-        before, count = self._sent
-        if shown is not before:
-            self._sent = (shown, len(shown.tiles))  # tiles that come while this is sent are sent again
-            self.image.write(shown.shown)
-        elif tiles := shown.tiles[count:]:
-            _send(self.image, shown.shown, tiles)
-            self._sent = (shown, count + len(tiles))
-        return self.image
+        return self.image.update(shown) if shown else None
 
     def seen(self, place: Place) -> Seen | None:
-        """What stands in the image's panel: the rendered image or a map of it; near by, its pixels as squares."""
+        """The content of the image panel: the image or a map; magnified, its pixels as squares."""
         shown = self.session.image.picture
         if shown is None:
             return None
         if place.scale < NEAR:
-            texture = self._map() or self.picture()
-            if texture is None:
-                return None
+            texture = self._map.get(self._map_key(), self._map_texture) or self.image.update(shown)
             width, height = (place.scale * side for side in texture.size)
             return Seen(texture, (place.left, place.top), (place.left + width, place.top + height))
         key = (place, self._map_key(), shown, len(shown.tiles))
-        if key != self._near_key:
-            self._near_key = key
-            pixels = self._map_pixels()
-            found = magnified(shown.shown if pixels is None else pixels, place)
-            self._near = self._near_at(*found) if found else None
-        return self._near
+        return self._near.get(key, lambda: self._magnified(shown, place))
 
-    def _near_at(self, pixels: np.ndarray, left: int, top: int) -> Seen:
+    def _magnified(self, shown: Picture, place: Place) -> Seen | None:
+        pixels = self._map_pixels()
+        found = magnify(shown.shown if pixels is None else pixels, place)
+        if found is None:
+            return None
+        pixels, left, top = found
         height, width = pixels.shape[:2]
-        if self._near and self._near.texture.size == (width, height):
-            texture = self._near.texture
-            texture.write(pixels)
-        else:
-            if self._near:
-                self._near.texture.release()
-            texture = self.ctx.texture((width, height), 4, pixels)
-        return Seen(texture, (left, top), (left + width, top + height))
+        return Seen(self.ctx.texture((width, height), 4, pixels), (left, top), (left + width, top + height))
 
     def _map_key(self) -> object:
-        """What the map depends on: it changes from round to round."""
-        run = self.session.convergence.current
-        if not run or self.session.convergence.shows == "image":
+        """All that the map depends on. It changes from round to round."""
+        refinement = self.session.refinement
+        run = refinement.current
+        if not run or refinement.shows == "image":
             return None
-        return (run, self.session.convergence.shows, len(run.points), run.picture and run.picture.finished)
+        return (run, refinement.shows, len(run.points), run.picture and run.picture.finished)
 
-    def _map(self) -> moderngl.Texture | None:
-        """Each pixel's error, or its samples; None where the image itself is to be seen."""
-        key = self._map_key()
-        if key != self._mapped:
-            self._mapped = key
-            pixels = self._map_pixels()
-            if self.map_image:
-                self.map_image.release()
-            self.map_image = None if pixels is None else self.ctx.texture(pixels.shape[1::-1], 4, pixels)
-        return self.map_image
+    def _map_texture(self) -> moderngl.Texture | None:
+        pixels = self._map_pixels()
+        return None if pixels is None else self.ctx.texture(pixels.shape[1::-1], 4, pixels)
 
     def _map_pixels(self) -> np.ndarray | None:
-        state = self.session.convergence
-        values = state.map
-        return None if values is None else colored(values, state.shows)
+        values = self.session.refinement.map
+        return None if values is None else colorize(values, self.session.refinement.shows)
 
     def view3d(self, size: tuple[int, int], scale: float) -> moderngl.Texture:
-        """The 3D view, `size` in pixels, `scale` pixels a logical one; bottom row first, as GL has it."""
+        """The 3D view, `size` in pixels, `scale` pixels per logical pixel; bottom row first, as OpenGL has it."""
         session = self.session
         image = self.picture() if session.shown.camera else None
-        key = self._key(size, scale)
-        if key != self._drawn_key:
+        if self._view_changed(self._view_key(size, scale)):
             self._set_world()
             self._set_lines()
             plane = ImagePlane(self._plane, image) if image is not None and self._plane is not None else None
             self.stage.draw(session.orbit, session.theme, size, scale, plane)
-            self._drawn_key = key
-            self._drawn_anew = True
+            self._pace.drawn = True
         return self.stage.target.texture
 
     def frame_took(self, seconds: float) -> None:
-        if self._drawn_anew:
-            self._cost = seconds
-        self._drawn_anew = False
+        """Called after each frame of the window."""
+        self._pace.frame_took(seconds)
 
-    def _key(self, size: tuple[int, int], scale: float) -> tuple:
-        """Everything the 3D view depends on."""
+    def _view_key(self, size: tuple[int, int], scale: float) -> tuple:
+        """All that the 3D view depends on."""
         session = self.session
         orbit, shown = session.orbit, session.shown
         eye = (orbit.azimuth, orbit.elevation, orbit.distance, *orbit.target)
-        picture = self._image_state() if shown.camera else None
+        image = self._pace.state(session.image.picture, self.image.state) if shown.camera else None
         switches = (frozenset(shown.kinds), shown.camera, shown.normals)
-        return (
-            size, scale, eye, picture, switches, session.world, session.tree, session.selected,
-            session.theme.name,
-        )  # fmt: skip
-
-    def _image_state(self) -> object:
-        """Which state of the image stands on the image plane: not every tile is worth drawing the scene again."""
-        shown = self.session.image.picture
-        now = time.monotonic()
-        if shown is not self._picture:
-            self._picture, self._refreshed = shown, now  # its first tiles can wait, too
-        if shown is None or shown.finished or now - self._refreshed > max(REFRESH, RARELY * self._cost):
-            self._image_in_view = self._sent
-            self._refreshed = now
-        return self._image_in_view
+        return (size, scale, eye, image, switches, session.world, session.tree, session.selected, session.theme.name)
 
     def _set_world(self) -> None:
         session = self.session
         if not session.world:
             return
-        if session.world is not self._world:
+        if self._world_changed(session.world):
             self.stage.set_world(session.world, session.frame)
-        if (session.world, session.theme) != (self._world, self._theme):
+        if self._edges_changed((session.world, session.theme)):
             self.stage.set_edges(glass_edges(session.world, session.frame, session.theme))
-        self._world, self._theme = session.world, session.theme
 
     def _set_lines(self) -> None:
         session = self.session
@@ -201,18 +146,41 @@ class Canvas:
 
     def release(self) -> None:
         self.stage.release()
-        for texture in (self.image, self.map_image, self._near and self._near.texture):
-            if texture:
-                texture.release()
+        self.image.release()
+        self._map.release()
+        self._near.release()
 
 
-def _send(image: moderngl.Texture, pixels: np.ndarray, tiles: list[Area]) -> None:
-    """The rectangle around these tiles, which follow each other by rows: the whole image would take a frame's time."""
-    left, top = min(tile.left for tile in tiles), min(tile.top for tile in tiles)
-    right, bottom = max(tile.right for tile in tiles), max(tile.bottom for tile in tiles)
-    place = (left, top, right - left, bottom - top)
-    image.write(pixels[top:bottom, left:right].tobytes(), viewport=place)
+class _Pace:
+    """Limits how often the 3D view is drawn again only because an unfinished image has more tiles."""
+
+    def __init__(self) -> None:
+        self.drawn = False  # whether this frame drew the 3D view
+        self.cost = 0.0  # seconds of the last frame that did
+        self.since = 0.0  # when the shown state of the image was taken
+        self.shown: object = None
+        self.new_picture = Changed()
+
+    def state(self, picture: Picture | None, newest: object) -> object:
+        """The state of the image that the 3D view shows: the newest, or the one before if it is too early."""
+        now = time.monotonic()
+        if self.new_picture(picture):
+            self.since = now  # its first tiles can wait as well
+        if picture is None or picture.finished or now - self.since > max(REFRESH, RARELY * self.cost):
+            self.shown, self.since = newest, now
+        return self.shown
+
+    def frame_took(self, seconds: float) -> None:
+        if self.drawn:
+            self.cost = seconds
+        self.drawn = False
+
+
+def _release(texture: moderngl.Texture | None) -> None:
+    if texture:
+        texture.release()
 
 
 def texture_ref(texture: moderngl.Texture) -> imgui.ImTextureRef:
+    """The texture as imgui takes it."""
     return imgui.ImTextureRef(texture.glo)

@@ -21,7 +21,7 @@ class Place(NamedTuple):
     panel: tuple[float, float, float, float]  # left, top, right, bottom
 
 
-def magnified(picture: np.ndarray, place: Place) -> tuple[np.ndarray, int, int] | None:
+def magnify(picture: np.ndarray, place: Place) -> tuple[np.ndarray, int, int] | None:
     """(pixels, left, top): what of the picture (height, width, 4) is in the panel, as it is seen; None for nothing."""
     height, width = picture.shape[:2]
     left, top, right, bottom = place.panel

@@ -7,8 +7,6 @@ import numpy as np
 from tracer.formulas.camera import View
 from tracer.kernel.nodes import SHADOW
 from tracer.kernel.world import World
-from tracer.shapes.plane import Plane
-from tracer.shapes.sphere import Sphere
 from tracer.tree.raytree import RayTree
 from viewer.base.orbit import Frame
 from viewer.base.theme import (
@@ -23,8 +21,8 @@ from viewer.base.theme import (
     Theme,
     faded,
 )
-from viewer.figures.ray_lines import RayLine, family
-from viewer.gl.geometry import creases, triangles
+from viewer.figures.ray_lines import RayLine, relatives
+from viewer.gl.creases import creases
 from viewer.gl.lines import Line
 
 PLANE_SHARE = 0.30  # of the way from the camera to what it looks at: where its image plane is drawn
@@ -38,7 +36,7 @@ class StageLines:
 
 def style_rays(lines: list[RayLine], tree: RayTree, selected: int | None, theme: Theme) -> list[Line]:
     """Rays in their kinds' styles; what does not belong to the selected one is dimmed."""
-    kept = family(tree, selected) if selected is not None else None
+    kept = relatives(tree, selected) if selected is not None else None
     styled = []
     for line in lines:
         style = STYLES[line.kind]
@@ -55,7 +53,7 @@ def style_rays(lines: list[RayLine], tree: RayTree, selected: int | None, theme:
 def normal_lines(tree: RayTree, rows: int, frame: Frame, selected: int | None, theme: Theme) -> list[Line]:
     """The normal at every hit, on the side its ray came from."""
     nodes = tree.nodes[:rows]
-    kept = family(tree, selected) if selected is not None else None
+    kept = relatives(tree, selected) if selected is not None else None
     hits = np.flatnonzero(np.isfinite(nodes["normal"][:, 0]) & (nodes["kind"] != SHADOW))
     feet = frame.inside(nodes["point"][hits])
     lines = []
@@ -89,7 +87,7 @@ def glass_edges(world: World, frame: Frame, theme: Theme) -> list[Line]:
     """Where the faces of cut glass meet: clear faces alone hardly show."""
     lines = []
     for item in world.scene.objects:
-        if item.material.transmit > 0.0 and not isinstance(item.shape, Plane | Sphere):
-            for start, end in frame.inside(creases(triangles(item.shape, frame)[0])):
+        if item.material.transmit > 0.0 and item.shape.has_edges:
+            for start, end in frame.inside(creases(item.shape.triangles(frame.middle, frame.radius)[0])):
                 lines.append(Line(start, end, faded(theme.text, EDGE_OPACITY), EDGE_WIDTH))
     return lines

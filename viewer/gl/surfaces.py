@@ -12,19 +12,14 @@ import moderngl
 import numpy as np
 
 from tracer.kernel.world import World
-from tracer.shapes.disc import Disc
-from tracer.shapes.plane import Plane
-from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
-from tracer.shapes.triangle import Triangle
+from tracer.shapes.tessellation import SEGMENTS, unit_ball
 from viewer.base.orbit import Frame, Orbit
 from viewer.base.theme import Color
 from viewer.gl.features import Features
-from viewer.gl.geometry import ball, triangles
 from viewer.gl.program import make_program, put
 
 MOST_LIGHTS = 8  # as in surface.frag
-ROUND = 64  # segments of a ball where few are drawn
 TRIANGLES = 400_000  # that all balls together may take
 
 
@@ -163,8 +158,8 @@ class Surfaces:
         balls = [(k, shape) for k, shape in shapes if isinstance(shape, Sphere) and self._is_plain_ball(shape)]
         if not balls:
             return
-        segments = int(min(ROUND, max(8, math.sqrt(TRIANGLES / len(balls)))))
-        corners, faces = ball(segments - segments % 2)
+        segments = int(min(SEGMENTS, max(8, math.sqrt(TRIANGLES / len(balls)))))
+        corners, faces = unit_ball(segments - segments % 2)
         shared = self._buffer(np.hstack([corners, corners]))
         self.faces = self.ctx.buffer(faces.astype(np.uint32).tobytes())
         self.owned.append(self.faces)
@@ -192,10 +187,10 @@ class Surfaces:
         for k, item in enumerate(self.world.scene.objects):
             if self._is_plain_ball(item.shape):
                 continue
-            corners, normals = triangles(item.shape, self.frame)
-            wall = isinstance(item.shape, Polygon | Triangle | Disc) or item.shape.contains(self.camera)
+            corners, normals = item.shape.triangles(self.frame.middle, self.frame.radius)
             glass = item.material.transmit > 0.0
-            endless = isinstance(item.shape, Plane)
+            endless = item.shape.bounds() is None
+            wall = (item.shape.plane() is not None and not endless) or item.shape.contains(self.camera)
             if wall and not glass and not endless:
                 corners, normals = _turned(corners, normals, self.camera)
             rows = np.concatenate(

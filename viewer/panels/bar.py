@@ -2,7 +2,7 @@
 
 from imgui_bundle import imgui
 
-from tracer.kernel.limits import MODELS
+from tracer.choices import MODELS
 from viewer.base.theme import STYLES, faded
 from viewer.panels import draw as d
 from viewer.panels.image import waiting_lines
@@ -159,7 +159,7 @@ def _status_text(session: Session) -> str:
         return waiting_lines(session)[0]
     count = len(session.tree) if session.tree else 0
     rays = f"{count} ray{'s' if count > 1 else ''}" if count else "no pixel picked"
-    if picture.endless:
+    if picture.is_endless:
         return f"{rays}  ·  image {'refined' if picture.finished else 'being refined'}"
     if picture.finished:
         return f"{rays}  ·  image in {picture.seconds:.2f} s"

@@ -9,10 +9,11 @@ from imgui_bundle import imgui, implot
 from viewer.base.theme import SMALL, curve_color
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
-from viewer.session.convergence import SHOWN, WAYS, Run, forecast
+from viewer.panels.panel import Corner, Panel
+from viewer.session.refinement import DISPLAYS, STRATEGIES, Run, forecast
 from viewer.session.session import Session
+from viewer.session.view_state import Request
 
-TITLE = "Error"
 MAP_WIDTH = 116  # logical pixels
 PLOT_HEIGHT = 96
 FEW = 60.0  # how far an axis reaches that has numbers at 2 and 5, too
@@ -28,11 +29,11 @@ def draw(session: Session, canvas: Canvas) -> None:
         return
     _controls(session)
     _numbers(session)
-    if any(run.points for run in session.convergence.runs):
+    if any(run.points for run in session.refinement.runs):
         _plot(session)
     else:
         imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(session.theme.muted, BEGUN if session.convergence.goes_on else EMPTY)
+        imgui.text_colored(session.theme.muted, BEGUN if session.refinement.is_running else EMPTY)
         imgui.pop_text_wrap_pos()
 
 
@@ -45,25 +46,25 @@ EMPTY = (
 
 
 def _controls(session: Session) -> None:
-    state, unit = session.convergence, d.unit()
-    if imgui.button("Pause" if state.goes_on else "Refine", (66 * unit, 0)):
-        state.toggle(session)
+    state, unit = session.refinement, d.unit()
+    if imgui.button("Pause" if state.is_running else "Refine", (66 * unit, 0)):
+        session.toggle_refinement()
     d.hint("more rays for each pixel, until it is paused (key R)")
     imgui.same_line()
     imgui.set_next_item_width(148 * unit)
-    if imgui.begin_combo("##way", state.way.name):
-        for way in WAYS:
-            if imgui.selectable(way.name, way == state.way)[0]:
-                state.set_way(session, way)
-            d.hint(way.hint)
+    if imgui.begin_combo("##way", state.strategy.name):
+        for strategy in STRATEGIES:
+            if imgui.selectable(strategy.name, strategy == state.strategy)[0]:
+                session.set_strategy(strategy)
+            d.hint(strategy.hint)
         imgui.end_combo()
     d.hint("where the rays of a pixel go")
     imgui.same_line()
     if imgui.get_content_region_avail().x < MAP_WIDTH * unit:
         imgui.new_line()
     imgui.set_next_item_width(MAP_WIDTH * unit)
-    if imgui.begin_combo("##map", SHOWN[state.shows]):
-        for name, meaning in SHOWN.items():
+    if imgui.begin_combo("##map", DISPLAYS[state.shows]):
+        for name, meaning in DISPLAYS.items():
             if imgui.selectable(meaning, name == state.shows)[0]:
                 state.shows = name
         imgui.end_combo()
@@ -72,7 +73,7 @@ def _controls(session: Session) -> None:
 
 def _numbers(session: Session) -> None:
     """How far the image has come, what one more second buys, and what no second does."""
-    run, theme = session.convergence.current, session.theme
+    run, theme = session.refinement.current, session.theme
     if not run or not run.points:
         return
     last = run.points[-1]
@@ -81,7 +82,7 @@ def _numbers(session: Session) -> None:
     spread = f", {last.least} to {last.most}" if last.most > last.least else ""
     lines = [(f"{last.samples:.3g} samples a pixel{spread}{_picked(session, run)}", MEAN)]
     if math.isinf(run.floor):
-        lines.append((f"* rays cut at depth {run.depth}: what they are worth is bounded by nothing", FLOOR))
+        lines.append((f"* rays cut at depth {run.depth}: no upper bound is known for their light", FLOOR))
     elif run.floor > 0.0:
         lines.append((f"rays cut at depth {run.depth}: at most {run.floor:.2g} more", FLOOR))
     for content, meaning in lines:
@@ -93,10 +94,10 @@ def _numbers(session: Session) -> None:
 
 def _picked(session: Session, run: Run) -> str:
     """The picked pixel's own."""
-    if not (session.pixel and run.made):
+    if not (session.pixel and run.image):
         return ""
     x, y = session.pixel
-    count, error = run.made.sampled.counts[y, x], float(run.made.sampled.errors((y, x)))
+    count, error = run.image.statistics.counts[y, x], float(run.image.statistics.errors((y, x)))
     return "" if math.isnan(error) else f"; the picked one {count}, {error:.2g} off"
 
 
@@ -114,7 +115,7 @@ def _outlook(run: Run) -> str:
 
 
 def _plot(session: Session) -> None:
-    unit, theme, state = d.unit(), session.theme, session.convergence
+    unit, theme, state = d.unit(), session.theme, session.refinement
     size = SMALL * imgui.get_font_size()
     at = imgui.get_cursor_screen_pos()
     caption = d.shortened(
@@ -176,7 +177,7 @@ def _curve(session: Session, run: Run, reach: tuple[float, float]) -> None:
     points = [p for p in run.points if p.error > 0.0]
     if not points:
         return
-    state, unit = session.convergence, d.unit()
+    state, unit = session.refinement, d.unit()
     color = imgui.ImVec4(*curve_color(session.theme, run.number))
     on = run is state.current
     name = run.name([other.model for other in state.runs])
@@ -189,3 +190,6 @@ def _curve(session: Session, run: Run, reach: tuple[float, float]) -> None:
         marker_size=(4.0 if on else 3.0) * unit, marker_line_color=color, marker_fill_color=color,
     )  # fmt: skip
     implot.plot_line(name, np.array([p.seconds for p in points]), np.array([p.error for p in points]), spec)
+
+
+PANEL = Panel("Error", draw, Corner.BOTTOM_RIGHT, request=Request.SHOW_ERROR)

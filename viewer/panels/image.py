@@ -2,15 +2,14 @@
 
 from imgui_bundle import imgui
 
-from viewer.base.colormap import RANGES, strip
-from viewer.base.pictures import as_shown
+from viewer.base.colormap import RANGES, gradient
+from viewer.base.srgb import display_color
 from viewer.base.theme import SMALL
 from viewer.gl.canvas import Canvas, texture_ref
 from viewer.gl.magnified import Place
 from viewer.panels import draw as d
+from viewer.panels.panel import Corner, Panel
 from viewer.session.session import Session
-
-TITLE = "Image"
 
 
 def draw(session: Session, canvas: Canvas) -> None:
@@ -102,14 +101,14 @@ def _head(session: Session) -> None:
         )
         if changed and text.isdigit():
             session.pick(*((int(text), max(y, 0)) if label == "x" else (max(x, 0), int(text))))
-    if session.convergence.shows_map:
+    if session.refinement.shows_map:
         _scale(session)
     elif session.tree:
         rgb = session.tree.radiance
         imgui.same_line()
         imgui.color_button(
             "##color",
-            as_shown(rgb),
+            display_color(rgb),
             imgui.ColorEditFlags_.no_tooltip,
             (imgui.get_frame_height(), imgui.get_frame_height()),
         )
@@ -120,7 +119,7 @@ def _head(session: Session) -> None:
             imgui.text(content)
         if imgui.is_item_hovered():
             meaning = "red, green, blue: linear light, before it is made into sRGB for the screen"
-            if session.convergence.current:
+            if session.refinement.current:
                 meaning += f"\nof the ray through the pixel's centre{_refined(session)}"
             imgui.set_tooltip(f"{content}\n{meaning}")
     else:
@@ -130,21 +129,21 @@ def _head(session: Session) -> None:
 
 def _refined(session: Session) -> str:
     """What more samples have made of the picked pixel."""
-    run = session.convergence.current
-    if not (run and run.made and session.pixel and run.points):
+    run = session.refinement.current
+    if not (run and run.image and session.pixel and run.points):
         return ""
     x, y = session.pixel
-    sampled = run.made.sampled
-    count = int(sampled.counts[y, x])
-    mean = "  ".join(f"{value / count:.4f}" for value in sampled.sums[y, x, :3])
+    statistics = run.image.statistics
+    count = int(statistics.counts[y, x])
+    mean = "  ".join(f"{value / count:.4f}" for value in statistics.sums[y, x, :3])
     return f"; the mean of {count} samples is {mean}"
 
 
 def _scale(session: Session) -> None:
     """What the map's colours stand for, at the right end."""
     unit, size = d.unit(), imgui.get_font_size()
-    low, high = (f"{value:g}" for value in RANGES[session.convergence.shows])
-    word = session.convergence.shows
+    low, high = (f"{value:g}" for value in RANGES[session.refinement.shows])
+    word = session.refinement.shows
     imgui.same_line()
     start, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
     ends = d.text_size(low, size)[0] + d.text_size(high, size)[0] + 14 * unit
@@ -158,7 +157,7 @@ def _scale(session: Session) -> None:
     d.text(pad, (left, top), session.theme.muted, word, size)
     d.text(pad, (left + named, top), session.theme.text, low, size)
     left += named + d.text_size(low, size)[0] + 6 * unit
-    colors = strip(48)
+    colors = gradient(48)
     for k, color in enumerate(colors):
         a, b = left + k * bar / len(colors), left + (k + 1) * bar / len(colors)
         pad.add_rect_filled((a, top + 0.1 * size), (b + 0.5, top + size), d.u32(color))
@@ -169,7 +168,7 @@ def _scale(session: Session) -> None:
 def _progress(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
     """A thin bar while the image is not finished."""
     shown = session.image.picture
-    if shown is None or shown.finished or shown.endless:
+    if shown is None or shown.finished or shown.is_endless:
         return
     bottom = corner.y + room.y
     height = 4.0 * d.unit()
@@ -200,3 +199,6 @@ def waiting_lines(session: Session) -> list[str]:
             "Only this once: its formulas are compiled for this machine and kept.",
         ]
     return ["Loading ..."]
+
+
+PANEL = Panel("Image", draw, Corner.TOP_RIGHT, padding=(6, 5))

@@ -3,9 +3,9 @@
 from imgui_bundle import imgui
 
 from viewer.gl.canvas import Canvas
+from viewer.panels.panel import Corner, Panel
 from viewer.session.session import Session
-
-TITLE = "Lesson"
+from viewer.session.view_state import Request
 
 
 def draw(session: Session, canvas: Canvas) -> None:
@@ -24,3 +24,8 @@ def draw(session: Session, canvas: Canvas) -> None:
             imgui.text(content)
         imgui.pop_text_wrap_pos()
         imgui.spacing()
+
+
+PANEL = Panel(
+    "Lesson", draw, Corner.BOTTOM_RIGHT, request=Request.SHOW_LESSON, exists=lambda session: session.lesson is not None
+)

@@ -3,13 +3,13 @@
 from imgui_bundle import imgui
 
 from viewer.base.theme import STYLES
-from viewer.explain.explain import explain, headline
+from viewer.explain.ray import explain_ray, headline
 from viewer.explain.sections import Section
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
+from viewer.panels.panel import Corner, Panel
 from viewer.session.session import Session
-
-TITLE = "Selected ray"
+from viewer.session.view_state import Request
 
 
 def draw(session: Session, canvas: Canvas) -> None:
@@ -20,9 +20,8 @@ def draw(session: Session, canvas: Canvas) -> None:
     row = session.selected if session.selected is not None else 0
     if row >= len(tree):
         return
-    if canvas.told != (tree, row):
+    if canvas.ray_changed((tree, row)):
         imgui.set_scroll_y(0.0)
-        canvas.told = (tree, row)
     name, fate = headline(tree, row)
     kind = tree.kind(row)
     unit = d.unit()
@@ -45,7 +44,7 @@ def draw(session: Session, canvas: Canvas) -> None:
     imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(session.theme.muted, fate[0].upper() + fate[1:] + ".")
     imgui.pop_text_wrap_pos()
-    for section in explain(tree, session.world, row):
+    for section in explain_ray(tree, session.world, row):
         _section(session, section)
 
 
@@ -74,3 +73,6 @@ def _section(session: Session, section: Section) -> None:
             imgui.text(line.value)
             imgui.pop_text_wrap_pos()
         imgui.end_table()
+
+
+PANEL = Panel("Selected ray", draw, Corner.BOTTOM_RIGHT, request=Request.SHOW_RAY)

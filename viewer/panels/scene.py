@@ -6,16 +6,14 @@ import numpy as np
 from imgui_bundle import imgui
 
 from tracer.kernel.nodes import SHADOW
-from tracer.tree.raytree import light_name
 from viewer.base.orbit import project
 from viewer.base.theme import SMALL, faded
 from viewer.figures.labels import ray_label
 from viewer.figures.ray_lines import nearest_row
 from viewer.gl.canvas import Canvas, texture_ref
 from viewer.panels import draw as d
+from viewer.panels.panel import Corner, Panel
 from viewer.session.session import Session
-
-TITLE = "Scene"
 
 REACH = 9.0  # logical pixels: how near to a ray a click must be
 MOST_LABELS = 40
@@ -131,7 +129,7 @@ class _Overlay:
             if at:
                 d.sun(self.stage, at, 10.0 * self.unit, theme.sun, theme.ground)
                 if self.session.shown.labels:
-                    self.label(at, light_name(scene, j), theme.text, (13, -9))
+                    self.label(at, scene.light_name(j), theme.text, (13, -9))
 
     def _camera_name(self) -> None:
         assert self.session.world
@@ -186,3 +184,6 @@ class _Overlay:
             if session.selected is not None and i != session.selected:
                 color = faded(color, 0.7)
             self.label(at, ray_label(tree, i), color, (8, 4))
+
+
+PANEL = Panel("Scene", draw, Corner.TOP_LEFT, padding=(0, 0))

@@ -8,17 +8,16 @@ from imgui_bundle import imgui
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.text import cut_summary, heaviest_rows
-from viewer.base.pictures import as_shown
+from viewer.base.srgb import display_color
 from viewer.base.theme import BLOCKED_DASH, DIMMED, SMALL, STYLES, faded
-from viewer.base.wording import shown
-from viewer.explain.explain import headline
-from viewer.figures.layout.tidy_tree import Place, layout, with_parents_only
-from viewer.figures.ray_lines import family
+from viewer.base.wording import format_number
+from viewer.explain.ray import headline
+from viewer.figures.layout.tidy_tree import Place, closed_under_parents, tidy_layout
+from viewer.figures.ray_lines import relatives
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
+from viewer.panels.panel import Corner, Panel
 from viewer.session.session import Session
-
-TITLE = "Ray tree"
 
 MOST_ROWS = 160  # drawn; of larger trees the heaviest rays
 # Logical pixels: between neighbours and between levels, at most and at least; smaller and the tree has to be moved.
@@ -63,16 +62,16 @@ class _Diagram:
         self.theme = session.theme
         full = session.full_tree
         wanted = {i for i in range(len(full)) if full.kind(i) in session.shown.kinds or i == 0}
-        wanted = with_parents_only(full.nodes["parent"], wanted)
+        wanted = closed_under_parents(full.nodes["parent"], wanted)
         rows = heaviest_rows(full, MOST_ROWS, wanted)
-        places = layout(full, rows).places
+        places = tidy_layout(full, rows).places
         self.folded = len(self.tree) - sum(i < len(self.tree) for i in wanted & rows)
         self._fit(places, corner, room)
         self.rows = sorted(i for i in rows if i < len(self.tree))
         self.levels: dict[float, list[float]] = {}  # where hits stand on each level, left to right
         for x, y in sorted(self.at[i] for i in self.rows if self.tree.nodes["kind"][i] != SHADOW):
             self.levels.setdefault(y, []).append(x)
-        self.kept = family(self.tree, session.selected) if session.selected is not None else None
+        self.kept = relatives(self.tree, session.selected) if session.selected is not None else None
 
     def _fit(self, places: dict[int, Place], corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
         """From places to pixels: as far apart as there is room for, up to where nothing gets clearer."""
@@ -167,7 +166,7 @@ class _Diagram:
         d.text(self.pad, (x, y - 0.5 * height), color, content, size, self.theme.panel)
 
     def _factor(self, i: int) -> str:
-        return f"× {shown(float(self.tree.nodes['factor'][i].max()), 3)}"
+        return f"× {format_number(float(self.tree.nodes['factor'][i].max()), 3)}"
 
     def _node(self, i: int) -> None:
         if self.tree.nodes["kind"][i] == SHADOW:
@@ -176,7 +175,7 @@ class _Diagram:
         x, y = self.at[i]
         opacity = self.opacity(i)
         r = self.radius
-        fill = faded(as_shown(self.tree.nodes["radiance"][i]), opacity)
+        fill = faded(display_color(self.tree.nodes["radiance"][i]), opacity)
         self.pad.add_circle_filled((x, y), r + 2.0 * d.unit(), d.u32(self.theme.panel))
         self.pad.add_circle_filled((x, y), r, d.u32(fill))
         ring = self.theme.accent if i == self.session.selected else faded(self.theme.text, 0.8 * opacity)
@@ -239,14 +238,14 @@ class _Diagram:
 
     def _note(self) -> None:
         """In a corner beside the eye: what is not to be seen of this tree; in fewer words where there is less room."""
-        drawn, total, weight = len(self.rows), len(self.tree), shown(self.tree.residual, 3)
+        drawn, total, weight = len(self.rows), len(self.tree), format_number(self.tree.residual, 3)
         fewer = f"{drawn} of {total} rays drawn" if self.folded > 0 else ""
         if self.tree.residual > 0.0:
             most = self.tree.bound
             cuts = [
                 cut_summary(self.tree),
                 f"cut: {weight} of the weight, "
-                + (f"at most {shown(most, 3)} of light" if most < np.inf else "no bound"),
+                + (f"at most {format_number(most, 3)} of light" if most < np.inf else "no bound"),
                 f"cut rays: {weight} of the weight",
                 f"cut: {weight}",
             ]
@@ -298,3 +297,6 @@ class _Diagram:
             if float(np.hypot(*(a + t * along - mouse))) <= reach:
                 return i
         return None
+
+
+PANEL = Panel("Ray tree", draw, Corner.BOTTOM_LEFT, padding=(6, 5))

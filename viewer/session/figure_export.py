@@ -1,176 +1,113 @@
-"""What is on show as a figure to take home: the very command that makes it again is what makes it."""
+"""Exports the figure on show, by the options of the command that makes it again."""
 
 import contextlib
-import io
 import json
-import math
 import shlex
-from argparse import Namespace
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from tracer.kernel.world import World
+from viewer.base.clipboard import copy_to_clipboard
 from viewer.base.files import Unusable, write_atomically
+from viewer.base.options import words
+from viewer.base.orbit import ViewAngles
 from viewer.base.theme import THEMES
+from viewer.figures.catalogue import FIGURE_NAMES, FORMATS, PICTURES
+from viewer.figures.export_options import ExportOptions
 
-if TYPE_CHECKING:
-    from tracer.kernel.world import World
-    from viewer.cli.export import Made
-    from viewer.figures.targets import Target
-    from viewer.lessons.lesson import Lesson
-    from viewer.session.session import Session
-
-FIGURES = {"both": "Scene and tree", "tree": "Ray tree", "scene": "Scene", "hit": "Selected hit"}
-FORMATS = {"svg": "SVG", "pdf": "PDF", "png": "PNG", "tikz": "TikZ", "pptx": "PPTX"}
+HINT = "(Ctrl+Shift+C copies its command line)"
 
 
-@dataclass
-class TakeHome:
-    """Which figure in which format and theme, as last chosen; and what has been made of it."""
+@dataclass(frozen=True)
+class Shown:
+    """What is on show: the options of `raytree export` for it, but for format and theme; and its scene."""
 
-    figure: str = "both"
-    format: str = "svg"
-    theme: str = ""  # the window's where none is chosen
-    command: str = ""  # that made the last figure
-    making: Future | None = None
-    kept: Path | None = None  # where the choice is kept from one start to the next
+    options: ExportOptions
+    theme: str  # the window's
+    world: World
+    scene: str  # its name in file names
+    view: ViewAngles | None
+
+
+class FigureExport:
+    """The figure, format and theme that were last chosen, and the export in progress."""
+
+    def __init__(self, post: Callable[[Callable[[], object]], object]) -> None:
+        self.post = post  # has a call made in the window's thread
+        self.figure = "both"
+        self.format = "svg"
+        self.theme = ""  # empty: the window's
+        self.command = ""  # that makes the last figure again
+        self.making: Future[str] | None = None
+        self.kept: Path | None = None  # where the choice is kept from one start to the next
 
     def remember(self, path: Path) -> None:
-        """Choose as last time, and keep the choice there from now on."""
+        """Choose as at the last start, and keep the choice in this file."""
         self.kept = path
         try:
             found = json.loads(path.read_text("utf-8"))
-            if found["figure"] in FIGURES and found["format"] in FORMATS and found["theme"] in ("", *THEMES):
+            if found["figure"] in FIGURE_NAMES and found["format"] in PICTURES and found["theme"] in ("", *THEMES):
                 self.figure, self.format, self.theme = found["figure"], found["format"], found["theme"]
         except (OSError, ValueError, KeyError, TypeError):
-            return  # never chosen, or not by us
+            return  # there is no such file, or it is not ours
+
+    def start(
+        self, shown: Shown, copied: bool, say: Callable[[str], object], fail: Callable[[list[str]], object]
+    ) -> None:
+        """Write the figure into the current folder, or copy it, in the background.
+
+        A figure is copied as a picture that can be pasted onto a slide, or as text if it is TikZ. `say` gets notices
+        and `fail` faults, in the window's thread.
+        """
+        if self.making:
+            return
+        from viewer.figures.targets import Target, stem_of
+
+        name = "png" if copied and self.format != "tikz" else self.format
+        options = replace(shown.options, format=(name,), theme=self.theme or shown.theme)
+        self.command = shlex.join(["raytree", "export", *words(options, leave_out=("output",))])
+        self._keep()
+        depth = options.depth[-1] if options.depth else 0
+        stem = f"{stem_of(shown.scene, options.pixel)}_{self.figure}_d{depth}"
+        target = Target(free_path(Path(stem + FORMATS[name].suffix)), is_folder=False, formats=(name,))
+        say("copying the figure ..." if copied else f"exporting {target.path.name} ...")
+
+        def make() -> str:
+            from viewer.figures.export import make
+
+            made = make(options, shown.world, shown.scene, target, shown.view)
+            if not copied:
+                made.write()
+                return "; ".join([f"wrote {target.path.resolve()}  {HINT}", *made.notes])
+            ((_, content),) = made.files
+            copy_to_clipboard(content.decode("utf-8") if name == "tikz" else content)
+            kind = "as TikZ" if name == "tikz" else "as a picture"
+            return "; ".join([f"the figure is copied {kind}  {HINT}", *made.notes])
+
+        def finish(future: Future[str]) -> None:
+            self.making = None
+            try:
+                say(future.result())
+            except Unusable as unusable:
+                fail(list(unusable.faults))
+            except ValueError as error:
+                fail([str(error)])
+
+        worker = ThreadPoolExecutor(1)  # not the window's thread: it takes up to some seconds
+        self.making = worker.submit(make)
+        self.making.add_done_callback(lambda future: self.post(lambda: finish(future)))
+        worker.shutdown(wait=False)
 
     def _keep(self) -> None:
         if self.kept:
             choice = {"figure": self.figure, "format": self.format, "theme": self.theme}
-            with contextlib.suppress(Unusable):  # then it is for this time only
+            with contextlib.suppress(Unusable):  # then the choice holds for this time only
                 write_atomically(self.kept, json.dumps(choice).encode("utf-8"))
 
-    def words(self, session: "Session") -> list[str]:
-        """The command's arguments for what is on show, but for as what and where to."""
-        assert session.path
-        assert session.pixel
-        scene = session.lesson.name if session.lesson else str(session.path)
-        orbit, frame = session.orbit, session.frame
-        x, y, z = (frame.middle + frame.radius * orbit.target).tolist()
-        view = (math.degrees(orbit.azimuth), math.degrees(orbit.elevation), orbit.distance, x, y, z)
-        words = ["export", scene, f"--pixel={session.pixel[0]},{session.pixel[1]}", f"--figure={self.figure}"]
-        words += [f"--depth={session.depth}", f"--model={session.model}"]
-        if self.figure in ("both", "scene"):
-            words.append(f"--view={','.join(map(repr, view))}")
-        if self.figure == "hit":
-            words.append(f"--node={session.selected or 0}")
-        if "shadow" not in session.shown.kinds:
-            words.append("--no-lights")
-        return [*words, f"--theme={self.theme or session.theme.name}"]
 
-    def make(self, session: "Session", copied: bool = False) -> None:
-        """Write the figure beside where the program was started, or copy it; that takes up to some seconds.
-
-        Copied it is a picture, to be pasted onto a slide; as TikZ it is text.
-        """
-        if not session.tree or not session.world or not session.path:
-            session.notice.say("nothing to export yet: pick a pixel")
-            return
-        if self.making:
-            return
-        from viewer.cli import main
-        from viewer.figures import targets
-        from viewer.figures.formats import FORMATS as KINDS
-
-        kind = self.format if not copied or self.format == "tikz" else "png"
-        words = [*self.words(session), f"--format={kind}"]
-        options = main.make_parser().parse_args([*words, "-o", "."])
-        self.command = shlex.join(["raytree", *words])
-        self._keep()
-        stem = f"{targets.stem_of(options, session.lesson)}_{self.figure}_d{session.depth}"
-        target = targets.Target(free(Path(stem + KINDS[kind].suffix)), folder=False)
-        session.notice.say("copying the figure ..." if copied else f"exporting {target.path.name} ...")
-        worker = ThreadPoolExecutor(1)  # off the window's thread
-        task = _Task(options, session.world, session.lesson, target, kind)
-        self.making = worker.submit(task.copy if copied else task.write)
-        self.making.add_done_callback(lambda _: session.changed())
-        worker.shutdown(wait=False)
-
-    def copy_command(self, session: "Session") -> None:
-        """The command line of the last figure."""
-        if not self.command:
-            return
-        try:
-            put_into_clipboard(self.command)
-            session.notice.say("the figure's command line is copied")
-        except Unusable as unusable:
-            session.faults = list(unusable.faults)
-
-    def finish(self, session: "Session") -> bool:
-        """Say how it ended, once it has; whether there is anything new to see."""
-        if not self.making or not self.making.done():
-            return False
-        making, self.making = self.making, None
-        try:
-            session.notice.say(making.result())
-        except Unusable as unusable:
-            session.faults = list(unusable.faults)
-        except ValueError as error:
-            session.faults = [str(error)]
-        return True
-
-
-@dataclass(frozen=True)
-class _Task:
-    """One figure to be made; what is said when it is done."""
-
-    options: Namespace
-    world: "World"
-    lesson: "Lesson | None"
-    target: "Target"
-    kind: str
-
-    def _made(self) -> "Made":
-        from viewer.cli import export
-
-        return export.make(self.options, self.world, self.lesson, self.target, [self.kind])
-
-    def write(self) -> str:
-        made = self._made()
-        made.write()
-        return "; ".join([f"wrote {self.target.path.resolve()}  (Ctrl+Shift+C copies its command line)", *made.notes])
-
-    def copy(self) -> str:
-        made = self._made()
-        ((_, content),) = made.files
-        text = self.kind == "tikz"
-        put_into_clipboard(content.decode("utf-8") if text else content)
-        what = "as TikZ" if text else "as a picture"
-        return "; ".join([f"the figure is copied {what}  (Ctrl+Shift+C copies its command line)", *made.notes])
-
-
-def put_into_clipboard(content: str | bytes) -> None:
-    """A text, or a PNG as a picture. Unusable where the system has no clipboard for it.
-
-    Not the window's own clipboard, which knows text only, and which answers no program while the window is busy.
-    """
-    import copykitten
-
-    try:
-        if isinstance(content, str):
-            copykitten.copy(content)
-            return
-        from PIL import Image
-
-        with Image.open(io.BytesIO(content)) as picture:
-            copykitten.copy_image(picture.convert("RGBA").tobytes(), *picture.size)
-    except copykitten.CopykittenError as error:
-        raise Unusable(f"nothing can be copied here: {error}; Ctrl+S writes the figure into a file") from None
-
-
-def free(path: Path) -> Path:
-    """This name, or the next with a number that is not taken."""
+def free_path(path: Path) -> Path:
+    """This path, or the next one with a number that does not exist."""
     names = (path.with_stem(f"{path.stem}-{k}") if k > 1 else path for k in range(1, 10**6))
     return next(name for name in names if not name.exists())

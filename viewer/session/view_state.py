@@ -1,27 +1,40 @@
-"""What is switched on, how it is looked at, and what is said for a while: small parts of a session."""
+"""Small parts of a session's state: what is switched on, pan and zoom, a notice, what the window is asked for."""
 
 import time
 from dataclasses import dataclass, field
+from enum import Enum, auto
+from pathlib import Path
 
 from viewer.base.theme import STYLES
 
-STAYS = 6.0  # seconds that a notice is to be read
+NOTICE_SECONDS = 6.0
+MAX_ZOOM = 200.0
+
+
+class Request(Enum):
+    """What the session asks of the window."""
+
+    SHOW_LESSON = auto()  # bring this panel to the front
+    SHOW_RAY = auto()
+    SHOW_ERROR = auto()
+    OPEN_DIALOG = auto()
+    QUIT = auto()
 
 
 @dataclass
-class Shown:
-    """What of the 3D view and the panels is switched on."""
+class Visibility:
+    """What is switched on in the 3D view and the panels."""
 
-    kinds: set[str] = field(default_factory=lambda: set(STYLES))
-    camera: bool = True  # with its frustum and the image on the image plane
+    kinds: set[str] = field(default_factory=lambda: set(STYLES))  # of rays
+    camera: bool = True  # with its frustum, and the image on the image plane
     lights: bool = True
     normals: bool = True
     labels: bool = True
 
 
 @dataclass
-class Look:
-    """How a flat picture is moved and enlarged in its panel."""
+class PanZoom:
+    """How a flat picture is moved and magnified in its panel."""
 
     zoom: float = 1.0
     center: tuple[float, float] = (0.5, 0.5)
@@ -30,8 +43,8 @@ class Look:
         self.center = (self.center[0] + dx, self.center[1] + dy)
 
     def zoom_about(self, at: tuple[float, float], steps: float) -> None:
-        """Enlarge so that the place `at` (in shares of the picture) stays where it is; never smaller than the panel."""
-        zoom = min(200.0, max(1.0, self.zoom * 1.2**steps))
+        """Zoom so that the point `at` (as shares of the picture) stays where it is. Zoom 1 fills the panel."""
+        zoom = min(MAX_ZOOM, max(1.0, self.zoom * 1.2**steps))
         share = 1.0 - self.zoom / zoom
         self.center = (
             self.center[0] + share * (at[0] - self.center[0]),
@@ -44,18 +57,26 @@ class Look:
 
 @dataclass
 class Notice:
-    """What was last done, where nothing else shows it."""
+    """A line about the last action, shown for some seconds."""
 
     text: str = ""
     ends: float = 0.0  # of time.monotonic()
 
     def say(self, text: str) -> None:
         self.text = text
-        self.ends = time.monotonic() + STAYS
+        self.ends = time.monotonic() + NOTICE_SECONDS
 
-    def passes(self) -> bool:
-        """Whether it has just gone."""
+    def expires(self) -> bool:
+        """Remove the line if its time is up. Returns whether it was removed."""
         if self.text and time.monotonic() > self.ends:
             self.text = ""
             return True
         return False
+
+
+@dataclass
+class OpenDialog:
+    """The dialog that opens a scene."""
+
+    folder: Path | None = None  # whose files it lists
+    not_found: str = ""  # a path that was typed and does not exist

@@ -1,7 +1,7 @@
-"""Gets the kernels ready while the window is already in use.
+"""Loads the kernels while the window is already in use.
 
-The very first start on a machine compiles, for a good ten seconds. That is done by a process of its own, so that the
-window keeps its frames; this process then loads what it left in the cache, as every later start does.
+The first start on a machine compiles them, which takes about twenty seconds. A process of its own does that, so that
+the window keeps its frame rate. This process then loads them from the cache, as every later start does.
 """
 
 import subprocess
@@ -9,9 +9,7 @@ import sys
 import threading
 import time
 
-from tracer.compile.jit import is_cached
-from tracer.image.render import warm
-from tracer.kernel.entry import trace_area
+from tracer.image.warmup import are_kernels_cached, warm_up
 
 
 class Warmup:
@@ -19,7 +17,7 @@ class Warmup:
 
     def __init__(self) -> None:
         self.began = time.perf_counter()
-        self.compiles = not is_cached(trace_area)
+        self.compiles = not are_kernels_cached()
         self.child: subprocess.Popen | None = None
         self.finished = threading.Event()
         self.thread = threading.Thread(target=self._run, daemon=True)
@@ -31,14 +29,14 @@ class Warmup:
 
     @property
     def seconds(self) -> float:
-        """How long it has been going on."""
+        """The time since the start."""
         return time.perf_counter() - self.began
 
     def wait(self) -> None:
         self.finished.wait()
 
     def close(self) -> None:
-        """Leave without waiting for a compiler."""
+        """End without waiting for the compiler."""
         if self.child and self.child.poll() is None:
             self.child.terminate()
             self.child.wait()
@@ -47,13 +45,13 @@ class Warmup:
         try:
             if self.compiles:
                 self.child = subprocess.Popen(
-                    [sys.executable, "-c", "from tracer.image.render import fill_cache; fill_cache()"],
+                    [sys.executable, "-c", "from tracer.image.warmup import fill_cache; fill_cache()"],
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.DEVNULL,
                     stderr=subprocess.DEVNULL,
                 )
-                if self.child.wait() < 0:  # closed while it was at work
+                if self.child.wait() < 0:  # `close` has ended it
                     return
-            warm()  # from the cache; or here and now, where the other process could not do it
+            warm_up()  # from the cache, or by compiling here if the other process failed
         finally:
             self.finished.set()

@@ -1,4 +1,4 @@
-"""The frame loop: events in, the session brought up to date, every panel drawn, and sleep while nothing happens."""
+"""The frame loop: take events, update the session, draw every panel, and sleep while nothing happens."""
 
 import contextlib
 import time
@@ -7,42 +7,44 @@ from collections.abc import Callable
 from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
+from viewer.base.cached import Changed
 from viewer.gl.canvas import Canvas
-from viewer.panels import PANELS, bar, error, image, lesson, menu, ray, scene, tree
+from viewer.panels import PANELS, bar, faults, help, menu, open_dialog
+from viewer.panels.panel import Corner, Panel
 from viewer.session.session import Session
+from viewer.session.view_state import Request
 from viewer.window import keys, style
 from viewer.window.backend import Offscreen, Window
 
 DOCK = "dock"
 
 IDLE = 0.3  # seconds of sleep between looks at the scene's file
-FASTEST = 1 / 60  # seconds between frames, at least: what comes faster is seen by nobody
+FASTEST = 1 / 60  # least seconds between frames
 BUSY = 1 / 30  # the same while an image renders and nothing else happens
-SHARE = 0.1  # of the time that frames may take from an image that renders
+SHARE = 0.1  # of the time that frames may take while an image renders
 EAGER = 0.6  # the same while the user does something
 SMALLEST = (560, 360)  # room for the panels, in pixels
 AFTERGLOW = 3  # frames drawn after the last event: imgui needs one or two to settle
 
 
 class App:
-    """Ties a surface to a session. `frame` draws once; `run` draws for as long as the window is open."""
+    """A window or an offscreen surface, with a session. `frame` draws once; `run` draws until the window is closed."""
 
     def __init__(self, surface: Window | Offscreen, session: Session) -> None:
         self.surface = surface
         self.session = session
         self.canvas = Canvas(surface.ctx, session)
         self.has_layout = False
-        self.styled: object = None
-        self.title = ""
-        session.changed = surface.wake
-        session.image.changed = self._image_changed
+        self.style_changed = Changed()
+        self.title_changed = Changed()
+        session.inbox.wake = surface.wake
         if isinstance(surface, Window):
             surface.on_refresh = self._redraw
 
     def run(self) -> None:
         glow = AFTERGLOW
         drawn = took = 0.0
-        while not self.surface.closing and not self.session.wants_quit:
+        while not self.is_over():
             busy = self._is_busy()
             since = time.perf_counter() - drawn
             rest = self._rest(busy, glow > 0, took)
@@ -59,9 +61,13 @@ class App:
             drawn = time.perf_counter()
             took = drawn - now
 
+    def is_over(self) -> bool:
+        """Whether the window is to be closed."""
+        return self.surface.closing
+
     @staticmethod
     def _rest(busy: bool, glows: bool, took: float) -> float:
-        """Seconds between frames, where one takes `took`: not so few that an image gets no time to be made."""
+        """Seconds between frames that take `took` each: long enough to leave an image time to render."""
         if glows:
             return max(FASTEST, took / EAGER) if busy else FASTEST
         return max(BUSY, took / SHARE) if busy else IDLE
@@ -74,28 +80,28 @@ class App:
     ) -> None:
         """Draw until everything is there: the scene, the first full image, the tree.
 
-        `say` is told what is waited for, `progress` the share of the image.
+        `say` is called with what is waited for, `progress` with the share of the image.
         """
         session = self.session
-        woken = session.image.changed
-        session.image.changed = lambda: progress(session.image.picture.share if session.image.picture else 0.0)
-        self.frame()  # what every frame needs of the graphics card is compiled while the scene is loaded
+        session.image.progress = lambda: progress(session.image.picture.share if session.image.picture else 0.0)
+        self.frame()  # compiles the shaders while the scene is loaded
         session.warmup.wait()
         say("load the scene")
-        while session.loading:
+        while session.loader.loading:
             with contextlib.suppress(Exception):
-                session.loading.exception()
+                session.loader.loading.exception()
             session.update()
         say("render the image")
         session.update()
-        self.frame()  # while the image renders: what the graphics card has to compile and to be sent is then there
+        self.frame()  # compiles and sends what the scene needs while the image renders
         session.image.wait()
-        session.image.changed = woken
+        session.image.progress = lambda: None
         say("draw the viewer")
         for _ in range(frames):
             self.frame()
 
     def frame(self) -> None:
+        """Draw all panels once."""
         began = time.perf_counter()
         self._take_dropped()
         self._apply_style()
@@ -111,84 +117,81 @@ class App:
         self.surface.close()
 
     def _redraw(self) -> None:
-        """While the window is being resized the system keeps the loop to itself: then it asks for each frame."""
+        """While the window is being resized, the system keeps the event loop to itself, and asks for each frame."""
         if not self.surface.minimised:
             self.frame()
 
-    def _image_changed(self) -> None:
-        """Frames are drawn while an image renders, at their own pace: only its end is worth waking up for."""
-        picture = self.session.image.picture
-        if picture and picture.finished:
-            self.surface.wake()
-
     def _has_events(self) -> bool:
-        """Whether the user did anything: imgui has been told by its callbacks."""
-        return len(_pending_events()) > 0
+        """Whether there is any input: imgui's callbacks have noted it, and no frame has taken it."""
+        return len(imgui.get_current_context().input_events_queue) > 0
 
     def _is_busy(self) -> bool:
         session = self.session
         picture = session.image.picture
-        return not session.warmup.ready or session.loading is not None or (picture is not None and not picture.finished)
+        loads = session.loader.loading is not None
+        return not session.warmup.ready or loads or (picture is not None and not picture.finished)
 
     def _take_dropped(self) -> None:
+        """Open the file that was dropped on the window."""
         dropped, self.surface.dropped = self.surface.dropped, []
         if dropped:
-            menu.open_file(self.session, dropped[-1])
+            self.session.open(dropped[-1])
 
     def _apply_style(self) -> None:
         wanted = (self.session.theme, self.surface.scale, self.session.zoom)
-        if wanted != self.styled:
+        if self.style_changed(wanted):
             style.apply(*wanted)
-            self.styled = wanted
 
     def _set_title(self) -> None:
         world = self.session.world
         title = f"{world.scene.title or self.session.path} – raytree" if world else "raytree"
-        if title != self.title:
+        if self.title_changed(title):
             self.surface.set_title(title)
-            self.title = title
 
     def _draw(self) -> None:
         session = self.session
         keys.handle(session)
         reset = menu.draw(session)
+        open_dialog.draw(session)
+        faults.draw(session)
+        help.draw(session, keys.HELP)
         room = imgui.get_main_viewport()
         left, top = room.work_pos
-        # In a window that is too small the panels are cut off, not squeezed: else they would stay squeezed for good.
+        # In a window that is too small the panels are cut off. If they were squeezed, they would stay so.
         width = max(room.work_size.x, SMALLEST[0])
         height = max(room.work_size.y, SMALLEST[1]) - bar.height()
         self._dock(left, top, width, height, reset)
-        for panel in filter(lambda panel: panel.exists(session), PANELS):
-            self._panel(panel.title, lambda panel=panel: panel.draw(session, self.canvas))
-        self._bring_forward()  # after it has come to be
+        for panel in PANELS:
+            if panel.exists(session):
+                self._panel(panel)
+        for request in session.take_requests():
+            self._do(request)
         bar.draw(session, left, top + height, width)
 
-    def _bring_forward(self) -> None:
-        """Of panels that share a place, the one that has news."""
-        session = self.session
-        if session.wants_text:
-            imgui.set_window_focus(lesson.TITLE)
-        elif session.wants_numbers:
-            imgui.set_window_focus(ray.TITLE)
-        elif session.wants_error:
-            imgui.set_window_focus(error.TITLE)
-        session.wants_text = session.wants_numbers = session.wants_error = False
+    def _do(self, request: Request) -> None:
+        """Fulfil a request of the session."""
+        if request is Request.QUIT:
+            self.surface.close_requested()
+        elif request is Request.OPEN_DIALOG:
+            open_dialog.open_dialog()
+        else:
+            panel = next(panel for panel in PANELS if panel.request is request)
+            imgui.set_window_focus(panel.title)
 
-    def _panel(self, title: str, draw: Callable[[], None]) -> None:
-        tight = title in (scene.TITLE, image.TITLE, tree.TITLE)
-        if tight:
-            imgui.push_style_var(imgui.StyleVar_.window_padding, (0, 0) if title == scene.TITLE else (6, 5))
+    def _panel(self, panel: Panel) -> None:
         flags = imgui.WindowFlags_
-        still = flags.no_scrollbar | flags.no_scroll_with_mouse if tight else flags.none
-        opened, _ = imgui.begin(title, None, still)
-        if tight:
+        still = flags.no_scrollbar | flags.no_scroll_with_mouse if panel.padding else flags.none
+        if panel.padding:
+            imgui.push_style_var(imgui.StyleVar_.window_padding, panel.padding)
+        opened, _ = imgui.begin(panel.title, None, still)
+        if panel.padding:
             imgui.pop_style_var()
         if opened:
-            draw()
+            panel.draw(self.session, self.canvas)
         imgui.end()
 
     def _dock(self, left: float, top: float, width: float, height: float, reset: bool) -> None:
-        """The room for the panels, and at first which stands where: the eye's way from the image to the numbers."""
+        """The room for the panels. At first, or after `reset`, each panel is put in its place."""
         imgui.set_next_window_pos((left, top))
         imgui.set_next_window_size((width, height))
         flags = imgui.WindowFlags_
@@ -207,24 +210,17 @@ class App:
 
     def _lay_out(self, dock: int, width: float, height: float) -> None:
         internal.dock_builder_remove_node(dock)
-        internal.dock_builder_add_node(dock)  # with no central node: then all panels share what a larger window brings
+        internal.dock_builder_add_node(dock)  # without a central node, so that all panels share a larger window
         internal.dock_builder_set_node_size(dock, (width, height))
         _, below, above = internal.dock_builder_split_node_py(dock, imgui.Dir.down, 0.42)
-        _, above_right, above_left = internal.dock_builder_split_node_py(above, imgui.Dir.right, 0.44)
-        _, below_right, below_left = internal.dock_builder_split_node_py(below, imgui.Dir.right, 0.36)
-        place = {
-            scene.TITLE: above_left,
-            image.TITLE: above_right,
-            tree.TITLE: below_left,
-            lesson.TITLE: below_right,
-            ray.TITLE: below_right,
-            error.TITLE: below_right,
+        _, top_right, top_left = internal.dock_builder_split_node_py(above, imgui.Dir.right, 0.44)
+        _, bottom_right, bottom_left = internal.dock_builder_split_node_py(below, imgui.Dir.right, 0.36)
+        nodes = {
+            Corner.TOP_LEFT: top_left,
+            Corner.TOP_RIGHT: top_right,
+            Corner.BOTTOM_LEFT: bottom_left,
+            Corner.BOTTOM_RIGHT: bottom_right,
         }
-        for title, node in place.items():
-            internal.dock_builder_dock_window(title, node)
+        for panel in PANELS:
+            internal.dock_builder_dock_window(panel.title, nodes[panel.place])
         internal.dock_builder_finish(dock)
-
-
-def _pending_events() -> list:
-    """What imgui's callbacks have noted and no frame has taken up."""
-    return list(imgui.get_current_context().input_events_queue)

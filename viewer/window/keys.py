@@ -4,6 +4,7 @@ from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
 from viewer.session.session import Session
+from viewer.session.view_state import Request
 
 HELP = (
     ("click, drag", "on the image: show the rays of a pixel"),
@@ -43,16 +44,16 @@ def handle(session: Session) -> None:
         return
     if io.key_ctrl or io.key_super or _just_let_go(key.left_ctrl, key.right_ctrl, key.left_super, key.right_super):
         if imgui.is_key_pressed(key.q, False):
-            session.wants_quit = True
+            session.requests.append(Request.QUIT)
         if imgui.is_key_pressed(key.o, False):
-            session.wants_open = True
+            session.requests.append(Request.OPEN_DIALOG)
         if imgui.is_key_pressed(key.s, False):
-            session.takehome.make(session)
+            session.export_figure()
         if imgui.is_key_pressed(key.c, False):
             if io.key_shift or _just_let_go(key.left_shift, key.right_shift):
-                session.takehome.copy_command(session)
+                session.copy_command()
             else:
-                session.takehome.make(session, copied=True)
+                session.export_figure(copied=True)
         return
     _typed(session)
     step = 10 if io.key_shift else 1
@@ -78,7 +79,7 @@ def handle(session: Session) -> None:
         else:
             session.clear()
     if imgui.is_key_pressed(key.f5, False):
-        session.reload()
+        session.loader.reload()
 
 
 def _just_let_go(*keys: imgui.Key) -> bool:
@@ -113,7 +114,7 @@ def _typed(session: Session) -> None:
             case "m":
                 session.toggle_model()
             case "r":
-                session.convergence.toggle(session)
+                session.toggle_refinement()
             case "t":
                 session.toggle_theme()
             case "h" | "?":

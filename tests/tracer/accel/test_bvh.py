@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 import tracer
 from tests.scenes import MATTE, ball, world_of
-from tracer.accel.bvh import BLOCK_CHILD, CHILD_KINDS, MAX_UNBOXED, NODE_CHILD, build
+from tracer.accel.bvh import MAX_UNBOXED, build
+from tracer.accel.rows import BLOCK_CHILD, CHILD_KINDS, NODE_CHILD
 from tracer.accel.sah import MAX_LEVELS
 from tracer.accel.traversal import hit_boxes, make_box_ray
 from tracer.compile.simd import WIDTH
@@ -108,7 +109,7 @@ def test_hierarchy_holds_every_surface_once_inside_its_boxes() -> None:
                 block = tree.blocks[number]
                 inside = block["surface"][: int(block["lanes"]).bit_length()]
                 placed = block["anchor"] + block["corners"].reshape(3, 3, WIDTH).transpose(2, 0, 1)[: len(inside)]
-                assert np.abs(placed - corners[inside] / tree.unit).max() <= block["doubt"]
+                assert np.abs(placed - corners[inside] / tree.unit).max() <= block["rounding"]
             seen += list(inside)
             assert (bounds[inside, 0] > box_low * tree.unit).all()  # by a float32 at least
             assert (bounds[inside, 1] < box_high * tree.unit).all()

@@ -7,21 +7,22 @@ import numpy as np
 import pytest
 
 import tracer
+from tracer.choices import JITTERED, RANDOM, SAMPLERS, SOBOL
 from tracer.compile.jit import kernel
-from tracer.formulas.sampler import JITTERED, RANDOM, SAMPLERS, SOBOL, make_samples, sample_offset
+from tracer.formulas.sampler import Sampler, make_samples, sample_offset
 
 RUNS = 600  # pixels: the slope of their error's root mean square is then sure to about 0.02
 
 
 @kernel
-def fill(sampler: int, side: int, pixel: int, found: Any) -> None:
+def fill(sampler: Sampler, pixel: int, found: Any) -> None:
     for k in range(len(found)):
-        found[k, 0], found[k, 1] = sample_offset(pixel, 7, k, sampler, side)
+        found[k, 0], found[k, 1] = sample_offset(pixel, 7, k, sampler)
 
 
 def points(sampler: int, count: int, pixel: int) -> np.ndarray:
     found = np.zeros((count, 2))
-    fill(sampler, math.isqrt(count), pixel, found)
+    fill(Sampler(sampler, math.isqrt(count)), pixel, found)
     return found
 
 

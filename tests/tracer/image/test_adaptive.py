@@ -9,11 +9,11 @@ import pytest
 import tracer
 from tests.scenes import ball, world_of
 from tests.tracer.measure.test_precision import ACROSS, edge_image, edge_scene
-from tracer.formulas.sampler import JITTERED, RANDOM, SAMPLERS, SOBOL
+from tracer.choices import JITTERED, RANDOM, SAMPLERS, SOBOL
 from tracer.image.adaptive import RESTART_FACTOR, PixelStatistics
 from tracer.image.converge import ConvergingImage
 from tracer.image.passes import Stopped
-from tracer.kernel.entry import Area
+from tracer.image.tiles import Tile
 from tracer.kernel.limits import make_limits
 from tracer.measure.precision.errors import rmse
 
@@ -58,8 +58,8 @@ def test_the_estimate_of_a_lesson_is_no_lower_than_its_error(worlds: dict[str, t
     for sampler in ("sobol", "random"):
         for goal in (0.01, 0.005):
             image = tracer.render(world, size, until_error=goal, sampler=sampler)
-            assert image.reached
-            assert rmse(image.pixels, true) <= 1.05 * image.reached.error <= 1.05 * goal
+            assert image.stats
+            assert rmse(image.pixels, true) <= 1.05 * image.stats.error <= 1.05 * goal
 
 
 def test_an_edge_in_closed_form_with_a_quarter_of_the_rays() -> None:
@@ -69,9 +69,9 @@ def test_an_edge_in_closed_form_with_a_quarter_of_the_rays() -> None:
     wanted = rmse(plain.pixels, true)
     for goal in (2.0 * wanted, 1.4 * wanted, wanted):
         image = tracer.render(world, (ACROSS, ACROSS), until_error=goal)
-        assert image.reached
-        assert image.reached.error <= goal
-        assert rmse(image.pixels, true) < (1.0 + 2.0 * DRAWS) * image.reached.error
+        assert image.stats
+        assert image.stats.error <= goal
+        assert rmse(image.pixels, true) < (1.0 + 2.0 * DRAWS) * image.stats.error
     assert image.counts is not None
     assert image.counts.mean() < 64 / 4
     assert image.counts[0, 0] == 2
@@ -91,7 +91,7 @@ def test_the_estimate_is_theory_s(sampler: str, law: float) -> None:
     limits = make_limits(world, records=False)
     made = ConvergingImage(world, view, limits, SAMPLERS.index(sampler), adaptive=False, most=256)
     with ThreadPoolExecutor(2) as pool:
-        found = [(reached, rmse(made.sampled.means(), true)) for reached in made.rounds(pool, 2)]
+        found = [(reached, rmse(made.statistics.means(), true)) for reached in made.rounds(pool, 2)]
     counts = [reached.samples for reached, _ in found]
     assert counts == [(4.0 if sampler == "jittered" else 2.0) ** k for k in range(len(counts))]
     assert counts[-1] == 256
@@ -99,30 +99,30 @@ def test_the_estimate_is_theory_s(sampler: str, law: float) -> None:
     assert math.exp(math.fsum(ratios) / len(ratios)) == pytest.approx(law, rel=2.0 * DRAWS)
     if sampler == "jittered":
         plain = tracer.render(world, (ACROSS, ACROSS), samples=256, sampler="jittered")
-        assert made.sampled.means().tobytes() == plain.pixels.tobytes()
+        assert made.statistics.means().tobytes() == plain.pixels.tobytes()
 
 
 def test_time_ends_it(worlds: dict[str, tracer.World]) -> None:
     """However short the time, every pixel has two samples: fewer say nothing of their error."""
     image = tracer.render(worlds["mirror-balls"], SIZE, until_seconds=1e-9)
     assert image.ended == "seconds"
-    assert image.reached
-    assert (image.reached.least, image.reached.most) == (2, 2)
-    assert image.reached.error > 0.0
+    assert image.stats
+    assert (image.stats.least, image.stats.most) == (2, 2)
+    assert image.stats.error > 0.0
     later = tracer.render(worlds["mirror-balls"], SIZE, until_seconds=0.2)
     assert later.ended == "seconds"
-    assert later.reached
+    assert later.stats
     assert later.seconds["trace"] >= 0.2
-    assert later.reached.samples > 2.0
+    assert later.stats.samples > 2.0
 
 
 def test_a_flat_image_needs_two_samples() -> None:
     """The ball is behind the eye."""
     image = tracer.render(world_of(ball((0, 0, 50), 0.1)), SIZE, until_error=1e-9)
-    assert image.reached
-    assert image.reached.error == 0.0
+    assert image.stats
+    assert image.stats.error == 0.0
     assert image.ended == "error"
-    assert image.reached.most == 2
+    assert image.stats.most == 2
 
 
 def test_broken_off_and_gone_on_with(worlds: dict[str, tracer.World]) -> None:
@@ -146,28 +146,26 @@ def test_broken_off_and_gone_on_with(worlds: dict[str, tracer.World]) -> None:
             except Stopped:
                 seen.append(0)
     assert len(seen) > 8
-    assert broken.sampled.sums.tobytes() == whole.sampled.sums.tobytes()
-    assert broken.reached._replace(seconds=0.0) == whole.reached._replace(seconds=0.0)
+    assert broken.statistics.sums.tobytes() == whole.statistics.sums.tobytes()
+    assert broken.stats._replace(seconds=0.0) == whole.stats._replace(seconds=0.0)
 
 
 def test_gains_by_hand() -> None:
     """Of three pixels the one that moved most by its samples goes on, the others stay."""
     sampled = PixelStatistics(3, 1, RANDOM, adaptive=True)
-    area = Area(0, 0, 3, 1, 1, 0)
+    tile = Tile(0, 0, 3, 1)
     for count, colors in ((1, (0.5, 0.5, 0.5)), (2, (1.0, 1.1, 3.0))):
-        begun = sampled.next(64)
-        assert begun
-        sums = np.zeros((1, 3, 4))
-        sums[0, :, 0] = colors
-        sampled.take_in(area, begun.plan, sums)
+        assert sampled.plan_round(64)
+        sums = np.zeros((3, 4))
+        sums[:, 0] = colors
+        sampled.update(tile, sums)
         assert (sampled.counts == count).all()
     # Means went from 0.5 to 0.5, 0.55 and 1.5 in one component of three.
     assert sampled.moved[0] == pytest.approx([0.0, 0.05**2 / 3, 1.0 / 3], rel=1e-12)
     assert sampled.error == pytest.approx(math.sqrt((0.05**2 + 1.0) / 9), rel=1e-12)
-    begun = sampled.next(64)
-    assert begun
-    assert begun.plan[0, :, 1].tolist() == [2, 2, 4]
-    assert PixelStatistics(3, 1, JITTERED, adaptive=False).next(64) is not None
+    assert sampled.plan_round(64)
+    assert sampled.wanted[0].tolist() == [2, 2, 4]
+    assert PixelStatistics(3, 1, JITTERED, adaptive=False).plan_round(64)
     assert RESTART_FACTOR == 5.0
 
 

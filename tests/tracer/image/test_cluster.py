@@ -21,9 +21,11 @@ from distributed.diagnostics.plugin import SchedulerPlugin
 import tracer
 from tests import ROOT
 from tests.scenes import ball, world_of
+from tracer.formulas.sampler import PIXEL_CENTER
 from tracer.image.cluster import ClusterError, connect
-from tracer.image.job import Job, trace_tiles
-from tracer.kernel.entry import Area, trace_area
+from tracer.image.task import Task, Work, trace_works
+from tracer.image.tiles import Tile
+from tracer.kernel.entry import trace_pixels
 from tracer.kernel.limits import make_limits
 from tracer.scene import Image, Light, Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
@@ -63,9 +65,9 @@ def world() -> tracer.World:
 
 def kernels() -> int:
     """On a worker: for how many sets of types the kernel was compiled."""
-    from tracer.kernel.entry import trace_area
+    from tracer.kernel.entry import trace_pixels
 
-    return len(trace_area.signatures)
+    return len(trace_pixels.signatures)
 
 
 def assert_same(image: tracer.Image, reference: tracer.Image) -> None:
@@ -101,17 +103,17 @@ def test_an_image_that_converges_has_the_same_bits_there(cluster: Any, world: tr
 
 def test_what_came_over_a_wire_is_traced_as_it_is(world: tracer.World) -> None:
     """Arrays may then be read-only and lie at odd addresses: aligned they must be, and nothing is compiled for it."""
-    job = Job(world, world.view(), make_limits(world, records=False))
+    task = Task.of(world, world.view(), make_limits(world, records=False), PIXEL_CENTER.sampler)
     sent: list[pickle.PickleBuffer] = []
-    head = pickle.dumps(job.task, protocol=5, buffer_callback=sent.append)
+    head = pickle.dumps(task, protocol=5, buffer_callback=sent.append)
     came = [memoryview(b"?" + buffer.raw().tobytes())[1:] for buffer in sent]
     task = pickle.loads(head, buffers=came)
-    assert len(came) > 8
-    (tile,) = trace_tiles(task, [Area(150, 100, 170, 120, 1, 0)])
-    assert tile.pixels is not None
-    assert (tile.pixels == tracer.render(world).pixels[100:120, 150:170]).all()
-    assert len(trace_area.signatures) == 1
-    assert all(value.flags.aligned for value in vars(task.arrays)["_fields"])
+    assert len(came) == 8
+    (traced,) = trace_works(task, [Work(Tile(150, 100, 170, 120))])
+    assert traced.colors is not None
+    assert (traced.colors == tracer.render(world).pixels[100:120, 150:170]).all()
+    assert len(trace_pixels.signatures) == 1
+    assert all(value.flags.aligned for value in vars(task.arrays)["_fields"] if isinstance(value, np.ndarray))
 
 
 def test_any_executor_traces_the_same_bits(world: tracer.World) -> None:
@@ -146,10 +148,10 @@ class Assassin(SchedulerPlugin):
         self.scheduler: Any = None
 
     def transition(self, key: Any, start: str, finish: str, *args: Any, **found: Any) -> None:
-        if str(key).startswith("trace_tiles") and finish == "memory" and self.killed is None:
+        if str(key).startswith("trace_works") and finish == "memory" and self.killed is None:
             self.killed = found["worker"]
             states = self.scheduler.tasks.values()
-            self.waiting = sum(str(task.key).startswith("trace_tiles") and task.state != "memory" for task in states)
+            self.waiting = sum(str(task.key).startswith("trace_works") and task.state != "memory" for task in states)
             os.kill(self.pids[found["worker"]], signal.SIGKILL)
 
     def remove_worker(self, scheduler: Any, worker: str, **found: Any) -> None:

@@ -11,10 +11,12 @@ from hypothesis import strategies as st
 
 import tracer
 from tests.scenes import ball, box, ends, plane, world_of
-from tracer.kernel.best_first import OPEN_RAY, heap_pop, heap_push
+from tracer.compile.rows import as_rows
+from tracer.kernel.best_first import heap_pop, heap_push
+from tracer.kernel.workspace import OPEN, OpenRow
 from tracer.scene import Camera, Checker, Light, Material, Object
+from tracer.scene.radiance_bound import radiance_bound
 from tracer.shapes.plane import Plane
-from tracer.tree.bounds import radiance_bound
 
 U = 2.0**-53
 CLEAR = Material("clear", transmit=1.0, ior=1.5)
@@ -120,12 +122,12 @@ def test_rows_come_heaviest_first_with_their_shadows_behind_them() -> None:
 def test_heap_gives_the_heaviest_and_of_equals_the_first() -> None:
     random = np.random.default_rng(2)
     for size in range(1, 40):
-        heap = np.zeros(size, OPEN_RAY).view(np.recarray)
+        heap = as_rows(np.zeros(size, OPEN), OpenRow)
         weights = random.integers(1, 9, size) / 8.0
         for k, weight in enumerate(weights.tolist()):
             heap_push(heap, k, weight, k, 100 + k, k % 3 == 0)
         for left, k in enumerate(np.lexsort((np.arange(size), -weights))):
-            assert heap[0].item() == (weights[k], k, 100 + k, k % 3 == 0)
+            assert np.asarray(heap)[0].item() == (weights[k], k, 100 + k, k % 3 == 0)
             heap_pop(heap, size - 1 - left)
 
 

@@ -13,11 +13,15 @@ import pytest
 import tracer
 from tests.scenes import ball, box, world_of
 from tracer.accel.bvh import build_nodes
+from tracer.choices import MODELS
+from tracer.formulas.sampler import PIXEL_CENTER
 from tracer.formulas.vector import dot, vector
-from tracer.image.job import COARSE_TO_FINE, Job, passes
+from tracer.image.film import Film
 from tracer.image.passes import trace_passes
-from tracer.kernel.entry import trace_area
-from tracer.kernel.limits import MODELS, make_limits
+from tracer.image.task import Task, Work
+from tracer.image.tiles import COARSE_TO_FINE, make_passes
+from tracer.kernel.entry import trace_pixels
+from tracer.kernel.limits import make_limits
 from tracer.kernel.nodes import BACKGROUND, SHADOW
 from tracer.scene import Image, Material
 from tracer.tree.raytree import RayTree
@@ -104,14 +108,15 @@ def test_threads_change_no_bit(world: tracer.World, threads: int) -> None:
 @pytest.mark.parametrize("steps", [(1,), COARSE_TO_FINE])
 def test_order_of_tiles_changes_no_bit(world: tracer.World, steps: tuple[int, ...], size: tuple[int, int]) -> None:
     reference = tracer.render(world, size, threads=1).pixels
-    job = Job(world, world.view(size), make_limits(world, records=False))
+    task = Task.of(world, world.view(size), make_limits(world, records=False), PIXEL_CENTER.sampler)
+    film = Film(*size)
     order = random.Random(7)
-    in_any_order = passes(*size, steps)
-    for areas in in_any_order:
-        order.shuffle(areas)
+    passes = [[Work(tile) for tile in tiles] for tiles in make_passes(*size, steps)]
+    for works in passes:
+        order.shuffle(works)
     with ThreadPoolExecutor(3) as executor:
-        trace_passes(job, in_any_order, executor, 3)
-    assert same_bits(job.pixels, reference)
+        trace_passes(task, passes, executor, 3, lambda traced, share: film.add(traced), film.pixels)
+    assert same_bits(film.pixels, reference)
 
 
 def test_several_samples_are_the_mean_of_single_ones(world: tracer.World) -> None:
@@ -152,7 +157,7 @@ def test_one_compiled_kernel_serves_every_scene(worlds: dict[str, tracer.World])
     for world in (*worlds.values(), many, world_of(ball())):
         tracer.trace(world, (3, 3))
         tracer.render(world, (8, 6), samples=2)
-    assert len(trace_area.signatures) == 1
+    assert len(trace_pixels.signatures) == 1
     assert len(build_nodes.signatures) == 1
 
 

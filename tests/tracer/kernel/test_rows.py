@@ -6,13 +6,12 @@ import pytest
 import tracer
 from tests.scenes import MIRROR, ball, kinds, plane, world_of
 from tests.tracer.kernel.test_best_first import WHITE, plates
-from tracer.formulas.sampler import CENTER
+from tracer.formulas.sampler import PIXEL_CENTER
 from tracer.formulas.vector import unit
-from tracer.image.job import Job
-from tracer.kernel.entry import Area, Workspace, eye_view, run
+from tracer.kernel.entry import one_pixel, ray_view, trace_list
 from tracer.kernel.limits import make_limits
+from tracer.kernel.workspace import Workspace
 from tracer.scene import Camera, Light, Material
-from tracer.tree.raytree import solids_at, words
 
 
 def test_ray_that_passes_on_all_it_gets_keeps_what_was_cut_beside_it() -> None:
@@ -44,18 +43,16 @@ def test_mirrors_face_to_face_take_no_room_but_where_they_are_recorded() -> None
     assert tree.radiance.tolist() == [0.3, 0.5, 0.7]
     assert tree.depth == 200_000
     assert 90_000 < (tree.nodes["kind"] == 1).sum() < 110_000
-    workspace, pixels = Workspace(words(world)), np.zeros((1, 1, 3))
+    workspace = Workspace(world.solids_around(ray[0]))
     limits = make_limits(world, depth=200_000, max_nodes=10**7, records=False)
-    view = eye_view(ray[0], unit(ray[1]))
-    area = Area(0, 0, 1, 1, 1, 0)
-    counts = run(world.arrays, view, limits, CENTER, area, solids_at(world, ray[0]), pixels, workspace)
+    view = ray_view(ray[0], unit(ray[1]))
+    traced = trace_list(world.arrays, view, limits, PIXEL_CENTER.sampler, one_pixel(0, 0), workspace)
+    assert traced is not None
+    sums, counts = traced
     assert len(workspace.arrays.table) == 256
-    assert pixels[0, 0].tolist() == tree.radiance.tolist()
-    image = Job(world, view, limits)
-    assert counts is not None
+    assert sums[0, :3].tolist() == tree.radiance.tolist()
     assert kinds(tree).count("reflection") == counts.rays[1]
     assert counts.rays[0] == 1
-    assert image.pixels.shape == (1, 1, 3)
 
 
 @pytest.mark.parametrize("max_nodes", [1, 7, 20, 60, 10**6])

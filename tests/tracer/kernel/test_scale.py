@@ -74,3 +74,5 @@ def shape(one: Shape, s: float) -> Shape:
             return replace(one, center=scale(s, one.center), radius=s * one.radius)
         case Mesh():
             return replace(one, scale=s * one.scale, translate=scale(s, one.translate))
+        case _:
+            raise TypeError(type(one).__name__)

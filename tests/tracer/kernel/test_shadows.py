@@ -8,7 +8,7 @@ import pytest
 
 import tracer
 from tests.scenes import DARK, MATTE, ball, box, ends, kinds, plane, sheet, world_of
-from tracer.kernel.shadows import MAX_CROSSINGS
+from tracer.kernel.workspace import MAX_CROSSINGS
 from tracer.scene import Light, Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.polygon import Polygon

@@ -74,13 +74,13 @@ def test_called_from_python_the_formulas_give_the_bits_of_the_compiled_ones() ->
             ray = make_ray(tuple(row["origin"].tolist()), tuple(row["direction"].tolist()), start, -1.0, 1.0)
             surface = world.arrays.surfaces[0]
             own = (
-                formulas.next_hit(None, surface, ray)
+                formulas.next_hit(world.arrays, surface, ray)
                 if row["depth"]
-                else formulas.intersect(None, surface, ray, 0.0, math.inf, True)
+                else formulas.intersect(world.arrays, surface, ray, 0.0, math.inf, True)
             )
             assert own == row["t"] or (own == math.inf and row["end"] == BACKGROUND)
             if own < math.inf:
-                p, n, _ = formulas.interaction(None, surface, ray, own)
+                p, n, _ = formulas.interaction(world.arrays, surface, ray, own)
                 assert p == tuple(row["point"])
                 assert n == tuple(row["normal"]) or n == tuple(-row["normal"])
                 compared += 1

@@ -6,28 +6,28 @@ import pytest
 import tracer
 from tests.scenes import world_of
 from tests.tracer.shapes.test_shapes import OPEN, uv_sphere
-from tracer.formulas.sampler import CENTER
-from tracer.kernel.entry import Area, Workspace, eye_view, run
+from tracer.formulas.sampler import PIXEL_CENTER
+from tracer.kernel.entry import one_pixel, ray_view, trace_list
 from tracer.kernel.limits import make_limits
+from tracer.kernel.workspace import Workspace
 from tracer.scene import Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
-from tracer.tree.raytree import solids_at, words
 
-PIXEL = Area(0, 0, 1, 1, 1, 0)
 RAYS = 100_000  # at the corners, and as many at the edges, of each mesh
 
 
 def misses(world: tracer.World, origins: np.ndarray, targets: np.ndarray) -> int:
     """How many rays see the black behind a mesh that shines: each is the one pixel of an image."""
-    workspace, pixel = Workspace(words(world)), np.zeros((1, 1, 3))
+    workspace, pixel = Workspace(world.solids_around((0.0, 0.0, 0.0))), one_pixel(0, 0)
     limits = make_limits(world, 0, records=False)
-    solids = solids_at(world, (0.0, 0.0, 0.0))
     ways = targets - origins
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
     missed = 0
     for origin, way in zip(origins.tolist(), ways.tolist(), strict=True):
-        run(world.arrays, eye_view(tuple(origin), tuple(way)), limits, CENTER, PIXEL, solids, pixel, workspace)
-        missed += pixel[0, 0, 0] != 1.0
+        view = ray_view(tuple(origin), tuple(way))
+        traced = trace_list(world.arrays, view, limits, PIXEL_CENTER.sampler, pixel, workspace)
+        assert traced
+        missed += traced[0][0, 0] != 1.0
     return missed
 
 

@@ -123,7 +123,7 @@ def test_dot_has_a_node_and_an_edge_a_ray(tree: tracer.RayTree) -> None:
 def test_text_draws_a_line_a_ray_below_its_parent(tree: tracer.RayTree) -> None:
     lines = tree_text(tree).splitlines()[4:]
     assert len(lines) == len(tree)
-    order = list(tree.walk())
+    order = list(tree.preorder())
     assert sorted(order) == list(range(len(tree)))
     for i, line in zip(order, lines, strict=True):
         assert f"{i} {'shadow to' if tree.kind(i) == 'shadow' else tree.kind(i)}" in line

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from viewer.base.pictures import srgb
+from viewer.base.srgb import srgb
 
 
 def defined(linear: np.ndarray) -> np.ndarray:

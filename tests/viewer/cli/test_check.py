@@ -7,8 +7,7 @@ from dataclasses import replace
 import pytest
 
 from tracer.measure.check import check
-from tracer.measure.check.case import Case, Reading
-from viewer.cli import check as table
+from tracer.measure.check.case import Reading
 from viewer.cli.main import main
 
 
@@ -49,17 +48,17 @@ def test_unknown_case_is_one_line(capsys: pytest.CaptureFixture) -> None:
     assert len(said.splitlines()) == 1
 
 
-def test_a_case_that_falls_short_is_seen_and_told_by_the_exit_status(capsysbinary: pytest.CaptureFixture) -> None:
-    def worse(case: Case) -> Case:
-        return replace(case, read=lambda: [Reading("too far", 1, 1.0 + 1e-9, allowed=4.0, textbook=1.0)])
-
-    cases = [worse(check.CASES[0]), check.CASES[1]]
-    said: list[str] = []
-    assert table.check(cases, False, False, said.append) == 1
-    assert said[0].count("FALLS SHORT") == 1
-    assert said[0].rstrip().endswith("A1 fell short")
-    assert table.check(cases, False, True, said.append) == 1
-    assert [case["ok"] for case in json.loads(said[1])["cases"]] == [False, True]
+def test_a_case_that_falls_short_is_seen_and_told_by_the_exit_status(
+    monkeypatch: pytest.MonkeyPatch, capsysbinary: pytest.CaptureFixture
+) -> None:
+    short = replace(check.CASES[0], read=lambda: [Reading("too far", 1, 1.0 + 1e-9, allowed=4.0, textbook=1.0)])
+    monkeypatch.setattr("viewer.cli.check.CASES", [short, check.CASES[1]])
+    assert main(["check"]) == 1
+    said = capsysbinary.readouterr().out.decode()
+    assert said.count("FALLS SHORT") == 1
+    assert said.rstrip().endswith("A1 fell short")
+    assert main(["check", "--json"]) == 1
+    assert [case["ok"] for case in json.loads(capsysbinary.readouterr().out)["cases"]] == [False, True]
 
 
 def test_numbers_and_words_are_judged_as_what_they_are() -> None:

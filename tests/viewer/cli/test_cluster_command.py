@@ -57,7 +57,7 @@ class Witness(SchedulerPlugin):
         self.forgotten = threading.Event()
 
     def transition(self, key: Any, start: str, finish: str, *args: Any, **found: Any) -> None:
-        if not str(key).startswith("trace_tiles"):
+        if not str(key).startswith("trace_works"):
             return
         if finish == "forgotten":
             self.known.discard(key)
@@ -98,7 +98,7 @@ def test_interrupt_frees_threads_that_are_in_the_middle_of_a_tile(cluster: Any, 
     with Client(cluster) as client:
         command = [RAYTREE, "render", *arguments, "--dask", cluster.scheduler_address]
         process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE)
-        while sum(client.run(executing).values()) < 2 or "trace_tiles" not in str(client.processing()):
+        while sum(client.run(executing).values()) < 2 or "trace_works" not in str(client.processing()):
             assert process.poll() is None
         process.send_signal(signal.SIGINT)
         process.communicate()

@@ -6,9 +6,7 @@ from pathlib import Path
 import pytest
 
 from viewer.cli import main
-from viewer.figures.figure.pages import FIGURES
-from viewer.figures.formats import FORMATS
-from viewer.session import figure_export
+from viewer.figures.catalogue import FIGURE_NAMES
 
 
 def names(folder: Path) -> set[str]:
@@ -148,7 +146,7 @@ def test_what_has_no_room_or_no_letter_is_said(tmp_path: Path, capsys: pytest.Ca
 
 def test_rays_to_lights_are_left_out_on_wish(tmp_path: Path) -> None:
     """In every figure, and with them the pages about them."""
-    for figure in FIGURES:
+    for figure in FIGURE_NAMES:
         out = tmp_path / f"{figure}.svg"
         assert main.main(["export", "glass-ball", "--figure", figure, "--no-lights", "-o", str(out)]) == 0
         text = out.read_text("utf-8")
@@ -195,11 +193,3 @@ def test_without_the_extra_pptx_is_one_line(
         "raytree export: PPTX needs the extra raytree[pptx]: pip install 'raytree[pptx]'"
     )
     assert names(tmp_path) == set()
-
-
-def test_the_command_line_knows_every_figure_and_format() -> None:
-    """It names them itself, so that --help loads nothing."""
-    assert tuple(FIGURES) == main.FIGURES
-    assert tuple(FORMATS) == main.FILES
-    assert set(figure_export.FIGURES) == set(FIGURES)
-    assert set(figure_export.FORMATS) == {name for name, kind in FORMATS.items() if kind.write}

@@ -18,6 +18,7 @@ from viewer.lessons import lesson
 from viewer.window.app import App
 from viewer.panels.image import waiting_lines
 from viewer.session.session import Session
+from viewer.session.view_state import Request
 from viewer.window.backend import Window
 
 app = App(Window("raytree", (1280, 720)), Session())
@@ -37,7 +38,7 @@ def frame():
         frames += 1
         said.add(waiting_lines(session)[0].split(":")[0])
     elif session.image.picture and session.image.picture.finished:
-        session.wants_quit = True
+        session.requests.append(Request.QUIT)
 
 app.frame = frame
 app.run()

@@ -62,7 +62,7 @@ def test_shader_has_in_it_what_the_scene_needs(room: Driver, tmp_path: Path, mat
         wanted = feature in features or (name == "sky_top" and "GLASS" in features)
         assert (name in surfaces.program) == wanted
     pictures = []
-    for chosen in (None, frozenset(FEATURES)):
+    for chosen in (None, frozenset(feature.name for feature in FEATURES)):
         assert session.world
         stage.set_world(session.world, session.frame, chosen)
         stage.draw(session.orbit, session.theme, (400, 300), 1.0, None)
@@ -99,10 +99,10 @@ def test_variants_are_compiled_once(room: Driver, tmp_path: Path) -> None:
 
 def test_scene_without_a_lesson_has_no_lesson_panel(room: Driver, tmp_path: Path) -> None:
     show(room, tmp_path)
-    assert internal.find_window_by_name(lesson.TITLE) is None
+    assert internal.find_window_by_name(lesson.PANEL.title) is None
     menu.open_lesson(room.session, "two-lights")
     room.app.settle(4)
-    found, numbers = internal.find_window_by_name(lesson.TITLE), internal.find_window_by_name(ray.TITLE)
+    found, numbers = internal.find_window_by_name(lesson.PANEL.title), internal.find_window_by_name(ray.PANEL.title)
     assert found and numbers and found.active and not found.hidden
     assert found.dock_id == numbers.dock_id
     show(room, tmp_path)

@@ -25,8 +25,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture
 def one_plot(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of each source, for plots take longest."""
-    monkeypatch.setattr("viewer.report.command.PLOTS", (("rays", "rmse"),))
-    monkeypatch.setattr("viewer.report.command.EXACT_PLOTS", (("rays", "largest"),))
+    monkeypatch.setattr("viewer.report.chapter.PLOTS", (("rays", "rmse"),))
+    monkeypatch.setattr("viewer.report.chapter.EXACT_PLOTS", (("rays", "largest"),))
 
 
 def test_files(folder: Path) -> None:
@@ -97,7 +97,7 @@ def test_faults_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str])
 def test_all_lessons_on_one_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, one_plot: None) -> None:
     """Of one lesson and three stiff trees, here: a chapter for each lesson, then one for these; files say whose."""
     monkeypatch.setattr(lesson, "names", lambda: ["plates"])
-    monkeypatch.setattr("viewer.report.command.PROBLEMS", PROBLEMS[2:])
+    monkeypatch.setattr("viewer.report.chapter.PROBLEMS", PROBLEMS[2:])
     assert main.main(["report", "--all", *ARGUMENTS, "-o", str(tmp_path / "all")]) == 0
     page = (tmp_path / "all" / "report.html").read_text("utf-8")
     assert re.findall(r'<h1 id="([^"]+)"', page) == ["plates", "stiff"]

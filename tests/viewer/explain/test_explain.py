@@ -9,8 +9,8 @@ import pytest
 import tracer
 from tests.scenes import ball, plane, world_of
 from tracer.scene import Light, Material
-from viewer.base.wording import shown
-from viewer.explain.explain import explain, headline
+from viewer.base.wording import format_number
+from viewer.explain.ray import explain_ray, headline
 from viewer.explain.sections import Section
 
 LAMPS = [
@@ -44,7 +44,7 @@ def water() -> tuple[tracer.World, tracer.RayTree]:
 
 def test_snell_and_the_transmission_direction(water: tuple) -> None:
     world, tree = water
-    sections = explain(tree, world, 0)
+    sections = explain_ray(tree, world, 0)
     snell = section(sections, "Snell's law")
     assert list(snell) == ["1 · sin 53.13°", "1.3333 · sin 36.87°"]
     assert [value(text) for text in snell.values()] == [0.8, 0.8]
@@ -63,7 +63,7 @@ def test_snell_and_the_transmission_direction(water: tuple) -> None:
 
 def test_sum_names_each_child_with_its_share(water: tuple) -> None:
     world, tree = water
-    total = section(explain(tree, world, 0), "What it sends up")
+    total = section(explain_ray(tree, world, 0), "What it sends up")
     parts = [np.array(values(text)) for text in total.values()]
     assert parts[-1] == pytest.approx(tree.radiance, abs=6e-5)
     assert sum(parts[:-1]) == pytest.approx(tree.radiance, abs=2e-4)
@@ -74,7 +74,7 @@ def test_sum_names_each_child_with_its_share(water: tuple) -> None:
 def test_local_light_stands_light_by_light(water: tuple) -> None:
     """One that is lit, one behind the surface, one blocked by name; together with ambient they are the local term."""
     world, tree = water
-    local = section(explain(tree, world, 0), "Local light")
+    local = section(explain_ray(tree, world, 0), "Local light")
     names = list(local)
     assert any(name.startswith("lamp: N·L") for name in names)
     assert any(re.fullmatch("low: N·L −[0-9.]+: faces away from it", name) for name in names)
@@ -92,7 +92,7 @@ def test_local_light_stands_light_by_light(water: tuple) -> None:
 def test_shadow_ray_shows_its_lights_formula(water: tuple) -> None:
     world, tree = water
     i = next(i for i in range(len(tree)) if tree.light_name(i) == "lamp")
-    light = section(explain(tree, world, i), "Light from lamp")
+    light = section(explain_ray(tree, world, i), "Light from lamp")
     n_l = 5 / math.hypot(5, 2 - 0)  # the hit is at the origin
     point = tree.nodes["point"][0]
     to_light = np.subtract((0.0, 5.0, 2.0), point)
@@ -109,7 +109,7 @@ def test_total_internal_reflection_shows_the_number_that_decides() -> None:
     world = world_of(plane((0, 0, 0), (0, 1, 0), material, "water"))
     a = math.radians(60)
     tree = tracer.trace(world, ray=((0, -1, 0), (math.sin(a), math.cos(a), 0)), depth=1)
-    sections = explain(tree, world, 0)
+    sections = explain_ray(tree, world, 0)
     critical = section(sections, "Critical angle")
     assert critical["asin(1 / 1.33)"] == "48.75°"
     assert critical["θ₁ = 60.00°"] == "beyond it: total internal reflection"
@@ -124,7 +124,7 @@ def test_fresnel_shares_are_those_of_the_children() -> None:
     material = Material("glass", reflect=0.1, transmit=0.8, ior=1.5)
     world = world_of(plane((0, 0, 0), (0, 1, 0), material, "glass"), model="fresnel")
     tree = tracer.trace(world, ray=((0, 1, 0), (1, -1, 0)), depth=1)
-    shares = section(explain(tree, world, 0), "Fresnel")
+    shares = section(explain_ray(tree, world, 0), "Fresnel")
     assert value(shares["kr + kt R"]) == pytest.approx(tree.nodes["factor"][1][0], rel=1e-4, abs=0.0)
     assert value(shares["kt T"]) == pytest.approx(tree.nodes["factor"][2][0], rel=1e-4, abs=0.0)
 
@@ -134,7 +134,7 @@ def test_every_ray_of_every_lesson_can_be_explained(world: tracer.World) -> None
         for model in ("whitted", "fresnel"):
             tree = tracer.trace(world, pixel, depth=3, model=model)
             for i in range(len(tree)):
-                sections = explain(tree, world, i)
+                sections = explain_ray(tree, world, i)
                 assert [part.title for part in sections].count("Numbers") == 1
                 for part in sections:
                     for line in part.lines:
@@ -142,4 +142,4 @@ def test_every_ray_of_every_lesson_can_be_explained(world: tracer.World) -> None
 
 
 def test_numbers_are_written_for_people() -> None:
-    assert [shown(x) for x in (1.0, -0.5, 1 / 3, 1e-9, math.nan)] == ["1", "−0.5", "0.33333", "1e−09", "–"]
+    assert [format_number(x) for x in (1.0, -0.5, 1 / 3, 1e-9, math.nan)] == ["1", "−0.5", "0.33333", "1e−09", "–"]

@@ -16,13 +16,14 @@ import tracer
 from tests.conftest import LESSONS
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
-from viewer.base.orbit import Frame, home
+from viewer.base.orbit import Frame, initial_orbit
 from viewer.base.theme import DARK, LIGHT
-from viewer.figures.figure.pages import FIGURES, Subject, Wishes, pages
+from viewer.figures.catalogue import FIGURE_NAMES, FORMATS
 from viewer.figures.font import FONT
-from viewer.figures.formats import FORMATS
 from viewer.figures.marks import Figure, Text
+from viewer.figures.pages import pages
 from viewer.figures.steps import by_depth
+from viewer.figures.subject import FigureStyle, Subject
 from viewer.lessons import lesson
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -37,21 +38,19 @@ def words(figure: Figure) -> list[str]:
 
 
 def written(name: str, figures: list[Figure], across: int = 960) -> bytes:
-    write = FORMATS[name].write
-    assert write
-    return write(figures, across)
+    return FORMATS[name].write(figures, across)
 
 
 @pytest.fixture(
-    scope="module", params=[(name, kind) for name in LESSONS for kind in FIGURES], ids=lambda pair: "-".join(pair)
+    scope="module", params=[(name, kind) for name in LESSONS for kind in FIGURE_NAMES], ids=lambda pair: "-".join(pair)
 )
 def figures(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> list[Figure]:
     """Each figure of each shipped scene, from depth 0 to 3."""
     name, kind = request.param
     found = lesson.read(name)
-    orbit = home(worlds[name], Frame.of(worlds[name]), found.view)
+    orbit = initial_orbit(worlds[name], Frame.of(worlds[name]), found.view)
     subject = Subject(by_depth(trees(worlds, name)), worlds[name], orbit)
-    return pages(kind, subject, Wishes(DARK, swatches=True, ground=True), "raytree export ...")
+    return pages(kind, subject, FigureStyle(DARK, swatches=True, ground=True), "raytree export ...")
 
 
 def test_svg_has_its_text_as_text(figures: list[Figure], tmp_path: Path) -> None:
@@ -100,7 +99,7 @@ def test_pptx_counts_what_the_tree_counts(worlds: dict[str, tracer.World]) -> No
 
     for name in LESSONS:
         steps = trees(worlds, name)
-        deck = Presentation(io.BytesIO(written("pptx", pages("tree", Subject(by_depth(steps)), Wishes()))))
+        deck = Presentation(io.BytesIO(written("pptx", pages("tree", Subject(by_depth(steps)), FigureStyle()))))
         assert len(deck.slides) == len(steps)
         for slide, tree in zip(deck.slides, steps, strict=True):
             kinds = tree.nodes["kind"]
@@ -123,7 +122,7 @@ def test_pptx_counts_what_the_tree_counts(worlds: dict[str, tracer.World]) -> No
 
 def test_png_is_transparent_unless_asked(worlds: dict[str, tracer.World]) -> None:
     for ground in (False, True):
-        figure = pages("tree", Subject(by_depth(trees(worlds, "glass-ball"))), Wishes(LIGHT, ground=ground))[-1]
+        figure = pages("tree", Subject(by_depth(trees(worlds, "glass-ball"))), FigureStyle(LIGHT, ground=ground))[-1]
         picture = Image.open(io.BytesIO(written("png", [figure], 640)))
         assert picture.size == (640, 360)
         assert picture.getpixel((2, 357)) == ((233, 236, 240, 255) if ground else (0, 0, 0, 0))
@@ -163,7 +162,7 @@ def test_every_file_says_which_command_made_it(worlds: dict[str, tracer.World], 
     from pptx import Presentation
 
     command = "raytree export glass-ball --theme light"
-    found = pages("tree", Subject(by_depth(trees(worlds, "glass-ball"))), Wishes(), command)
+    found = pages("tree", Subject(by_depth(trees(worlds, "glass-ball"))), FigureStyle(), command)
     assert ElementTree.fromstring(written("svg", found)).findtext(f"{SVG}metadata") == command
     assert Image.open(io.BytesIO(written("png", found))).info["Source"] == command
     assert f"% {command}" in written("tikz", found).decode("utf-8").splitlines()

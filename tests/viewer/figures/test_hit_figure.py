@@ -13,9 +13,10 @@ from tests.viewer.figures.geometry import check
 from tracer.kernel.nodes import SHADOW
 from tracer.scene import Light, Material
 from viewer.figures.figure.hit import CENTER
-from viewer.figures.figure.pages import Subject, Wishes, pages
 from viewer.figures.marks import Figure, Line, Text
+from viewer.figures.pages import pages
 from viewer.figures.steps import by_depth
+from viewer.figures.subject import FigureStyle, Subject
 from viewer.lessons import lesson
 
 
@@ -27,7 +28,7 @@ def turn_of(figure: Figure, name: str, back: bool) -> float:
 
 
 def check_angles(tree: tracer.RayTree, node: int) -> None:
-    (figure,) = pages("hit", Subject(by_depth([tree])), Wishes(node=node))
+    (figure,) = pages("hit", Subject(by_depth([tree])), FigureStyle(node=node))
     check(figure)
     row = tree.nodes[node]
     close = 1e-12
@@ -68,7 +69,7 @@ def test_hits_of_the_lessons(worlds: dict[str, tracer.World]) -> None:
 
 def test_formulas_carry_the_trees_own_numbers(worlds: dict[str, tracer.World]) -> None:
     tree = tracer.trace(worlds["underwater"], lesson.read("underwater").pixel, depth=2)
-    (figure,) = pages("hit", Subject(by_depth([tree])), Wishes())
+    (figure,) = pages("hit", Subject(by_depth([tree])), FigureStyle())
     words = [m.content for m in figure.marks if isinstance(m, Text)]
     assert f"{1.0 - tree.nodes['radicand'][0]:.5g} ≥ 1: total internal reflection" in words
     assert "48.75°" in words  # the critical angle of water to air
@@ -85,7 +86,7 @@ def test_lights_stand_at_their_true_angle(degrees: float, from_normal: float, ab
     world = world_of(floor, lights=[Light("lamp", position=tuple(50.0 * x for x in towards))])  # type: ignore[arg-type]
     ray = ((-math.sin(a), 0.0, math.cos(a)), (math.sin(a), 0.0, -math.cos(a)))
     tree = tracer.trace(world, ray=ray, depth=1)
-    (figure,) = pages("hit", Subject(by_depth([tree]), world), Wishes())
+    (figure,) = pages("hit", Subject(by_depth([tree]), world), FigureStyle())
     check(figure)
     (light,) = (i for i in range(len(tree)) if tree.nodes["kind"][i] == SHADOW)
     stub = next(m for m in figure.marks if isinstance(m, Line) and m.name == f"ray-{light}")
@@ -99,7 +100,7 @@ def test_a_hit_without_rays_to_go_on_has_no_formulas_of_them(worlds: dict[str, t
     """At depth 0 there are the light that falls there and why nothing follows; at depth 1 the rays."""
     world, pixel = worlds["glass-ball"], lesson.read("glass-ball").pixel
     trees = [tracer.trace(world, pixel, depth=d) for d in (0, 1)]
-    first, second = pages("hit", Subject(by_depth(trees), world), Wishes())
+    first, second = pages("hit", Subject(by_depth(trees), world), FigureStyle())
     words = [{m.content for m in page.marks if isinstance(m, Text)} for page in (first, second)]
     assert "cut: depth" in words[0]
     assert all("local" in page for page in words)

@@ -8,10 +8,12 @@ import pytest
 
 import tracer
 from tests.conftest import LESSONS
-from viewer.base.orbit import Frame, home
-from viewer.figures.figure.pages import FIGURES, Subject, Wishes, pages
+from viewer.base.orbit import Frame, initial_orbit
+from viewer.figures.catalogue import FIGURE_NAMES
 from viewer.figures.marks import Figure, Text
+from viewer.figures.pages import pages
 from viewer.figures.steps import by_depth
+from viewer.figures.subject import FigureStyle, Subject
 from viewer.figures.writers.pptx import write_pptx
 from viewer.figures.writers.tikz import write_tikz
 from viewer.lessons import lesson
@@ -22,8 +24,8 @@ pytestmark = [pytest.mark.office, pytest.mark.timeout(600)]
 def figures(worlds: dict[str, tracer.World], name: str, kind: str) -> list[Figure]:
     found = lesson.read(name)
     stages = by_depth([tracer.trace(worlds[name], found.pixel, depth=d) for d in range(4)])
-    orbit = home(worlds[name], Frame.of(worlds[name]), found.view)
-    return pages(kind, Subject(stages, worlds[name], orbit), Wishes(swatches=True))
+    orbit = initial_orbit(worlds[name], Frame.of(worlds[name]), found.view)
+    return pages(kind, Subject(stages, worlds[name], orbit), FigureStyle(swatches=True))
 
 
 def said(pdf: Path) -> str:
@@ -36,7 +38,7 @@ def words(figure: Figure) -> list[str]:
 
 def test_an_office_program_opens_every_pptx(worlds: dict[str, tracer.World], tmp_path: Path) -> None:
     """As many slides as depths, and every word of ours on its slide."""
-    made = {f"{name}-{kind}": figures(worlds, name, kind) for name in LESSONS for kind in FIGURES}
+    made = {f"{name}-{kind}": figures(worlds, name, kind) for name in LESSONS for kind in FIGURE_NAMES}
     for name, found in made.items():
         (tmp_path / f"{name}.pptx").write_bytes(write_pptx(found))
     command = ["soffice", f"-env:UserInstallation=file://{tmp_path}/profile", "--headless", "--convert-to", "pdf"]
@@ -59,7 +61,7 @@ BEAMER = r"""\documentclass[aspectratio=169]{beamer}
 """
 
 
-@pytest.mark.parametrize("kind", FIGURES)
+@pytest.mark.parametrize("kind", FIGURE_NAMES)
 def test_tikz_compiles_alone_and_in_beamer(worlds: dict[str, tracer.World], tmp_path: Path, kind: str) -> None:
     for name in LESSONS:
         figure = figures(worlds, name, kind)[-1]

@@ -17,13 +17,14 @@ from tracer.kernel.nodes import SHADOW
 from tracer.scene import Camera, Checker, Light, Material, Object
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
-from viewer.base.orbit import Frame, Orbit, home
-from viewer.figures.figure.pages import Subject, Wishes, pages
-from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text, shares_within
+from viewer.base.orbit import Frame, Orbit, initial_orbit
+from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text, clip_shares
+from viewer.figures.pages import pages
 from viewer.figures.steps import by_depth
-from viewer.figures.visible.outlines import FINE, spots_of, too_fine
-from viewer.figures.visible.rings import sharper, simpler, straighter
-from viewer.figures.visible.scenery import camera_of, scenery
+from viewer.figures.subject import FigureStyle, Subject
+from viewer.figures.visible.outlines import FINE, is_too_fine, label_spots
+from viewer.figures.visible.rings import sharpen_corners, simplify, straighten
+from viewer.figures.visible.scenery import orbit_camera, visible_parts
 from viewer.lessons import lesson
 
 CANVAS = (0.0, 0.0, WIDTH, HEIGHT)
@@ -53,22 +54,22 @@ def within(point: tuple[float, float], rim: float = 0.0) -> bool:
 def subject(world: tracer.World, name: str, depths: range = range(4)) -> Subject:
     found = lesson.read(name)
     trees = [tracer.trace(world, found.pixel, depth=d) for d in depths]
-    return Subject(by_depth(trees), world, home(world, Frame.of(world), found.view))
+    return Subject(by_depth(trees), world, initial_orbit(world, Frame.of(world), found.view))
 
 
 @pytest.fixture(scope="module", params=LESSONS)
 def grown(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> tuple[Subject, list[Figure]]:
     """Each lesson's scene with the rays of depth 0 to 3."""
     what = subject(worlds[request.param], request.param)
-    return what, pages("scene", what, Wishes())
+    return what, pages("scene", what, FigureStyle())
 
 
 def test_rays_land_where_the_camera_projects_their_points(grown: tuple[Subject, list[Figure]]) -> None:
     what, (*_, figure) = grown
     assert what.world
     assert what.orbit
-    view = seen_by(camera_of(what.orbit, Frame.of(what.world)))
-    tree, near = what.stages[-1].tree, 1e-3 * Frame.of(what.world).radius
+    view = seen_by(orbit_camera(what.orbit, Frame.of(what.world)))
+    tree, near = what.steps[-1].tree, 1e-3 * Frame.of(what.world).radius
     checked = 0
     for i in range(len(tree)):
         row = tree.nodes[i]
@@ -92,9 +93,9 @@ def test_a_balls_outline_is_its_silhouette() -> None:
     middle, radius = np.array([0.4, -0.2, 0.3]), 0.7
     world = world_of(Object(Sphere((0.4, -0.2, 0.3), radius), MATTE, "ball"))
     orbit = Orbit(0.7, 0.4, 4.0)
-    camera = camera_of(orbit, Frame.of(world))
+    camera = orbit_camera(orbit, Frame.of(world))
     view = seen_by(camera)
-    (part,) = scenery(world, camera, CANVAS).opaque
+    (part,) = visible_parts(world, camera, CANVAS).opaque
     ((area,),) = part.faces
     away = middle - view.eye
     widest = math.asin(radius / np.linalg.norm(away))
@@ -118,8 +119,8 @@ def test_what_is_hidden_is_faint() -> None:
     orbit = Orbit(0.0, 0.0, 2.6)
     frame = Frame.of(world)
     orbit.north, orbit.up = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
-    (figure,) = pages("scene", Subject(by_depth([tree]), world, orbit), Wishes())
-    view = seen_by(camera_of(orbit, frame))
+    (figure,) = pages("scene", Subject(by_depth([tree]), world, orbit), FigureStyle())
+    view = seen_by(orbit_camera(orbit, frame))
     lines = [m for m in figure.marks if isinstance(m, Line) and m.name == f"ray-{i}"]
     faint = [line for line in lines if line.stroke.color[3] < 1.0]
     assert len(faint) == 1
@@ -159,7 +160,7 @@ def test_things_stay_while_rays_come(grown: tuple[Subject, list[Figure]]) -> Non
 
 
 def test_both_panels_call_rays_the_same(worlds: dict[str, tracer.World]) -> None:
-    (figure,) = pages("both", subject(worlds["glass-ball"], "glass-ball", range(3, 4)), Wishes())
+    (figure,) = pages("both", subject(worlds["glass-ball"], "glass-ball", range(3, 4)), FigureStyle())
     check_labels(figure)
     left, right = set(), set()
     for mark in figure.marks:
@@ -172,7 +173,7 @@ def test_both_panels_call_rays_the_same(worlds: dict[str, tracer.World]) -> None
 def test_simpler_outlines_stay_where_they_were() -> None:
     turn = np.linspace(0.0, 2.0 * math.pi, 721)[:-1]
     ring = np.stack([100.0 * np.cos(turn), 100.0 * np.sin(turn)], axis=1)
-    fewer = simpler(ring)
+    fewer = simplify(ring)
     assert len(fewer) < 80
     middles = 0.5 * (fewer + np.roll(fewer, -1, axis=0))
     assert np.hypot(*middles.T).min() > 100.0 - 0.2 - 1e-9
@@ -182,13 +183,13 @@ def test_names_stand_well_within_what_they_name() -> None:
     """The first place is the farthest from the rim; what is smaller than the places are apart has none."""
     mask = np.zeros((200, 400), bool)
     mask[16:184, 16:184] = True
-    spots = spots_of(mask, (100.0, 50.0, 300.0, 150.0))
+    spots = label_spots(mask, (100.0, 50.0, 300.0, 150.0))
     x, y = spots[0]
     assert math.dist((x, y), (150.0, 100.0)) < 6.0
     assert all(108.0 <= x <= 192.0 and 58.0 <= y <= 142.0 for x, y in spots)
     speck = np.zeros((200, 400), bool)
     speck[3:6, 3:6] = True
-    assert spots_of(speck, (0.0, 0.0, 200.0, 100.0)) == ()
+    assert label_spots(speck, (0.0, 0.0, 200.0, 100.0)) == ()
 
 
 def test_checkers_are_where_the_floor_has_them(worlds: dict[str, tracer.World]) -> None:
@@ -196,9 +197,9 @@ def test_checkers_are_where_the_floor_has_them(worlds: dict[str, tracer.World]) 
     checks = Material("floor", diffuse=1.0, checker=Checker((0.2, 0.2, 0.2), 1.0))
     floor = Object(Polygon(((-4.0, 0.0, -4.0), (-4.0, 0.0, 4.0), (4.0, 0.0, 4.0), (4.0, 0.0, -4.0))), checks, "floor")
     world = world_of(floor)
-    camera = camera_of(Orbit(0.5, 0.9, 3.0), Frame.of(world))
+    camera = orbit_camera(Orbit(0.5, 0.9, 3.0), Frame.of(world))
     view = seen_by(camera)
-    (part,) = scenery(world, camera, CANVAS).opaque
+    (part,) = visible_parts(world, camera, CANVAS).opaque
     assert len(part.checks) >= 8
     material, this = world.arrays.materials[0], world.arrays.objects[0]
     for area in part.checks:
@@ -216,7 +217,7 @@ def test_squares_too_fine_to_be_drawn_are_told(points: int, fine: bool) -> None:
     rows, columns = np.indices((240, 240)) // (FINE * points)
     everywhere = np.ones((240, 240), bool)
     for squares in ((rows + columns) % 2 == 0, rows % 2 == 0, columns % 2 == 0):
-        assert (too_fine(squares, everywhere) == fine).all()
+        assert (is_too_fine(squares, everywhere) == fine).all()
 
 
 def test_a_ray_has_its_name_upon_it_or_beside_it(grown: tuple[Subject, list[Figure]]) -> None:
@@ -228,12 +229,12 @@ def test_a_ray_has_its_name_upon_it_or_beside_it(grown: tuple[Subject, list[Figu
             left, top, right, bottom = text.box()
             reach = 2.4 * text.size
             wide = (left - reach, top - reach, right + reach, bottom + reach)
-            assert any(shares_within((line.start, line.end), wide) for line in own), text
+            assert any(clip_shares((line.start, line.end), wide) for line in own), text
 
 
 def test_rays_that_leave_the_picture_say_to_which_light(grown: tuple[Subject, list[Figure]]) -> None:
     what, (*_, figure) = grown
-    tree = what.stages[-1].tree
+    tree = what.steps[-1].tree
     words = {m.content for m in figure.marks if isinstance(m, Text)}
     for i in np.flatnonzero(tree.nodes["kind"] == SHADOW):
         name = tree.light_name(int(i))
@@ -250,7 +251,7 @@ def test_glass_is_named_where_nothing_opaque_is_behind_it() -> None:
     world = world_of(pane, wall)
     orbit = Orbit(0.0, 0.0, 2.6)
     orbit.north, orbit.up = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
-    seen = scenery(world, camera_of(orbit, Frame.of(world)), CANVAS)
+    seen = visible_parts(world, orbit_camera(orbit, Frame.of(world)), CANVAS)
     (glass,) = seen.glass
     assert glass.spots[0][0] > 0.5 * WIDTH
     (wall_seen,) = seen.opaque
@@ -263,9 +264,9 @@ def test_glass_is_named_where_nothing_opaque_is_behind_it() -> None:
 def test_edges_are_straight_and_corners_sharp() -> None:
     """Of a box seen by an eye that looks along no axis, all corners are where the camera projects them."""
     world = world_of(box((-1.0, -0.5, -0.7), (1.0, 0.5, 0.7)))
-    camera = camera_of(Orbit(0.6, 0.45, 3.2), Frame.of(world))
+    camera = orbit_camera(Orbit(0.6, 0.45, 3.2), Frame.of(world))
     view = seen_by(camera)
-    (part,) = scenery(world, camera, CANVAS).opaque
+    (part,) = visible_parts(world, camera, CANVAS).opaque
     assert len(part.faces) == 3
     corners = itertools.product((-1.0, 1.0), (-0.5, 0.5), (-0.7, 0.7))
     landings = [landing(view, np.array(corner)) for corner in corners]
@@ -280,7 +281,7 @@ def test_round_outlines_stay_round() -> None:
     turn = np.linspace(0.0, 2.0 * math.pi, 400)[:-1]
     for radius in (3.0, 20.0, 200.0):
         ring = np.stack([radius * np.cos(turn), radius * np.sin(turn)], axis=1)
-        done = sharper(straighter(simpler(ring)), ring)
-        assert set(map(tuple, done)) == set(map(tuple, simpler(ring)))
+        done = sharpen_corners(straighten(simplify(ring)), ring)
+        assert set(map(tuple, done)) == set(map(tuple, simplify(ring)))
         across = np.hypot(*done.T)
         assert np.abs(across - radius).max() < 1e-9

@@ -15,15 +15,17 @@ from tests.viewer.figures.random_tree import random_tree
 from tests.viewer.panels.test_layout import plates
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
-from viewer.base.orbit import Frame, home
+from viewer.base.orbit import Frame, initial_orbit
 from viewer.base.theme import DARK, LIGHT, MONO, Theme
-from viewer.figures.figure.pages import Subject, Wishes, pages
 from viewer.figures.labels import ray_label
 from viewer.figures.layout.folds import percent
 from viewer.figures.layout.placing import EYES
-from viewer.figures.layout.tree_plan import Wanted, plan_tree
+from viewer.figures.layout.sizes import TreeStyle
+from viewer.figures.layout.tree_plan import plan_tree
 from viewer.figures.marks import Box, Disc, Figure, Line, Text
-from viewer.figures.steps import by_colour, by_depth, by_ray
+from viewer.figures.pages import pages
+from viewer.figures.steps import by_color, by_depth, by_ray
+from viewer.figures.subject import FigureStyle, Subject
 from viewer.lessons import lesson
 
 
@@ -57,7 +59,7 @@ def check_whole(figure: Figure, tree: RayTree, size: float = 18.0) -> None:
 def test_random_trees(seed: int, most: int, lights: int, depth: int, swatches: bool, size: float, eye: str) -> None:
     """From one ray to five hundred, lopsided ones too; small text shows many rays, large text folds."""
     tree = random_tree(seed, most, lights, depth)
-    (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(swatches=swatches, text_size=size, eye=eye))
+    (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle(swatches=swatches, text_size=size, eye=eye))
     check_whole(figure, tree, size)
 
 
@@ -67,7 +69,7 @@ def test_trees_as_deep_as_a_slide_allows(depth: int) -> None:
     for seed in range(150):
         tree = random_tree(seed, 14, seed % 3, depth)
         for eye in EYES:
-            (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(swatches=seed % 2 == 0, eye=eye))
+            (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle(swatches=seed % 2 == 0, eye=eye))
             check_whole(figure, tree)
 
 
@@ -76,7 +78,7 @@ def test_a_tree_of_five_hundred_rays(lights: int) -> None:
     tree = max((random_tree(seed, 500, lights, 9) for seed in range(40)), key=len)
     assert len(tree) >= 500
     for size, eye in itertools.product((4.0, 18.0), EYES):
-        (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(text_size=size, eye=eye))
+        (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle(text_size=size, eye=eye))
         check_whole(figure, tree, size)
 
 
@@ -84,7 +86,7 @@ def test_a_tree_of_five_hundred_rays(lights: int) -> None:
 def test_trees_of_the_lessons_grow_and_nothing_moves(worlds: dict[str, tracer.World], theme: Theme, eye: str) -> None:
     for name in LESSONS:
         trees = [tracer.trace(worlds[name], lesson.read(name).pixel, depth=d) for d in range(5)]
-        figures = pages("tree", Subject(by_depth(trees)), Wishes(theme, swatches=True, eye=eye))
+        figures = pages("tree", Subject(by_depth(trees)), FigureStyle(theme, swatches=True, eye=eye))
         last = places(figures[-1])
         for figure, tree in zip(figures, trees, strict=True):
             check_whole(figure, tree)
@@ -109,14 +111,14 @@ def places(figure: Figure) -> dict[tuple, tuple]:
 
 def test_steps_by_ray_and_by_colour_keep_all_places(worlds: dict[str, tracer.World]) -> None:
     tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=3)
-    (whole,) = pages("tree", Subject(by_depth([tree])), Wishes(swatches=True))
-    for stages in (by_ray(tree), by_colour(tree)):
-        figures = pages("tree", Subject(stages), Wishes(swatches=True))
+    (whole,) = pages("tree", Subject(by_depth([tree])), FigureStyle(swatches=True))
+    for stages in (by_ray(tree), by_color(tree)):
+        figures = pages("tree", Subject(stages), FigureStyle(swatches=True))
         for figure in figures:
             check(figure)
             assert places(figure).items() <= places(whole).items()
         assert places(figures[-1]) == places(whole)
-    grown = pages("tree", Subject(by_ray(tree)), Wishes())
+    grown = pages("tree", Subject(by_ray(tree)), FigureStyle())
     shown = [len({m.name for m in figure.marks if m.name.startswith("ray-")}) for figure in grown]
     assert shown == list(range(1, len(tree) + 1))
 
@@ -124,7 +126,7 @@ def test_steps_by_ray_and_by_colour_keep_all_places(worlds: dict[str, tracer.Wor
 def test_colour_flows_back_from_the_leaves(worlds: dict[str, tracer.World]) -> None:
     """A hit's colour is shown on the page on which it is summed, and that is after those of the hits below it."""
     tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=3)
-    stages = by_colour(tree)
+    stages = by_color(tree)
     known: set[int] = set()
     for stage in stages:
         for i in stage.summed - known:
@@ -138,7 +140,7 @@ def test_colour_flows_back_from_the_leaves(worlds: dict[str, tracer.World]) -> N
 def test_same_subtree_looks_the_same(eye: str) -> None:
     """In a pile of plates subtrees repeat: boxes and edges of equal ones differ by a shift only."""
     tree = plates(1, 3, 0)
-    plan = plan_tree([tree], Wanted(18.0, eye=eye))
+    plan = plan_tree([tree], TreeStyle(18.0, eye=eye))
     kinds = tree.nodes["kind"]
 
     def form(i: int) -> tuple:
@@ -162,11 +164,11 @@ def test_same_subtree_looks_the_same(eye: str) -> None:
 def test_light_branches_are_folded_on_wish() -> None:
     """What weighs less than asked is in folds, and a fold says how much it weighs."""
     tree = plates(2, 4, 1)
-    (figure,) = pages("tree", Subject(by_depth([tree])), Wishes(fold=0.1))
+    (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle(fold=0.1))
     check_whole(figure, tree)
     weights = tree.nodes["weight"].max(axis=1)
     assert all(weights[i] >= 0.1 for i in hits(figure))
-    plan = plan_tree([tree], Wanted(18.0, fold=0.1))
+    plan = plan_tree([tree], TreeStyle(18.0, fold=0.1))
     for fold in plan.folds.values():
         assert fold.weight == pytest.approx(sum(weights[i] for i in fold.roots), rel=1e-12)
 
@@ -176,7 +178,7 @@ def test_where_rays_go() -> None:
     tree = random_tree(5, 12, 1, 3)
     nodes = tree.nodes
     for eye, along, across in (("top", 1, 0), ("left", 0, 1)):
-        plan = plan_tree([tree], Wanted(9.0, eye=eye))
+        plan = plan_tree([tree], TreeStyle(9.0, eye=eye))
         steps = set()
         for i in plan.rows - {0}:
             if nodes["kind"][i] != SHADOW:
@@ -205,14 +207,14 @@ def renamed(tree: RayTree, name: str) -> RayTree:
 
 
 def words_in_boxes(tree: RayTree) -> set[str]:
-    (figure,) = pages("tree", Subject(by_depth([tree])), Wishes())
+    (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle())
     return {m.content for m in figure.marks if isinstance(m, Text) and m.inside.startswith("hit-")}
 
 
 def test_total_internal_reflection_has_a_stub_with_a_bar(worlds: dict[str, tracer.World]) -> None:
     tree = tracer.trace(worlds["underwater"], lesson.read("underwater").pixel, depth=3)
     assert tree.kind(int(tree.children[0][-1])) == "tir"
-    (figure,) = pages("tree", Subject(by_depth([tree])), Wishes())
+    (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle())
     assert [m.content for m in figure.marks if m.name == "bar-0" and isinstance(m, Text)] == ["no T"]
     assert sum(isinstance(m, Line) for m in figure.marks if m.name == "bar-0") == 2
 
@@ -220,7 +222,7 @@ def test_total_internal_reflection_has_a_stub_with_a_bar(worlds: dict[str, trace
 def test_mono_has_no_colour(worlds: dict[str, tracer.World]) -> None:
     tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=3)
     for name in ("tree", "hit"):
-        (figure,) = pages(name, Subject(by_depth([tree])), Wishes(MONO, swatches=True))
+        (figure,) = pages(name, Subject(by_depth([tree])), FigureStyle(MONO, swatches=True))
         for mark in figure.marks:
             inks = [getattr(mark, "fill", None), getattr(mark, "color", None)]
             stroke = getattr(mark, "stroke", None)
@@ -237,9 +239,9 @@ def test_the_legend_explains_every_sign_and_hides_nothing(worlds: dict[str, trac
     """In the narrow half of two panels too: there it stands below the tree."""
     world = worlds["underwater"]
     tree = tracer.trace(world, lesson.read("underwater").pixel, depth=3)
-    orbit = home(world, Frame.of(world), lesson.read("underwater").view)
+    orbit = initial_orbit(world, Frame.of(world), lesson.read("underwater").view)
     for name in ("tree", "both"):
-        (figure,) = pages(name, Subject(by_depth([tree]), world, orbit), Wishes())
+        (figure,) = pages(name, Subject(by_depth([tree]), world, orbit), FigureStyle())
         words = {mark.content: mark for mark in figure.marks if isinstance(mark, Text)}
         assert {"total internal reflection", "to a light", "faces away"} <= set(words)
         eye = [m for m in figure.marks if m.name == "eye" and isinstance(m, Disc)][-1]

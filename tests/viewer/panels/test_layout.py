@@ -12,7 +12,7 @@ from tests.scenes import box, world_of
 from tracer.kernel.nodes import REFRACTION, SHADOW
 from tracer.scene import Light, Material
 from tracer.tree.text import heaviest_rows
-from viewer.figures.layout.tidy_tree import NAMES_BESIDE, Place, layout
+from viewer.figures.layout.tidy_tree import NAMES_BESIDE, Place, tidy_layout
 
 LEFT, RIGHT, STUB_HALF = NAMES_BESIDE.left, NAMES_BESIDE.right, NAMES_BESIDE.stub_half
 
@@ -55,20 +55,20 @@ def check(tree: tracer.RayTree, places: dict[int, Place]) -> None:
 @given(st.integers(1, 3), st.integers(0, 7), st.integers(0, 3))
 def test_random_trees(count: int, depth: int, lights: int) -> None:
     tree = plates(count, depth, lights)
-    check(tree, layout(tree, set(range(len(tree)))).places)
+    check(tree, tidy_layout(tree, set(range(len(tree)))).places)
 
 
 def test_trees_of_the_lessons(worlds: dict[str, tracer.World]) -> None:
     for name in LESSONS:
         for pixel in ((400, 300), (300, 200), (560, 330), (700, 320)):
             tree = tracer.trace(worlds[name], pixel, depth=4)
-            check(tree, layout(tree, set(range(len(tree)))).places)
+            check(tree, tidy_layout(tree, set(range(len(tree)))).places)
 
 
 def test_same_subtree_looks_the_same_wherever_it_stands() -> None:
     """In a pile of plates subtrees repeat: their nodes' places differ by a shift only."""
     tree = plates(2, 7, 2)
-    places = layout(tree, set(range(len(tree)))).places
+    places = tidy_layout(tree, set(range(len(tree)))).places
     seen: dict[tuple, list[tuple[float, float]]] = {}
     for i in range(len(tree)):
         rows = below(tree, i)
@@ -89,7 +89,7 @@ def below(tree: tracer.RayTree, i: int) -> list[int]:
 def test_growing_tree_is_laid_out_for_its_full_depth() -> None:
     """What the window does: places of the deepest tree serve all shallower ones, since they are its first rows."""
     deep = plates(2, 6, 1)
-    places = layout(deep, set(range(len(deep)))).places
+    places = tidy_layout(deep, set(range(len(deep)))).places
     for depth in range(6):
         shallow = plates(2, depth, 1)
         assert (deep.nodes["id"][: len(shallow)] == shallow.nodes["id"]).all()

@@ -60,7 +60,7 @@ def test_lesson_texts_stay_inside_their_panel(room: Driver, size: tuple[int, int
     for name in LESSONS:
         menu.open_lesson(room.session, name)
         room.app.settle(4)
-        panel = window(lesson.TITLE)
+        panel = window(lesson.PANEL.title)
         assert not panel.hidden
         assert panel.content_size.x <= panel.size.x
 
@@ -69,12 +69,12 @@ def test_selected_ray_comes_to_the_front_and_begins_at_its_top(room: Driver) -> 
     menu.open_lesson(room.session, "glass-ball")
     room.app.settle()
     room.press(Key.page_down)
-    assert not window(ray.TITLE).hidden
-    place = window(ray.TITLE).rect().get_center()
+    assert not window(ray.PANEL.title).hidden
+    place = window(ray.PANEL.title).rect().get_center()
     room.wheel(place.x, place.y, -20)
-    assert window(ray.TITLE).scroll.y > 0
+    assert window(ray.PANEL.title).scroll.y > 0
     room.press(Key.page_down)
-    assert window(ray.TITLE).scroll.y == 0
+    assert window(ray.PANEL.title).scroll.y == 0
 
 
 def test_lecture_size_and_back_leaves_no_trace(room: Driver) -> None:

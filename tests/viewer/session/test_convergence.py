@@ -12,12 +12,12 @@ import tracer
 from tests.viewer.driver import Driver, viewer
 from tests.viewer.panels.test_panels import window
 from tracer.image.converge import RoundStats
-from viewer.base.colormap import RANGES, colored, strip
-from viewer.base.pictures import srgb
+from viewer.base.colormap import RANGES, colorize, gradient
+from viewer.base.srgb import srgb
 from viewer.panels import error, menu
-from viewer.session.convergence import EACH, WAYS, Run, forecast
+from viewer.session.refinement import BYTES_PER_PIXEL, STRATEGIES, Run, forecast
 
-ADAPTIVE, EVEN, RANDOM, JITTERED = WAYS
+ADAPTIVE, EVEN, RANDOM, JITTERED = STRATEGIES
 PATIENCE = 20_000  # frames
 SCENE = """
 format = 1
@@ -51,7 +51,7 @@ def until(driver: Driver, there: Callable[[], bool]) -> None:
 
 
 def current(driver: Driver) -> Run:
-    run = driver.session.convergence.current
+    run = driver.session.refinement.current
     assert run
     return run
 
@@ -59,16 +59,16 @@ def current(driver: Driver) -> Run:
 def refine(driver: Driver, samples: float) -> Run:
     """Until there are so many a pixel; then paused, and nothing at work any more."""
     session = driver.session
-    if not session.convergence.goes_on:
+    if not session.refinement.is_running:
         driver.type("r")
 
     def there() -> bool:
-        run = session.convergence.current
+        run = session.refinement.current
         return run is not None and bool(run.points) and run.points[-1].samples >= samples
 
     until(driver, there)
     driver.type("r")
-    assert not session.convergence.goes_on
+    assert not session.refinement.is_running
     until(driver, lambda: session.image.picture is not None and session.image.picture.finished)
     return current(driver)
 
@@ -78,8 +78,8 @@ def test_the_image_is_that_of_its_samples(room: Driver) -> None:
     world = room.session.world
     assert world
     run = refine(room, 4.0)
-    assert run.made and run.picture is room.session.image.picture
-    sampled = run.made.sampled
+    assert run.image and run.picture is room.session.image.picture
+    sampled = run.image.statistics
     assert run.picture
     assert (run.picture.shown[..., :3] == srgb(sampled.means())).all()
     for count in (2, 8):
@@ -105,34 +105,34 @@ def test_every_setting_keeps_its_curve(room: Driver) -> None:
     session = room.session
     deep = refine(room, 3.0)
     room.type("2")
-    assert session.convergence.current is None
+    assert session.refinement.current is None
     shallow = refine(room, 3.0)
     assert (deep.depth, shallow.depth) == (3, 2)
-    session.convergence.set_way(session, RANDOM)
+    session.set_strategy(RANDOM)
     random = refine(room, 8.0)
-    session.convergence.set_way(session, JITTERED)
+    session.set_strategy(JITTERED)
     jittered = refine(room, 16.0)
-    assert session.convergence.runs == [deep, shallow, random, jittered]
+    assert session.refinement.runs == [deep, shallow, random, jittered]
     assert [p.samples for p in random.points][:3] == [2.0, 4.0, 8.0]
     assert [p.samples for p in jittered.points][:2] == [4.0, 16.0]
-    assert [run.name([]) for run in session.convergence.runs][1:] == ["depth 2, adaptive", "depth 2, random",
+    assert [run.name([]) for run in session.refinement.runs][1:] == ["depth 2, adaptive", "depth 2, random",
                                                                       "depth 2, jittered"]  # fmt: skip
-    session.convergence.set_way(session, ADAPTIVE)
+    session.set_strategy(ADAPTIVE)
     room.type("3")
     before = len(deep.points)
     assert refine(room, deep.points[-1].samples + 0.1) is deep
     assert len(deep.points) > before
-    session.convergence.clear()
-    assert session.convergence.runs == [deep]
+    session.refinement.clear()
+    assert session.refinement.runs == [deep]
 
 
 def test_an_image_that_was_dropped_is_begun_anew(room: Driver, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("viewer.session.convergence.KEPT", 3 * EACH * 64 * 48)
+    monkeypatch.setattr("viewer.session.refinement.MAX_BYTES", 3 * BYTES_PER_PIXEL * 64 * 48)
     runs = []
     for depth in range(4):
         room.type(str(depth))
         runs.append(refine(room, 2.0))
-    assert [run.made is None for run in runs] == [True, False, False, False]
+    assert [run.image is None for run in runs] == [True, False, False, False]
     assert [run.number for run in runs] == [0, 1, 2, 3]
     assert runs[0].points
     room.type("0")
@@ -143,7 +143,7 @@ def test_another_scene_has_no_curves_yet(room: Driver) -> None:
     refine(room, 2.0)
     menu.open_lesson(room.session, "two-lights")
     room.app.settle()
-    assert room.session.convergence.runs == []
+    assert room.session.refinement.runs == []
 
 
 def test_what_is_cut_is_worth_no_more_than_the_flat_line_says(room: Driver) -> None:
@@ -152,7 +152,7 @@ def test_what_is_cut_is_worth_no_more_than_the_flat_line_says(room: Driver) -> N
     for depth in (0, 1, 3):
         room.type(str(depth))
         run = refine(room, 2.0)
-        made = run.made
+        made = run.image
         assert made
         there = tracer.render(world, samples=2, depth=40, min_weight=1e-9)
         two = tracer.render(world, samples=2, depth=depth)
@@ -168,25 +168,28 @@ def test_nothing_more_to_gain(tmp_path: Path) -> None:
     with viewer() as driver:
         driver.open_file(tmp_path / "sky.toml")
         driver.type("r")
-        until(driver, lambda: not driver.session.convergence.goes_on)
+        until(driver, lambda: not driver.session.refinement.is_running)
         assert current(driver).ended
         assert current(driver).points[-1].error == 0.0
         driver.type("r")  # and once more, for nothing
-        until(driver, lambda: not driver.session.convergence.goes_on)
+        until(driver, lambda: not driver.session.refinement.is_running)
 
 
 def test_maps(room: Driver) -> None:
     """The map is each pixel's own colour on the scale, where the image stands; and that is back at once."""
-    state = room.session.convergence
+    state = room.session.refinement
     run = refine(room, 4.0)
-    assert run.made
+    assert run.image
     image = room.picture()
-    for shows, values in (("error", run.made.sampled.errors()), ("samples", run.made.sampled.counts.astype(float))):
+    for shows, values in (
+        ("error", run.image.statistics.errors()),
+        ("samples", run.image.statistics.counts.astype(float)),
+    ):
         state.shows = shows
         room.frames()
         room.session.clear()
         shown = room.picture()
-        expected = colored(values, shows)
+        expected = colorize(values, shows)
         for y, x in ((5, 5), (20, 30), (40, 60)):
             left, top = (int(place) for place in room.pixel_at(x, y))
             assert np.abs(shown[top, left].astype(int) - expected[y, x, :3]).max() <= 2
@@ -198,11 +201,11 @@ def test_maps(room: Driver) -> None:
 
 def test_the_scale_of_a_map() -> None:
     low, high = RANGES["error"]
-    row = colored(np.array([[math.nan, 0.0, low, math.sqrt(low * high), high, 1.0]]), "error")[0]
-    colors = (255 * np.array(strip(3)).round(6)).round().astype(int)
+    row = colorize(np.array([[math.nan, 0.0, low, math.sqrt(low * high), high, 1.0]]), "error")[0]
+    colors = (255 * np.array(gradient(3)).round(6)).round().astype(int)
     for k, expected in enumerate((0, 0, 0, 1, 2, 2)):
         assert np.abs(row[k].astype(int) - colors[expected]).max() <= 2
-    light = np.array(strip(64))[:, :3] @ (0.2126, 0.7152, 0.0722)
+    light = np.array(gradient(64))[:, :3] @ (0.2126, 0.7152, 0.0722)
     assert (np.diff(light) > 0.0).all()
 
 
@@ -210,16 +213,16 @@ def test_the_button_and_the_choice_of_a_way(room: Driver) -> None:
     """By the mouse: the panel comes to the front, its button refines, its list has every way."""
     room.type("r")
     room.type("r")
-    place = window(error.TITLE).inner_rect
+    place = window(error.PANEL.title).inner_rect
     room.click(place.min.x + 30, place.min.y + 18)
-    assert room.session.convergence.goes_on
+    assert room.session.refinement.is_running
     room.click(place.min.x + 30, place.min.y + 18)
-    assert not room.session.convergence.goes_on
+    assert not room.session.refinement.is_running
     room.click(place.min.x + 120, place.min.y + 18)
     room.frames(3)
     line = imgui.get_text_line_height_with_spacing()
     room.click(place.min.x + 120, place.min.y + 18 + 2.9 * line)
-    assert room.session.convergence.way in WAYS[1:]
+    assert room.session.refinement.strategy in STRATEGIES[1:]
 
 
 def test_forecast_of_a_power() -> None:

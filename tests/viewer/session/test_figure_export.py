@@ -13,7 +13,8 @@ from imgui_bundle import imgui
 import tracer
 from tests.viewer.driver import Driver, viewer
 from viewer.cli import main
-from viewer.session.figure_export import FIGURES, TakeHome, free
+from viewer.figures.catalogue import FIGURE_NAMES
+from viewer.session.figure_export import FigureExport, free_path
 
 
 @pytest.fixture
@@ -26,10 +27,10 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Driver]:
 def press_save(room: Driver) -> None:
     """And wait for what comes of it, however it ends."""
     room.press(imgui.Key.mod_ctrl, imgui.Key.s)
-    if room.session.takehome.making:
-        room.session.takehome.making.exception()
+    while room.session.export.making:
+        room.session.export.making.exception()
+        room.frames()
     room.frames()
-    assert room.session.takehome.making is None
 
 
 def save(room: Driver) -> Path:
@@ -40,18 +41,18 @@ def save(room: Driver) -> Path:
     return path
 
 
-@pytest.mark.parametrize("figure", FIGURES)
+@pytest.mark.parametrize("figure", FIGURE_NAMES)
 def test_the_command_line_makes_the_same_file(room: Driver, figure: str, tmp_path: Path) -> None:
     room.open("glass-ball")
     room.session.orbit.turn(0.3, 0.1)
     room.type("2")
-    room.session.takehome.figure = figure
+    room.session.export.figure = figure
     if figure == "hit":
         room.session.select(4)
     path = save(room)
     assert path.name == f"glass-ball_248_180_{figure}_d2.svg"
     assert f"wrote {path.resolve()}" in room.session.notice.text
-    command = shlex.split(room.session.takehome.command)
+    command = shlex.split(room.session.export.command)
     assert command[0] == "raytree"
     assert main.main([*command[1:], "-o", "again.svg"]) == 0
     assert Path("again.svg").read_bytes() == path.read_bytes()
@@ -62,12 +63,12 @@ def test_an_earlier_figure_is_never_lost(room: Driver) -> None:
     first, second = save(room), save(room)
     assert second.name == first.with_stem(f"{first.stem}-2").name
     assert first.read_bytes() == second.read_bytes()
-    assert free(first).name == f"{first.stem}-3.svg"
+    assert free_path(first).name == f"{first.stem}-3.svg"
 
 
 def test_without_a_clipboard_that_is_said() -> None:
     """In a process of its own: the library asks for a screen once. With one: tests/viewer/window/test_window.py."""
-    code = "from viewer.session.figure_export import put_into_clipboard; put_into_clipboard('words')"
+    code = "from viewer.base.clipboard import copy_to_clipboard; copy_to_clipboard('words')"
     bare = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
     run = subprocess.run([sys.executable, "-c", code], env=bare, capture_output=True, text=True)
     said = run.stderr.strip().splitlines()[-1]
@@ -80,16 +81,16 @@ def test_the_choice_is_kept(room: Driver, tmp_path: Path) -> None:
     kept = tmp_path / "kept" / "figure.json"
     kept.parent.mkdir()
     room.open("mirror-balls")
-    mine = room.session.takehome
+    mine = room.session.export
     mine.remember(kept)
     mine.figure, mine.format, mine.theme = "tree", "tikz", "mono"
     save(room)
-    later = TakeHome()
+    later = FigureExport(room.session.inbox.post)
     later.remember(kept)
     assert (later.figure, later.format, later.theme) == ("tree", "tikz", "mono")
     for text in ("", "[]", '{"figure": "cake"}', '{"figure": "cake", "format": "svg", "theme": ""}'):
         kept.write_text(text)
-        fresh = TakeHome()
+        fresh = FigureExport(room.session.inbox.post)
         fresh.remember(kept)
         assert (fresh.figure, fresh.format, fresh.theme) == ("both", "svg", "")
 
@@ -109,7 +110,7 @@ def test_a_hit_that_is_none_is_said(room: Driver, tmp_path: Path) -> None:
     tree = room.session.tree
     assert tree
     room.session.select(next(i for i in range(len(tree)) if tree.end(i) == "background"))
-    room.session.takehome.figure = "hit"
+    room.session.export.figure = "hit"
     press_save(room)
     assert room.session.faults == ["--node 3 must be a ray that meets a surface: E, T4, R7, T8, R13, T14"]
     assert list(tmp_path.iterdir()) == []

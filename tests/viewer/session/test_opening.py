@@ -20,7 +20,7 @@ def saved(driver: Driver, path: Path) -> None:
     stamp = path.stat().st_mtime_ns + 1_000_000
     os.utime(path, ns=(stamp, stamp))
     for _ in range(3):
-        driver.session.watch.last = -1e9
+        driver.session.loader.watch.last = -1e9
         driver.session.update()
     driver.app.settle()
 

@@ -8,7 +8,7 @@ import tracer
 from tests.conftest import LESSONS
 from tests.viewer.driver import Driver, viewer
 from tracer.kernel.limits import make_limits
-from viewer.base.pictures import srgb
+from viewer.base.srgb import srgb
 from viewer.base.theme import DARK, LIGHT, STYLES
 
 Key = imgui.Key
@@ -39,7 +39,7 @@ def test_click_shows_the_tree_of_that_pixel(glass: Driver, worlds: dict[str, tra
         picture = glass.session.image.picture
         assert picture
         assert glass.session.tree is not None
-        assert (glass.session.tree.radiance == picture.job.pixels[pixel[1], pixel[0]]).all()
+        assert (glass.session.tree.radiance == picture.pixels[pixel[1], pixel[0]]).all()
 
 
 def test_dragging_scrubs_from_pixel_to_pixel(glass: Driver, worlds: dict[str, tracer.World]) -> None:
@@ -69,7 +69,7 @@ def test_keys_set_the_depth_of_image_rays_and_tree_together(glass: Driver, world
         glass.frames()
         assert session.image.picture and session.image.picture.finished
         expected = tracer.render(world, depth=depth).pixels
-        assert session.image.picture.job.pixels.tobytes() == expected.tobytes()
+        assert session.image.picture.pixels.tobytes() == expected.tobytes()
         assert session.tree
         assert {line.row for line in glass.canvas.lines} == set(range(len(session.tree)))
 
@@ -174,7 +174,7 @@ def test_escape_clears_the_selection_then_the_pixel(glass: Driver) -> None:
     assert glass.session.selected is None and glass.session.pixel is not None
     glass.press(Key.escape)
     assert glass.session.pixel is None and glass.session.tree is None
-    assert not glass.session.wants_quit
+    assert not glass.app.surface.closing
 
 
 def test_page_keys_step_through_the_rays(glass: Driver) -> None:
@@ -228,7 +228,7 @@ def test_image_on_show_is_the_rendered_one_to_the_last_pixel(name: str, worlds: 
             session.image.wait()
             driver.frames(1)
             expected = srgb(tracer.render(worlds[name], size, depth=2).pixels)
-            texture = driver.canvas.image
+            texture = driver.canvas.image.texture
             assert texture
             sent = np.frombuffer(texture.read(), np.uint8).reshape(size[1], size[0], 4)
             assert (sent[..., :3] == expected).all()

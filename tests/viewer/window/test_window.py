@@ -101,7 +101,7 @@ def test_click_keys_and_drag(desk: Desk, worlds: dict[str, tracer.World]) -> Non
     desk.until(desk.is_quiet, "the image of depth 1")
     picture = session.image.picture
     assert picture
-    assert picture.job.pixels.tobytes() == tracer.render(world, depth=1).pixels.tobytes()
+    assert picture.pixels.tobytes() == tracer.render(world, depth=1).pixels.tobytes()
 
     picked = session.pixel
     hand("key", "Right")
@@ -182,7 +182,7 @@ def pasted(what: str) -> bytes:
 
 def test_a_copied_figure_is_pasted_elsewhere(desk: Desk, tmp_path: Path) -> None:
     """As the very picture that the copied command line writes; TikZ as its text."""
-    home = desk.session.takehome
+    home = desk.session.export
     home.figure, home.theme = "tree", "light"
     hand("windowactivate", "--sync", desk.id)
     hand("key", "ctrl+c")

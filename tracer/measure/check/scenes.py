@@ -8,7 +8,8 @@ from tracer.scene import Background, Camera, Light, Material, Object, Scene, Tra
 from tracer.shapes.box import Box
 from tracer.shapes.plane import Plane
 from tracer.shapes.sphere import Sphere
-from tracer.tree.raytree import RayTree, trace
+from tracer.tree.raytree import RayTree
+from tracer.tree.trace import trace
 
 MATTE = Material("matte", diffuse=1.0)
 DARK = Material("dark")

@@ -1,7 +1,7 @@
-"""Two ways to do a thing, timed in turn: whatever else the machine does meanwhile falls on both.
+"""Paired timing: two ways to do a thing, run in turn, so that other load on the machine falls on both.
 
-The difference is the median of the pairs' differences, and its doubt half the width of the middle half of them: what
-a busy machine adds to some runs moves neither.
+The result is the median of the pairs' differences. Its uncertainty is half their interquartile range. Neither is moved
+by what a busy machine adds to a few runs.
 """
 
 import math
@@ -15,26 +15,26 @@ FEWEST, MOST = 3, 25  # pairs
 
 @dataclass(frozen=True)
 class PairedTimes:
-    """Seconds, medians."""
+    """Medians, in seconds."""
 
     without: float
     extra: float  # what the other way takes more
-    doubt: float  # of `extra`
+    uncertainty: float  # of `extra`
     pairs: int
 
     @property
     def ratio(self) -> float:
-        """How many times as long it takes with it."""
+        """The time with it over the time without."""
         return 1.0 + self.extra / self.without if self.without > 0.0 else math.inf
 
     @property
-    def tells(self) -> bool:
-        """Whether the difference is more than its doubt."""
-        return abs(self.extra) > self.doubt
+    def is_significant(self) -> bool:
+        """Whether the difference is larger than its uncertainty."""
+        return abs(self.extra) > self.uncertainty
 
 
 def paired(without: Callable[[], float], with_it: Callable[[], float], budget: float) -> PairedTimes:
-    """Run both in turn, the first one first in every other pair, for some `budget` seconds. Each tells its seconds."""
+    """Run both in turn for about `budget` seconds, and swap their order from pair to pair. Each returns its seconds."""
     began = time.perf_counter()
     first: list[float] = []
     more: list[float] = []
@@ -50,14 +50,7 @@ def paired(without: Callable[[], float], with_it: Callable[[], float], budget: f
 
 
 def cpu_seconds(act: Callable[[], object]) -> float:
-    """Seconds of processor time: what other programs take meanwhile is none of it."""
+    """The processor time of a call, without that of other programs."""
     began = time.process_time()
     act()
     return time.process_time() - began
-
-
-def wall_seconds(act: Callable[[], object]) -> float:
-    """Seconds by the clock: where something else than this processor works, too."""
-    began = time.perf_counter()
-    act()
-    return time.perf_counter() - began

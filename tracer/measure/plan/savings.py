@@ -1,7 +1,7 @@
-"""What leaving a capability out saves this scene, and what one costs that it needs: rays counted, seconds measured.
+"""What leaving out a capability saves a scene, and what a capability that it needs costs: in rays, and in seconds.
 
-For each line the scene is rendered in two ways in turn; `variants` and `plainer` say what the other way is. The image
-is small and traced on one thread, so that a whole plan takes seconds; rays are counted, not estimated.
+For each capability the scene is rendered with and without it, in turn. The image is small and traced by one thread, so
+that a whole plan takes seconds. Rays are counted, not estimated.
 """
 
 from collections.abc import Callable
@@ -10,23 +10,27 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tracer.image.job import Job, passes
+from tracer.formulas.sampler import PIXEL_CENTER
+from tracer.image.film import Film
 from tracer.image.passes import trace_passes
-from tracer.image.render import Image, render, warm
-from tracer.kernel.left_out import Need
+from tracer.image.render import Image, render
+from tracer.image.task import Task, Work
+from tracer.image.tiles import make_tiles
+from tracer.image.warmup import warm_up
+from tracer.kernel.left_out import Capability, Need
 from tracer.kernel.limits import make_limits
 from tracer.kernel.nodes import KINDS
 from tracer.kernel.world import World, prepare
-from tracer.measure.plan.imports import import_seconds
 from tracer.measure.plan.paired_timing import PairedTimes, cpu_seconds, paired
-from tracer.measure.plan.with_capability import WITH, Variant, depth_of, everything
+from tracer.measure.plan.variants import Variant
+from tracer.measure.plan.with_capability import WITH, depth_of, everything
 from tracer.measure.plan.without_capability import WITHOUT
 
-MOST_PIXELS = 80_000
-QUICK, SLOW = 0.015, 0.5  # seconds that the scene's own image may take, and any other
+MAX_PIXELS = 80_000
+FAST, SLOW = 0.015, 0.5  # seconds that the scene's own image may take, and any other image
 PROBE = 64  # pixels of the first image that is tried
-TELLING = 0.02  # seconds: less is not enough to tell by how long more pixels take
-BUDGET = 0.7  # seconds a line
+MEASURABLE = 0.02  # seconds from which on the time per pixel can be told
+BUDGET = 0.7  # seconds per capability
 UNNOTICED = 2.0**-200  # pictures that differ by less are the same
 
 Size = tuple[int, int]
@@ -35,87 +39,85 @@ Progress = Callable[[float], None]
 
 @dataclass(frozen=True)
 class Saving:
-    """What a capability is worth: in seconds, and in rays where it is about rays."""
+    """What a capability is worth."""
 
     need: Need
-    how: str  # what was compared; or why nothing was
-    turns: PairedTimes | None = None
+    how: str  # what was compared, or why nothing was
+    times: PairedTimes | None = None
     rays: tuple[int, int] | None = None  # without it, with it
     size: Size | None = None  # of the image
-    changed: int = 0  # pixels that have another colour with it
-    estimated: bool = False  # the seconds: so many rays by what one takes
+    changed: int = 0  # number of pixels whose colour differs
+    estimated: bool = False  # the time: a number of rays times what one takes
 
 
 @dataclass(frozen=True)
 class Measured:
-    """The lines of a plan, and the image they are about."""
+    """A measured plan, and the image that it is about."""
 
     size: Size
     depth: int
     rays: dict[str, int]
-    lines: list[Saving]
-    together: Saving  # everything that the kernel leaves out, done at once
+    savings: list[Saving]
+    together: Saving  # everything at once that the kernel leaves out
 
 
 @dataclass(frozen=True)
 class Shot:
-    """A way to render an image."""
+    """A variant, ready to be rendered at any size."""
 
     world: World
     variant: Variant
     depth: int
 
     def __call__(self, size: Size) -> Image:
-        options = {"depth": self.depth, "threads": 1, **self.variant.options}
-        images = [render(self.world, size, **options) for _ in range(self.variant.images)]
-        return replace(images[0], rays={kind: sum(image.rays[kind] for image in images) for kind in KINDS})
+        return render(self.world, size, **{"depth": self.depth, "threads": 1, **self.variant.options})
 
-    def work(self, size: Size) -> float:
-        """Seconds of processor time that it takes."""
+    def seconds(self, size: Size) -> float:
+        """Processor time of an image."""
         return cpu_seconds(lambda: self(size))
 
 
 def measure(world: World, progress: Progress = lambda share: None) -> Measured:
-    """Every line of the scene's plan."""
-    warm()
+    """Measure every capability."""
+    warm_up()
     own = Shot(world, Variant("", world.scene), depth_of(world.scene))
-    size = quick_size(own, world.view().width, world.view().height)
-    lines = []
+    size = fast_size(own, world.view().width, world.view().height)
+    savings = []
     for k, need in enumerate(world.needs):
         progress(k / (len(world.needs) + 1))
-        lines.append(line(need, own, size))
-    progress(len(lines) / (len(lines) + 1))
+        savings.append(saving_of(need, own, size))
+    progress(len(savings) / (len(savings) + 1))
     together = compared(Need("all at once", False, ""), own, everything(world.scene, world.left_out), size)
-    return Measured(size, own.depth, own(size).rays, lines, together)
+    return Measured(size, own.depth, own(size).rays, savings, together)
 
 
-def line(need: Need, own: Shot, size: Size) -> Saving:
+def saving_of(need: Need, own: Shot, size: Size) -> Saving:
     """What one capability is worth to a scene."""
-    if need.name == "mesh library":
-        _, loading = import_seconds(["trimesh"])
-        return Saving(need, "import trimesh", PairedTimes(0.0, loading, 0.0, 1))
-    if need.name == "light from behind":
-        return unlit(need, own, size)
-    make = (WITHOUT if need.needed else WITH)[need.name]
+    if need.name == Capability.LIGHT_FROM_BEHIND:
+        return light_from_behind(need, own, size)
+    make = (WITHOUT if need.needed else WITH).get(need.name)
+    if make is None:
+        return Saving(need, "no part of an image")
     variant = make(own.world.scene)
     return Saving(need, variant) if isinstance(variant, str) else compared(need, own, variant, size)
 
 
 def compared(need: Need, own: Shot, variant: Variant, size: Size) -> Saving:
+    """Render a scene and a variant of it in turn."""
     other = Shot(prepare(variant.scene, variant.hierarchy), variant, own.depth)
     size = bearable_size(other, size)
     without, with_it = (other, own) if need.needed else (own, other)
     first, second = without(size), with_it(size)
     changed = np.abs(first.pixels - second.pixels).max(axis=2) > UNNOTICED
-    turns = paired(lambda: without.work(size), lambda: with_it.work(size), BUDGET)
+    times = paired(lambda: without.seconds(size), lambda: with_it.seconds(size), BUDGET)
     rays = (sum(first.rays.values()), sum(second.rays.values()))
-    return Saving(need, variant.how, turns, rays, size, int(changed.sum()))
+    return Saving(need, variant.how, times, rays, size, int(changed.sum()))
 
 
-def unlit(need: Need, own: Shot, size: Size) -> Saving:
-    """Shadow rays that the image does without: the trees show them, one from every hit to every light.
+def light_from_behind(need: Need, own: Shot, size: Size) -> Saving:
+    """The shadow rays that an image does without. Trees have them: from every hit to every light.
 
-    What one takes is measured with each light doubled by a black one, which is asked for where the light is.
+    The time of one is measured on a scene where each light is doubled by a black one at its place.
     """
     scene = own.world.scene
     if not scene.lights:
@@ -127,44 +129,46 @@ def unlit(need: Need, own: Shot, size: Size) -> Saving:
         return Saving(need, "no shadow ray whose time could be taken", None, count, size)
     black = tuple(replace(light, color=(0.0, 0.0, 0.0)) for light in scene.lights)
     doubled = Shot(prepare(replace(scene, lights=scene.lights + black)), own.variant, own.depth)
-    turns = paired(lambda: own.work(size), lambda: doubled.work(size), BUDGET)
+    times = paired(lambda: own.seconds(size), lambda: doubled.seconds(size), BUDGET)
     share = skipped / (doubled(size).rays["shadow"] - rays["shadow"])
-    turns = replace(turns, extra=share * turns.extra, doubt=share * turns.doubt)
-    return Saving(need, "every light from every hit (estimated)", turns, count, size, 0, True)
+    times = replace(times, extra=share * times.extra, uncertainty=share * times.uncertainty)
+    return Saving(need, "every light from every hit (estimated)", times, count, size, 0, True)
 
 
 def tree_rays(shot: Shot, size: Size) -> dict[str, int]:
     """The rows of all pixels' trees, by kind."""
     limits = make_limits(shot.world, shot.depth, records=True)
-    job = Job(shot.world, shot.world.view(size), limits)
+    film = Film(*size)
+    task = Task.of(shot.world, shot.world.view(size), limits, PIXEL_CENTER.sampler)
+    works = [Work(tile) for tile in make_tiles(*size)]
     with ThreadPoolExecutor(1) as executor:
-        trace_passes(job, passes(*size), executor, 1)
-    return {kind: int(n) for kind, n in zip(KINDS, job.rays, strict=True)}
+        trace_passes(task, [works], executor, 1, lambda traced, share: film.add(traced), film.pixels)
+    return {kind: int(n) for kind, n in zip(KINDS, film.totals.rays, strict=True)}
 
 
-def quick_size(shot: Shot, width: int, height: int) -> Size:
-    """The size of a small image of these proportions that is soon rendered."""
-    size = shrunk((width, height), MOST_PIXELS / (width * height))
-    return shrunk(size, QUICK / per_pixel(shot, size) / (size[0] * size[1]))
+def fast_size(shot: Shot, width: int, height: int) -> Size:
+    """The size of a small image of these proportions that takes FAST seconds."""
+    size = shrunk((width, height), MAX_PIXELS / (width * height))
+    return shrunk(size, FAST / seconds_per_pixel(shot, size) / (size[0] * size[1]))
 
 
 def bearable_size(shot: Shot, size: Size) -> Size:
-    """This one, or a smaller one where the image would take too long."""
-    return shrunk(size, SLOW / per_pixel(shot, size) / (size[0] * size[1]))
+    """This size, or a smaller one if the image would take more than SLOW seconds."""
+    return shrunk(size, SLOW / seconds_per_pixel(shot, size) / (size[0] * size[1]))
 
 
-def per_pixel(shot: Shot, size: Size) -> float:
-    """Seconds, about: by ever larger images, until one takes long enough to tell."""
+def seconds_per_pixel(shot: Shot, size: Size) -> float:
+    """About the seconds per pixel, by larger and larger images, until one takes long enough to tell."""
     pixels = PROBE
     while True:
         probe = shrunk(size, pixels / (size[0] * size[1]))
-        took = min(shot.work(probe) for _ in range(3))
-        if took > TELLING or probe == size:
+        took = min(shot.seconds(probe) for _ in range(3))
+        if took > MEASURABLE or probe == size:
             return took / (probe[0] * probe[1])
         pixels *= 4
 
 
 def shrunk(size: Size, share: float) -> Size:
-    """A size of that share of the pixels, if it is below 1."""
+    """A size with this share of the pixels, if the share is below 1."""
     factor = min(1.0, share) ** 0.5
     return max(1, round(size[0] * factor)), max(1, round(size[1] * factor))

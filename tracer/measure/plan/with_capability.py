@@ -1,62 +1,40 @@
-"""The same scene asking for a capability more: what leaving it out saves is the difference.
+"""Variants of a scene that use a capability which the scene does not need, with the same picture.
 
-There is one kernel, and what it does is decided by the scene. So that it does what a scene leaves out, the scene is
-made to ask for it in a way that cannot be seen: a surface reflects so faint a share of the light that no sum notices
-it, but the ray is traced all the same; a black light is asked for at every hit; a checker has two equal colours. That
-is the work of a tracer that follows every ray and multiplies by nothing in the end, for the same picture.
+There is one kernel, and the scene decides what it does. To make it do what a scene leaves out, the scene asks for it in
+a way that cannot be seen: a surface reflects a share too faint for any sum to notice, but its ray is traced all the
+same; a black light is tested at every hit; a checker has two equal colours. This is the work of a tracer that follows
+every ray and multiplies by zero in the end.
 """
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from tracer.kernel.left_out import is_open, shines
+from tracer.choices import BLOCK, FILTER, FRESNEL, MODELS, SHADOWS
+from tracer.kernel.left_out import Capability
 from tracer.kernel.world import prepare
-from tracer.scene import Checker, Light, Material, Object, Scene
+from tracer.measure.plan.variants import Make, Variant, with_geometry, with_materials, with_tracing
+from tracer.scene import Checker, Light, Object, Scene
 from tracer.shapes.mesh import Geometry, Mesh
 
-DEEPEST = 4  # so deep at most: a tree whose every hit sends out two rays doubles with each level
-UNSEEN = 2.0**-1000  # a weight that vanishes beside any number a picture is made of
-UNFOLLOWED = {"min_weight": 2.0**-990}  # what is unseen is not followed, either
-SAMPLES = 16  # a pixel, as lenses and rough mirrors ask for at the very least
-
-
-@dataclass(frozen=True)
-class Variant:
-    """Another scene, or the same one rendered otherwise."""
-
-    how: str  # what is different
-    scene: Scene
-    options: dict[str, Any] = field(default_factory=dict)  # of `render`
-    hierarchy: bool | None = None  # of `prepare`
-    images: int = 1  # to be rendered
-
-
-Make = Callable[[Scene], Variant | str]  # or why there is none
-
-
-def faint(scene: Scene) -> float:
-    """A weight of which the power by the depth is still a number."""
-    return 2.0 ** -(1000 // max(1, depth_of(scene)))
+MAX_DEPTH = 4  # a tree whose hits all send out two rays doubles with each level
+UNSEEN = 2.0**-1000  # a weight that vanishes beside any number of a picture
+UNFOLLOWED = {"min_weight": 2.0**-990}  # rays of such a weight are not followed
 
 
 def depth_of(scene: Scene) -> int:
-    """At which it is measured."""
-    return min(scene.tracing.depth, DEEPEST)
+    """The depth at which a scene is measured."""
+    return min(scene.tracing.depth, MAX_DEPTH)
 
 
-def with_materials(scene: Scene, change: Callable[[Material], Material]) -> Scene:
-    return replace(scene, objects=tuple(replace(item, material=change(item.material)) for item in scene.objects))
-
-
-def with_tracing(scene: Scene, **changes: Any) -> Scene:
-    return replace(scene, tracing=replace(scene.tracing, **changes))
+def faint(scene: Scene) -> float:
+    """A weight so faint that it is not seen, but whose power by the depth does not underflow."""
+    return 2.0 ** -(1000 // max(1, depth_of(scene)))
 
 
 def with_glass(scene: Scene, share: float, ior: float = 1.0) -> Scene:
-    """Every opaque object as a thin sheet that lets this share through."""
+    """The scene with every opaque object as a thin sheet that transmits `share`."""
     return replace(
         scene,
         objects=tuple(
@@ -77,13 +55,13 @@ def with_refraction(scene: Scene) -> Variant | str:
     w = faint(scene)
     return Variant(
         f"every surface transmits {w:.0e}",
-        with_tracing(with_glass(scene, w), shadows="block"),
+        with_tracing(with_glass(scene, w), shadows=SHADOWS[BLOCK]),
     )
 
 
 def with_media(scene: Scene) -> Variant | str:
     def filled(item: Object) -> Object:
-        if item.material.transmit > 0.0 or is_open(item.shape):
+        if item.material.transmit > 0.0 or not item.shape.is_closed():
             return item
         return replace(item, material=replace(item.material, transmit=UNSEEN, ior=1.5))
 
@@ -91,27 +69,22 @@ def with_media(scene: Scene) -> Variant | str:
     if objects == scene.objects:
         return "no object has an inside"
     blocks = all(item.material.transmit == 0.0 for item in scene.objects)
-    other = with_tracing(replace(scene, objects=objects), shadows="block" if blocks else scene.tracing.shadows)
-    return Variant("closed objects bound media", other, UNFOLLOWED)
+    shadows = SHADOWS[BLOCK] if blocks else scene.tracing.shadows
+    return Variant(
+        "closed objects bound media", with_tracing(replace(scene, objects=objects), shadows=shadows), UNFOLLOWED
+    )
 
 
 def with_fresnel(scene: Scene) -> Variant | str:
     if any(item.material.transmit > 0.0 for item in scene.objects):
-        return Variant("Fresnel's law: another picture", with_tracing(scene, model="fresnel"))
-    other = with_tracing(with_glass(scene, UNSEEN, ior=1.5), model="fresnel", shadows="block")
+        return Variant("Fresnel's law: another picture", with_tracing(scene, model=MODELS[FRESNEL]))
+    glass = with_glass(scene, UNSEEN, ior=1.5)
+    other = with_tracing(glass, model=MODELS[FRESNEL], shadows=SHADOWS[BLOCK])
     return Variant("Fresnel's shares at every hit", other, UNFOLLOWED)
 
 
-def with_dispersion(scene: Scene) -> Variant | str:
-    return Variant("three images, one a wavelength", scene, images=3)
-
-
-def with_samples(scene: Scene) -> Variant | str:
-    return Variant(f"{SAMPLES} rays a pixel", scene, {"samples": SAMPLES})
-
-
 def with_shadow_rays(scene: Scene) -> Variant | str:
-    other = with_materials(scene, lambda m: m if shines(m) else replace(m, diffuse=1.0))
+    other = with_materials(scene, lambda m: m if m.is_lit else replace(m, diffuse=1.0))
     if scene.lights:
         lights = tuple(replace(light, color=(0.0, 0.0, 0.0)) for light in scene.lights)
         return Variant("matte surfaces, black lamps", replace(other, lights=lights))
@@ -120,13 +93,13 @@ def with_shadow_rays(scene: Scene) -> Variant | str:
 
 
 def with_filtered_light(scene: Scene) -> Variant | str:
-    if not scene.lights or not any(shines(item.material) for item in scene.objects):
+    if not scene.lights or not any(item.material.is_lit for item in scene.objects):
         return "no shadow ray asks for it"
     if any(item.material.transmit > 0.0 for item in scene.objects):
-        return Variant("glass dims shadows: another picture", with_tracing(scene, shadows="filter"))
+        return Variant("glass dims shadows: another picture", with_tracing(scene, shadows=SHADOWS[FILTER]))
     return Variant(
         "shadow rays cross every surface",
-        with_tracing(with_glass(scene, UNSEEN), shadows="filter"),
+        with_tracing(with_glass(scene, UNSEEN), shadows=SHADOWS[FILTER]),
         UNFOLLOWED,
     )
 
@@ -151,30 +124,23 @@ def with_normals(scene: Scene) -> Variant | str:
 
 
 def everything(scene: Scene, left_out: Sequence[str]) -> Variant:
-    """What is left out and would change no picture, all at once. Also of a kind of ray that some surfaces need, the
-    other surfaces send one."""
+    """Everything at once that is left out and changes no picture.
+
+    Where only some surfaces need a kind of ray, the others send one, too.
+    """
     w = faint(scene)
-    for name, make in (("shadow rays", with_shadow_rays), ("checker", with_checker)):
-        if name in left_out and isinstance(variant := make(scene), Variant):
+    for capability in (Capability.SHADOW_RAYS, Capability.CHECKER):
+        if capability in left_out and isinstance(variant := WITH[capability](scene), Variant):
             scene = variant.scene
     scene = with_materials(scene, lambda m: replace(m, reflect=m.reflect or w))
-    if "refraction" not in left_out:
+    if Capability.REFRACTION not in left_out:
         return Variant("a reflected ray from every hit", scene)
-    scene = with_tracing(with_glass(scene, w, ior=1.5), model="fresnel", shadows="filter")
+    scene = with_tracing(with_glass(scene, w, ior=1.5), model=MODELS[FRESNEL], shadows=SHADOWS[FILTER])
     return Variant("two rays from every hit", scene)
 
 
-def with_geometry(scene: Scene, change: Callable[[Geometry], Geometry]) -> Scene:
-    def changed(item: Object) -> Object:
-        if not isinstance(item.shape, Mesh):
-            return item
-        return replace(item, shape=replace(item.shape, geometry=change(item.shape.geometry)))
-
-    return replace(scene, objects=tuple(changed(item) for item in scene.objects))
-
-
 def _own_normals(geometry: Geometry) -> Geometry:
-    """The same triangles, each with vertices of its own that have its normal."""
+    """The same triangles, with the normals of the faces as vertex normals."""
     corners = geometry.vertices[geometry.faces]
     n = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     size = np.linalg.norm(n, axis=1, keepdims=True)
@@ -182,17 +148,14 @@ def _own_normals(geometry: Geometry) -> Geometry:
     return Geometry(corners.reshape(-1, 3), np.arange(len(n)).reshape(-1, 3), n)
 
 
-# By the names of `tracer.kernel.left_out`.
 WITH: dict[str, Make] = {
-    "reflection": with_reflection,
-    "refraction": with_refraction,
-    "media": with_media,
-    "fresnel": with_fresnel,
-    "dispersion": with_dispersion,
-    "lens, glossy samples": with_samples,
-    "shadow rays": with_shadow_rays,
-    "light through glass": with_filtered_light,
-    "checker": with_checker,
-    "hierarchy": with_hierarchy,
-    "vertex normals": with_normals,
+    Capability.REFLECTION: with_reflection,
+    Capability.REFRACTION: with_refraction,
+    Capability.MEDIA: with_media,
+    Capability.FRESNEL: with_fresnel,
+    Capability.SHADOW_RAYS: with_shadow_rays,
+    Capability.LIGHT_THROUGH_GLASS: with_filtered_light,
+    Capability.CHECKER: with_checker,
+    Capability.HIERARCHY: with_hierarchy,
+    Capability.VERTEX_NORMALS: with_normals,
 }

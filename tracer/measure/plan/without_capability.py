@@ -1,17 +1,19 @@
-"""The same scene with a capability less: what it costs is the difference.
+"""Variants of a scene without a capability that the scene needs.
 
-What a scene needs cannot be taken away without changing its picture, but for the hierarchy; so each of these is a
-plainer scene, and the difference is what this one's own picture costs more.
+Except for the hierarchy, this changes the picture: each variant is a plainer scene, and the difference is what this
+scene's own picture costs more.
 """
 
 from dataclasses import replace
 
-from tracer.measure.plan.with_capability import Make, Variant, with_geometry, with_materials, with_tracing
+from tracer.choices import BLOCK, MODELS, SHADOWS, WHITTED
+from tracer.kernel.left_out import Capability
+from tracer.measure.plan.variants import Make, Variant, with_geometry, with_materials, with_tracing
 from tracer.scene import Scene
 
 
 def without_reflection(scene: Scene) -> Variant | str:
-    other = with_tracing(with_materials(scene, lambda m: replace(m, reflect=0.0)), model="whitted")
+    other = with_tracing(with_materials(scene, lambda m: replace(m, reflect=0.0)), model=MODELS[WHITTED])
     return Variant("no reflection but the total one", other)
 
 
@@ -24,7 +26,7 @@ def without_media(scene: Scene) -> Variant | str:
 
 
 def without_fresnel(scene: Scene) -> Variant | str:
-    return Variant("Whitted's fixed weights", with_tracing(scene, model="whitted"))
+    return Variant("Whitted's fixed weights", with_tracing(scene, model=MODELS[WHITTED]))
 
 
 def without_shadow_rays(scene: Scene) -> Variant | str:
@@ -32,7 +34,7 @@ def without_shadow_rays(scene: Scene) -> Variant | str:
 
 
 def without_filtered_light(scene: Scene) -> Variant | str:
-    return Variant("glass blocks shadow rays", with_tracing(scene, shadows="block"))
+    return Variant("glass blocks shadow rays", with_tracing(scene, shadows=SHADOWS[BLOCK]))
 
 
 def without_checker(scene: Scene) -> Variant | str:
@@ -47,15 +49,14 @@ def without_normals(scene: Scene) -> Variant | str:
     return Variant("flat faces", with_geometry(scene, lambda g: replace(g, normals=None)))
 
 
-# By the names of `tracer.kernel.left_out`.
 WITHOUT: dict[str, Make] = {
-    "reflection": without_reflection,
-    "refraction": without_refraction,
-    "media": without_media,
-    "fresnel": without_fresnel,
-    "shadow rays": without_shadow_rays,
-    "light through glass": without_filtered_light,
-    "checker": without_checker,
-    "hierarchy": without_hierarchy,
-    "vertex normals": without_normals,
+    Capability.REFLECTION: without_reflection,
+    Capability.REFRACTION: without_refraction,
+    Capability.MEDIA: without_media,
+    Capability.FRESNEL: without_fresnel,
+    Capability.SHADOW_RAYS: without_shadow_rays,
+    Capability.LIGHT_THROUGH_GLASS: without_filtered_light,
+    Capability.CHECKER: without_checker,
+    Capability.HIERARCHY: without_hierarchy,
+    Capability.VERTEX_NORMALS: without_normals,
 }

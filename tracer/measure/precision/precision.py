@@ -156,7 +156,7 @@ def repeated(make: Callable[[], Image]) -> tuple[Image, float]:
 
 def point_of(label: str, value: float, image: Image, least: float, reference: np.ndarray) -> Point:
     off = errors(image.pixels, reference)
-    estimate = image.reached.error if image.reached else math.nan
+    estimate = image.stats.error if image.stats else math.nan
     rays = sum(image.rays.values())
     bound = image.bound + rounding(image, rays)
     return Point(label, value, least, rays, image.tests, off, bound, estimate)

@@ -15,8 +15,6 @@ from typing import Any
 from tracer.image.render import Image, render
 from tracer.kernel.world import World
 from tracer.measure.precision.errors import NOTHING, errors
-from tracer.measure.precision.otherkernel import images
-from tracer.measure.precision.plain import KINDS
 from tracer.measure.precision.precision import (
     Curve,
     Maker,
@@ -29,6 +27,7 @@ from tracer.measure.precision.precision import (
     cuts,
     point_of,
 )
+from tracer.measure.precision.textbook_kernel import KINDS, images
 from tracer.scene import Scene
 
 PATIENCE = 6.0  # seconds that an image taken for true may take
@@ -138,16 +137,11 @@ def kernels(world: World, size: Size, step: Callable[[], None]) -> Source:
     """The textbook's formulas in double and in single precision, depth by depth, each judged by this kernel's image."""
     depths = range(max(world.scene.tracing.depth, 3) + 1)
     ours = [render(world, size, depth=depth).pixels for depth in depths]
-    curves, failures, own = [], [], NOTHING
+    curves, own = [], NOTHING
     for kind in KINDS:
         name = f"textbook, {kind} precision"
-        try:
-            found = images(kind, world.scene, size, depths)
-        except RuntimeError as error:
-            failures.append(f"{name}: {error}")
-            continue
-        finally:
-            step()
+        found = images(kind, world.scene, size, depths)
+        step()
         points = [
             point_of(f"depth {depth}", depth, image, least, true)
             for depth, (image, least), true in zip(depths, found, ours, strict=True)
@@ -162,7 +156,7 @@ def kernels(world: World, size: Size, step: Callable[[], None]) -> Source:
         "Edges move by less than a pixel, so what is off is mostly a few samples at edges, and all that is close.",
         Reference(ours[-1], how, own),
         tuple(curves),
-        tuple(failures),
+        (),
     )
 
 

@@ -24,7 +24,7 @@ from tracer.measure.precision.errors import NOTHING
 from tracer.measure.precision.precision import Reference, Source, all_measured, cuts
 from tracer.scene import Camera, Material, Object
 from tracer.shapes.polygon import Polygon
-from tracer.tree.raytree import trace
+from tracer.tree.trace import trace
 
 SIZE = (16, 16)  # so many times the one ray
 ANGLE = 1e-15  # degrees, of the whole image: all pixels have the same direction but for its last bit

@@ -13,17 +13,18 @@ from tracer.kernel.nodes import SHADOW
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import BLOCKED_DASH, STYLES, Color, Theme, faded
-from viewer.base.wording import angle, shown
-from viewer.explain.directions import directions, turned
+from viewer.base.wording import format_angle, format_number
 from viewer.explain.lighting import local_light
+from viewer.explain.scattering import direction_error, scattering_sections
 from viewer.explain.sections import Section
 from viewer.figures import signs
 from viewer.figures.font import fitted, text_width
 from viewer.figures.labels import end_label, factor_label, hit_label, ray_label, ray_title
-from viewer.figures.layout.label_placement import Names, Spot
+from viewer.figures.layout.label_placement import LabelPlacer, Spot
 from viewer.figures.layout.sizes import NO_RAY
-from viewer.figures.marks import HEIGHT, WIDTH, Line, Mark, Point, Shape, Stroke, Text, along, shares_within
-from viewer.figures.steps import Stage
+from viewer.figures.marks import HEIGHT, WIDTH, Line, Mark, Point, Shape, Stroke, Text, clip_shares, point_along
+from viewer.figures.steps import Step
+from viewer.figures.subject import FigureStyle, Pages, Subject
 
 CENTER = (262.0, 292.0)  # the hit
 REACH = 195.0  # how far rays are drawn
@@ -43,12 +44,20 @@ TINTS = (0.06, 0.16)  # of the medium of lower and of higher index
 FormulaLine = tuple[str, str, Color]  # name, value, the name's colour
 
 
-def hit_marks(stage: Stage, node: int, size: float, theme: Theme, world: World | None = None) -> list[Mark]:
+def pages(subject: Subject, style: FigureStyle) -> Pages:
+    """One hit in its plane of incidence. The page is empty before the step with the hit."""
+    return [
+        hit_marks(step, style.node, style.text_size, style.theme, subject.world) if style.node in step.rows else []
+        for step in subject.steps
+    ]
+
+
+def hit_marks(step: Step, node: int, size: float, theme: Theme, world: World | None = None) -> list[Mark]:
     """`node` is the row of a ray that meets a surface (`node_of`). `world` tells its light's numbers."""
-    return _Drawing(stage, node, size, theme, world).marks
+    return _Drawing(step, node, size, theme, world).marks
 
 
-def node_of(tree: RayTree, asked: str | None) -> int:
+def hit_row(tree: RayTree, asked: str | None) -> int:
     """The row of a hit asked for as 4 or T4, the first if none is; ValueError in words for people."""
     hits = [i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW and tree.object_name(i)]
     if not hits:
@@ -63,13 +72,13 @@ def node_of(tree: RayTree, asked: str | None) -> int:
 
 
 class _Drawing:
-    def __init__(self, stage: Stage, node: int, size: float, theme: Theme, world: World | None) -> None:
+    def __init__(self, step: Step, node: int, size: float, theme: Theme, world: World | None) -> None:
         if size > LARGEST:
             raise ValueError(f"a hit has room for text of {LARGEST:g} points at most, got {size:g}")
-        self.tree: RayTree = stage.tree
-        self.stage, self.node, self.size, self.theme, self.world = stage, node, size, theme, world
+        self.tree: RayTree = step.tree
+        self.step, self.node, self.size, self.theme, self.world = step, node, size, theme, world
         self.row = self.tree.nodes[node]
-        below = [child for child in self.tree.children[node] if child in stage.rows]
+        below = [child for child in self.tree.children[node] if child in step.rows]
         self.lights = [child for child in below if self.tree.nodes["kind"][child] == SHADOW]
         self.going_on = [child for child in below if child not in self.lights]
         self.theta1, self.theta2 = float(self.row["theta1"]), float(self.row["theta2"])
@@ -94,7 +103,7 @@ class _Drawing:
         below = TINTS[n2 > n1] if clear else 0.3
         above = TINTS[n1 > n2] if clear else TINTS[0]
         for name, top, bottom, tint, title in (
-            ("medium-1", y0, y, above, f"the medium the ray comes from, index {shown(n1)}"),
+            ("medium-1", y0, y, above, f"the medium the ray comes from, index {format_number(n1)}"),
             ("medium-2", y, y1, below, f"behind the surface of {hit_label(self.tree, self.node)}"),
         ):
             corners = ((x0, top), (x1, top), (x1, bottom), (x0, bottom))
@@ -103,8 +112,8 @@ class _Drawing:
         text, size = self.theme.text, self.size
         left, third = x0 + 0.5 * size, TOP + (0.9 + 2 * LINE) * size
         name = fitted(hit_label(self.tree, self.node), CENTER[0] - left - 2.0 * size, size)
-        under = f"n₂ = {shown(n2)}" if clear else "opaque"
-        self.marks.append(Text("medium-1", (left, third), f"n₁ = {shown(n1)}", size, text, "start"))
+        under = f"n₂ = {format_number(n2)}" if clear else "opaque"
+        self.marks.append(Text("medium-1", (left, third), f"n₁ = {format_number(n1)}", size, text, "start"))
         low = y1 - 0.9 * size
         self.marks.append(Text("surface", (left, y + 0.8 * size), name, size, text, "start"))
         self.marks.append(Text("medium-2", (left, low), under, size, text, "start"))
@@ -119,8 +128,8 @@ class _Drawing:
     def _rays(self) -> None:
         tree, node, size = self.tree, self.node, self.size
         kind = tree.kind(node)
-        turn = turned(tree, node)
-        theta1, theta2 = angle(self.theta1, turn), angle(self.theta2, turn)
+        turn = direction_error(tree, node)
+        theta1, theta2 = format_angle(self.theta1, turn), format_angle(self.theta2, turn)
         first, second = TOP + 0.9 * size, TOP + 0.9 * size + LINE * size
         self._ray(node, kind, self._at(-self.theta1), CENTER)
         self._arc(f"ray-{node}", -self.theta1, 0.0, kind)
@@ -164,7 +173,7 @@ class _Drawing:
 
     def _lights(self) -> None:
         """Dashed, at their true angles from the normal, on the side of the normal on which they are."""
-        names = Names((LEFT, TOP, RIGHT, BOTTOM), self.size, self.theme)
+        names = LabelPlacer((LEFT, TOP, RIGHT, BOTTOM), self.size, self.theme)
         names.taken += [mark.box() for mark in self.marks if isinstance(mark, Text)]
         names.ways += [(mark.name, piece) for mark in self.marks if isinstance(mark, Line) for piece in mark.pieces()]
         turns = {child: self._turn_to_light(child) for child in self.lights}
@@ -178,23 +187,23 @@ class _Drawing:
             name, fate = f"ray-{child}", self.tree.end(child) or ""
             title = ray_title(self.tree, child)
             out = turns[child][1]
-            title += f"; it leaves this plane by {angle(out)} and is turned into it" if out > IN_PLANE else ""
+            title += f"; it leaves this plane by {format_angle(out)} and is turned into it" if out > IN_PLANE else ""
             stroke = Stroke(color, style.width, BLOCKED_DASH if fate == "blocked" else style.dash)
-            stop = along((CENTER, end), 1.0 - 0.5 * self.size / math.dist(CENTER, end))  # up to the sign
+            stop = point_along((CENTER, end), 1.0 - 0.5 * self.size / math.dist(CENTER, end))  # up to the sign
             self.marks.append(Line(name, CENTER, stop, stroke, title=title))
             away = self.tree.faces_away(child)
             self.marks += signs.light_end("away" if away else fate, name, end, self.size, self.theme)
             words = f"{ray_label(self.tree, child)} {self.tree.light_name(child)}"
             self.marks += names.label(name, words, [Spot(end)], color, most=0)
 
-    def _light_end(self, turn: float, names: Names) -> Point:
+    def _light_end(self, turn: float, names: LabelPlacer) -> Point:
         """As far out as suits best: not where something stands, and not upon a ray: then beyond it."""
         rays = [mark for mark in self.marks if isinstance(mark, Line)]
         ends = [self._at(turn, reach) for reach in LIGHT_REACHES]
         half = 0.6 * self.size
         for end in ends:
             box = (end[0] - half, end[1] - half, end[0] + half, end[1] + half)
-            if names.free(box) and not any(shares_within((ray.start, ray.end), box) for ray in rays):
+            if names.free(box) and not any(clip_shares((ray.start, ray.end), box) for ray in rays):
                 return end
         return ends[0]
 
@@ -223,7 +232,7 @@ class _Drawing:
 
     def _formulas(self) -> None:
         """As many sections as there is room for: first without the vectors, then of the local light the sum alone."""
-        sections = directions(self.tree, self.node) if self.going_on else []
+        sections = scattering_sections(self.tree, self.node) if self.going_on else []
         if self.world:
             sections.append(self._local(self.world))
         size = self.size

@@ -13,16 +13,29 @@ import numpy as np
 
 from tracer.kernel.nodes import KINDS, SHADOW
 from tracer.scene import Material
-from tracer.tree.raytree import RayTree, light_name, name_of
-from viewer.base.pictures import LUMINANCE, as_shown
+from tracer.tree.raytree import RayTree
+from viewer.base.srgb import LUMINANCE, display_color
 from viewer.base.theme import ARROW_AT, HALO, STYLES, Arrow, Color, Theme, faded
 from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.labels import ray_label, ray_title
-from viewer.figures.layout.label_placement import Names, Spot
-from viewer.figures.marks import Line, Mark, Piece, Point, Shape, Stroke, along, shares_within
+from viewer.figures.layout.label_placement import LabelPlacer, Spot
+from viewer.figures.marks import (
+    HEIGHT,
+    WIDTH,
+    Line,
+    Mark,
+    Piece,
+    Point,
+    Rectangle,
+    Shape,
+    Stroke,
+    clip_shares,
+    point_along,
+)
 from viewer.figures.ray_lines import RayLine, ray_lines
-from viewer.figures.steps import Stage
+from viewer.figures.steps import Step
+from viewer.figures.subject import FigureStyle, Pages, Subject
 from viewer.figures.visible.outlines import Area
 from viewer.figures.visible.scene_view import SceneView
 from viewer.figures.visible.scenery import Part
@@ -42,29 +55,34 @@ FIRST = 12  # of them, that are named even where names must cross other rays; ra
 Named = tuple[frozenset[int], list[Mark]]  # the rays with which a name comes (none: it is always there), and its marks
 
 
-def scene_pages(view: SceneView, stages: Sequence[Stage], size: float, theme: Theme) -> list[list[Mark]]:
-    """A page a stage. Names are placed for the last, the fullest, and come with what they name: none ever moves."""
-    drawings = [_Drawing(view, stage, size, theme) for stage in stages]
+def pages(subject: Subject, style: FigureStyle, where: Rectangle = (0.0, 0.0, WIDTH, HEIGHT)) -> Pages:
+    """The scene with the rays of each step."""
+    return view_pages(subject.view(where), subject.steps, style.text_size, style.theme)
+
+
+def view_pages(view: SceneView, steps: Sequence[Step], size: float, theme: Theme) -> Pages:
+    """A page a step. Names are placed for the last, the fullest, and come with what they name: none ever moves."""
+    drawings = [_Drawing(view, step, size, theme) for step in steps]
     names = drawings[-1].named()
     return [
-        drawing.marks + [mark for rows, marks in names if not rows or rows & drawing.stage.rows for mark in marks]
+        drawing.marks + [mark for rows, marks in names if not rows or rows & drawing.step.rows for mark in marks]
         for drawing in drawings
     ]
 
 
 class _Drawing:
-    def __init__(self, view: SceneView, stage: Stage, size: float, theme: Theme) -> None:
-        self.view, self.stage, self.size, self.theme = view, stage, size, theme
-        self.tree: RayTree = stage.tree
+    def __init__(self, view: SceneView, step: Step, size: float, theme: Theme) -> None:
+        self.view, self.step, self.size, self.theme = view, step, size, theme
+        self.tree: RayTree = step.tree
         self.scene = view.world.scene
         self.marks: list[Mark] = []
-        self.names = Names(view.where, size, theme)
+        self.names = LabelPlacer(view.where, size, theme)
         for part in view.seen.opaque:
             self._thing(part, 1.0)
         for part in view.seen.glass:
             self._thing(part, GLASS)
         lines = ray_lines(self.tree, len(self.tree), view.frame, frozenset(KINDS))
-        self.lines = [line for line in lines if line.row in stage.rows]
+        self.lines = [line for line in lines if line.row in step.rows]
         for line in sorted(self.lines, key=lambda line: -line.row):  # the first rays over the later ones
             self._ray(line)
         self.lights = self._lights()
@@ -76,15 +94,15 @@ class _Drawing:
         theme = self.theme
         item = self.scene.objects[part.number]
         name = f"object-{part.number}"
-        fill = faded(theme.text, GLASS) if opacity < 1.0 else look(item.material, theme)
-        title = name_of(self.scene, part.number)
+        fill = faded(theme.text, GLASS) if opacity < 1.0 else surface_look(item.material, theme)
+        title = self.scene.object_name(part.number)
         for k, face in enumerate(part.faces):
             for area in face:
                 width = CREASE if len(part.faces) > 1 else OUTLINE
                 self._area(name, area, fill, Stroke(theme.muted, width), title if k == 0 else "")
         checker = item.material.checker
         if opacity == 1.0 and checker:
-            other = look(replace(item.material, color=checker.color), theme)
+            other = surface_look(replace(item.material, color=checker.color), theme)
             between = _between(fill, other)
             for colored, areas in ((between, part.mingled), (other, part.checks)):
                 for area in areas:
@@ -102,7 +120,7 @@ class _Drawing:
     def _ray(self, line: RayLine) -> None:
         style, color = STYLES[line.kind], self.theme.ray(line.kind)
         name, title = f"ray-{line.row}", ray_title(self.tree, line.row)
-        strong = 1.8 if line.row == self.stage.current else 1.0
+        strong = 1.8 if line.row == self.step.current else 1.0
         slim = SLIM if line.kind == "shadow" else 1.0
         stroke = Stroke(color, strong * slim * style.width, line.dash)
         faint = Stroke(faded(color, FAINT), style.width, line.dash)
@@ -152,8 +170,8 @@ class _Drawing:
             ends[int(np.argmin(depths))] = ends[0] + share * (ends[1] - ends[0])
             places, _ = self.view.at(ends)
         piece = _pair(places)
-        inside = shares_within(piece, self.view.where)
-        return (along(piece, inside[0]), along(piece, inside[1])) if inside else None
+        inside = clip_shares(piece, self.view.where)
+        return (point_along(piece, inside[0]), point_along(piece, inside[1])) if inside else None
 
     # --- signs and labels ---------------------------------------------------------------------------------------------
 
@@ -187,7 +205,7 @@ class _Drawing:
         """Names of lights, of rays, the heaviest first, then of what these meet."""
         found: list[Named] = []
         for j, at in self.lights.items():
-            name = light_name(self.scene, j)
+            name = self.scene.light_name(j)
             found.append((frozenset(), self.names.label(f"light-{j}", name, [Spot(at)], self.theme.text)))
         nodes = self.tree.nodes
         rays = [line for line in self.lines if nodes["kind"][line.row] != SHADOW]
@@ -205,7 +223,7 @@ class _Drawing:
         for part in (*self.view.seen.opaque, *self.view.seen.glass):
             rows = frozenset(line.row for line in rays if nodes["object"][line.row] == part.number)
             if rows:
-                name = name_of(self.scene, part.number)
+                name = self.scene.object_name(part.number)
                 upon = _wide(part) > 1.1 * text_width(name, self.size)  # else the name would hide the thing
                 spots = [Spot(at, upon=True) for at in part.spots if upon]
                 if not upon or not self.names.fits(name, spots):
@@ -217,7 +235,7 @@ class _Drawing:
     def _along(self, name: str, label: str, piece: Piece) -> list[Spot]:
         """Upon a ray where it is long enough, else beside it."""
         upon = math.dist(*piece) > ROOMY * max(self.size, text_width(label, self.size))
-        places = [along(piece, share) for share in SPOTS]
+        places = [point_along(piece, share) for share in SPOTS]
         return [Spot(at, upon=True, spare=name) for at in places if upon] + [Spot(at) for at in places]
 
     def _ways_out(self, shadows: Sequence[RayLine]) -> list[Named]:
@@ -234,9 +252,9 @@ class _Drawing:
                 x, y = piece[1]
                 if min(x - left, right - x, y - top, bottom - y) < 0.5:
                     inner = max(0.0, 1.0 - 1.2 * self.size / max(1.0, math.dist(*piece)))
-                    ends.append(Spot(along(piece, inner)))
+                    ends.append(Spot(point_along(piece, inner)))
                     rows.add(line.row)
-            words = f"to {light_name(self.scene, j)}"
+            words = f"to {self.scene.light_name(j)}"
             marks = self.names.label(f"light-{j}", words, ends, self.theme.text)
             if marks:
                 found.append((frozenset(rows), marks))
@@ -248,11 +266,11 @@ def _wide(part: Part) -> float:
     return max(across) - min(across)
 
 
-def look(material: Material, theme: Theme) -> Color:
+def surface_look(material: Material, theme: Theme) -> Color:
     """A thing's own colour, paler: what its light would be, or grey where it only mirrors."""
     strength = min(1.0, material.ambient + material.diffuse)
     color = np.array(material.color) * strength + 0.55 * min(1.0, material.reflect)
-    encoded = np.array(as_shown(color)[:3])
+    encoded = np.array(display_color(color)[:3])
     if theme.mono:
         encoded = np.full(3, 0.55 + 0.45 * float(encoded @ LUMINANCE))
     r, g, b = ((1.0 - PALE) * encoded + PALE * np.array(theme.ground[:3])).tolist()

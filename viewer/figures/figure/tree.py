@@ -9,18 +9,30 @@ from collections.abc import Sequence
 import numpy as np
 
 from tracer.kernel.nodes import SHADOW
-from tracer.tree.raytree import RayTree, light_name
-from viewer.base.pictures import LUMINANCE, as_shown
+from tracer.tree.raytree import RayTree
+from viewer.base.srgb import LUMINANCE, display_color
 from viewer.base.theme import BLOCKED_DASH, STYLES, Color, Theme
 from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.labels import end_label, hit_label, ray_label, ray_title
 from viewer.figures.layout.folds import Fold
-from viewer.figures.layout.sizes import BARE_NOTE, LINE, MARGIN, NO_RAY, NOTE, PADDING, SIGN, SWATCH, edge_label
-from viewer.figures.layout.tree_plan import TreePlan
+from viewer.figures.layout.sizes import (
+    BARE_NOTE,
+    LINE,
+    MARGIN,
+    NO_RAY,
+    NOTE,
+    PADDING,
+    SIGN,
+    SWATCH,
+    TreeStyle,
+    edge_label,
+)
+from viewer.figures.layout.tree_plan import TreePlan, plan_tree
 from viewer.figures.legend import Entry, legend
-from viewer.figures.marks import HEIGHT, Box, Disc, Line, Mark, Point, Rectangle, Stroke, Text
-from viewer.figures.steps import Stage
+from viewer.figures.marks import HEIGHT, WIDTH, Box, Disc, Line, Mark, Point, Rectangle, Stroke, Text
+from viewer.figures.steps import Step
+from viewer.figures.subject import FigureStyle, Pages, Subject
 
 MOST_LIGHTS = 4  # whose names the legend has room for
 LIGHT_ENDS = {
@@ -31,10 +43,24 @@ LIGHT_ENDS = {
 }
 
 
-def tree_pages(plan: TreePlan, stages: Sequence[Stage], theme: Theme) -> list[list[Mark]]:
-    """A page a stage: of the plan's rows those that are there. What signs mean stands where no page has anything."""
-    drawn = [_Drawing(plan, stage, theme).marks for stage in stages]
-    left, right = plan.wanted.where
+WHERE = (0.0, WIDTH)  # left and right of the tree on the canvas
+
+
+def pages(subject: Subject, style: FigureStyle, where: tuple[float, float] = WHERE) -> Pages:
+    """The ray tree. No box moves from step to step."""
+    plan = plan_tree([step.tree for step in subject.steps], tree_style(style, where))
+    return plan_pages(plan, subject.steps, style.theme)
+
+
+def tree_style(style: FigureStyle, where: tuple[float, float] = WHERE) -> TreeStyle:
+    """The part of a figure's style that decides on the tree's layout."""
+    return TreeStyle(style.text_size, style.swatches, style.fold, where, style.eye, style.lights)
+
+
+def plan_pages(plan: TreePlan, steps: Sequence[Step], theme: Theme) -> Pages:
+    """A page a step: of the plan's rows those that are there. What signs mean stands where no page has anything."""
+    drawn = [_Drawing(plan, step, theme).marks for step in steps]
+    left, right = plan.style.where
     margin = MARGIN * plan.size
     where: Rectangle = (left + margin, margin, right - margin, HEIGHT - margin)
     signs_meant = legend(_entries(plan), [mark for marks in drawn for mark in marks], where, plan.size, theme)
@@ -42,15 +68,15 @@ def tree_pages(plan: TreePlan, stages: Sequence[Stage], theme: Theme) -> list[li
 
 
 class _Drawing:
-    def __init__(self, plan: TreePlan, stage: Stage, theme: Theme) -> None:
-        self.plan, self.stage, self.theme = plan, stage, theme
-        self.tree: RayTree = stage.tree
+    def __init__(self, plan: TreePlan, step: Step, theme: Theme) -> None:
+        self.plan, self.step, self.theme = plan, step, theme
+        self.tree: RayTree = step.tree
         self.size = plan.size
-        self.sideways = plan.wanted.eye == "left"
+        self.sideways = plan.style.eye == "left"
         self.marks: list[Mark] = []
-        rows = sorted(plan.rows & stage.rows)
+        rows = sorted(plan.rows & step.rows)
         hits = [i for i in rows if self.tree.nodes["kind"][i] != SHADOW]
-        folds = [fold for row, fold in sorted(plan.folds.items()) if row in stage.rows]
+        folds = [fold for row, fold in sorted(plan.folds.items()) if row in step.rows]
         self.marks += signs.eye(plan.places.eye, self.size, theme)
         for i in rows:
             self._stub(i) if self.tree.nodes["kind"][i] == SHADOW else self._edge(i)
@@ -86,7 +112,7 @@ class _Drawing:
         style, color = STYLES[kind], self.theme.ray(kind)
         start, leaves = self._leave(i)
         end = self._reach(i, self.plan.box[1])
-        strong = 1.8 if i == self.stage.current else 1.0
+        strong = 1.8 if i == self.step.current else 1.0
         label = self._edge_label(i, start, end, color)
         line = Line(
             f"ray-{i}",
@@ -128,7 +154,7 @@ class _Drawing:
         sign, text = self._side_by_side(at, label)
         start = (x + 0.6 * (sign[0] - x), y + 0.5 * self.plan.box[1])
         stop = (sign[0], at[1] - 0.5 * self.size)
-        strong = 1.8 if i == self.stage.current else 1.0
+        strong = 1.8 if i == self.step.current else 1.0
         self.marks.append(
             Line(
                 name,
@@ -150,7 +176,7 @@ class _Drawing:
     def _bar(self, i: int) -> None:
         """The refracted ray that total internal reflection does not let out."""
         at = self.plan.places.bars.get(i)
-        if at is None or not any(c in self.stage.rows for c in self.tree.children[i] if self.tree.kind(c) == "tir"):
+        if at is None or not any(c in self.step.rows for c in self.tree.children[i] if self.tree.kind(c) == "tir"):
             return
         x, y = self.plan.at[i]
         name, color = f"bar-{i}", self.theme.ray("refraction")
@@ -167,7 +193,7 @@ class _Drawing:
     def _box(self, i: int) -> None:
         name, at = f"hit-{i}", self.plan.at[i]
         background = self.tree.end(i) == "background"
-        stroke = Stroke(self.theme.text, 2.6 if i == self.stage.current else 1.4)
+        stroke = Stroke(self.theme.text, 2.6 if i == self.step.current else 1.4)
         if background:
             stroke = Stroke(self.theme.muted, 1.4, (3.0, 3.0))
         color = self.theme.text
@@ -176,9 +202,9 @@ class _Drawing:
             Box(name, at, self.plan.box, 0.28 * self.size, self.theme.panel, stroke, title=f"{words}, met by ray {i}")
         )
         middle = at
-        if self.plan.wanted.swatches:
+        if self.plan.style.swatches:
             left = at[0] - 0.5 * self.plan.box[0] + (PADDING + 0.5 * SWATCH) * self.size
-            if i in self.stage.summed:
+            if i in self.step.summed:
                 fill = swatch(self.tree, i, self.theme)
                 radius = 0.5 * self.size
                 self.marks.append(Disc(name, (left, at[1]), radius, fill, Stroke(self.theme.text, 1.0)))
@@ -213,7 +239,7 @@ class _Drawing:
     def _fold(self, fold: Fold) -> None:
         """Two lines: how many rays, how much of the weight; in a box of their own, or under the hit."""
         name = f"fold-{fold.row}"
-        many, share = fold.words(self.stage.rows, self.plan.inside)
+        many, share = fold.words(self.step.rows, self.plan.inside)
         if fold.under is not None:
             x, y = self._under(fold.under)
             for k, words in enumerate((many, share)):
@@ -236,7 +262,7 @@ def _entries(plan: TreePlan) -> list[Entry]:
     shadows = [i for i in plan.rows if tree.nodes["kind"][i] == SHADOW]
     ends = {"away" if tree.faces_away(i) else tree.end(i) or "" for i in shadows}
     entries += [Entry(end, words) for end, words in LIGHT_ENDS.items() if end in ends]
-    lights = [light_name(tree.scene, j) for j in range(len(tree.scene.lights))]
+    lights = [tree.scene.light_name(j) for j in range(len(tree.scene.lights))]
     if ends and len(lights) <= MOST_LIGHTS:  # each hit has a stub for each, in this order
         entries.append(Entry("lights", f"L: {', '.join(lights)}"))
     return entries
@@ -247,4 +273,4 @@ def swatch(tree: RayTree, i: int, theme: Theme) -> Color:
     light = tree.nodes["radiance"][i]
     if theme.mono:
         light = np.full(3, light @ LUMINANCE)
-    return as_shown(light)
+    return display_color(light)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
-from viewer.base.wording import shown
+from viewer.base.wording import format_number
 
 
 @dataclass(frozen=True)
@@ -28,10 +28,12 @@ class Fold:
 
 def percent(share: float) -> str:
     """Two digits, or what stands before the point."""
-    return f"{100.0 * share:.0f}" if share >= 0.0995 else shown(100.0 * share, 2)
+    return f"{100.0 * share:.0f}" if share >= 0.0995 else format_number(100.0 * share, 2)
 
 
-def folded(tree: RayTree, kept: set[int], last: int, lights: bool) -> tuple[set[int], dict[int, Fold], dict[int, int]]:
+def fold_branches(
+    tree: RayTree, kept: set[int], last: int, lights: bool
+) -> tuple[set[int], dict[int, Fold], dict[int, int]]:
     """(rows drawn each for itself, folds, folded row -> its fold): of a hit's branches that are not kept, one fold.
 
     `last` is the level below which there are no boxes; `lights`: whether rays to lights are drawn.

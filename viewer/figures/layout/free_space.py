@@ -11,7 +11,7 @@ CELL = 4.0  # points
 RANK = 90.0  # points nearer a corner must be to be preferred to the corner before it
 
 
-class Vacant:
+class FreeSpace:
     """A cell that anything touches is taken as a whole."""
 
     def __init__(self, where: Rectangle, marks: Iterable[Mark] = ()) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from viewer.base.theme import Color, Theme, faded
 from viewer.figures.font import text_box
-from viewer.figures.marks import Disc, Line, Mark, Piece, Point, Rectangle, Shape, Stroke, Text, shares_within
+from viewer.figures.marks import Disc, Line, Mark, Piece, Point, Rectangle, Shape, Stroke, Text, clip_shares
 
 BACKING, SOLID = 0.7, 0.9  # opacity of the paper behind a label, and where a line runs behind it
 RINGS = (0.75, 1.3, 2.0, 2.9, 3.8)  # how far from its spot a name may stand, in sizes of the text
@@ -25,7 +25,7 @@ class Spot:
     spare: str = ""
 
 
-class Names:
+class LabelPlacer:
     """What is taken already, and what had better stay free."""
 
     def __init__(self, where: Rectangle, size: float, theme: Theme) -> None:
@@ -50,7 +50,7 @@ class Names:
                 box = text_box(at, content, self.size, anchor)
                 if not self.free(box):
                     continue
-                crossed = sum(way != spot.spare and shares_within(p, box) is not None for way, p in self.ways)
+                crossed = sum(way != spot.spare and clip_shares(p, box) is not None for way, p in self.ways)
                 if best is None or (crossed, *cost, order) < best[0]:
                     best, ring = ((crossed, *cost, order), at, anchor, box, spot), cost[0]
         if best is None or best[0][0] > most:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.figures.layout.sizes import BOX, LINE, MARGIN, NOTE, STUB, Sizes
-from viewer.figures.layout.tidy_tree import Layout, Room, layout
+from viewer.figures.layout.tidy_tree import Layout, Spacing, tidy_layout
 from viewer.figures.marks import HEIGHT, Point
 
 # In sizes of the text.
@@ -38,7 +38,7 @@ class Places:
 
 
 @dataclass(frozen=True)
-class Task:
+class LayoutTask:
     """What is to be placed: these rows and boxes of folds, with text of that size between that left and right."""
 
     tree: RayTree
@@ -74,7 +74,7 @@ def _room_below(size: float, hung: bool) -> float:
     return HEIGHT - _first(size) - (0.5 * BOX + STUB + NOTE + LINE * hung + 0.5 + MARGIN) * size
 
 
-def downwards(task: Task, anyhow: bool) -> Places | None:
+def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
     """None where it does not fit."""
     tree, size, sizes, where = task.tree, task.size, task.sizes, task.where
     margin, gap = MARGIN * size, GAP * size
@@ -82,8 +82,8 @@ def downwards(task: Task, anyhow: bool) -> Places | None:
     stub = sizes.slot / unit
     first, free, levels = _first(size), _room_below(size, task.hung), task.levels
     crowded = CLEAR * size * levels > free
-    room = Room(0.5, 0.5, stub, 0.5 * stub, sides=True, passes=0.9, crowded=crowded, bars=True)
-    laid = layout(tree, {*task.rows, *task.folds}, room)
+    room = Spacing(0.5, 0.5, stub, 0.5 * stub, sides=True, passes=0.9, crowded=crowded, bars=True)
+    laid = tidy_layout(tree, {*task.rows, *task.folds}, room)
     rim = (where[0] + margin - 0.5 * gap, where[1] - margin + 0.5 * gap)
     across = _across(laid, (0.5, 0.5), unit, rim)
     if across is None or PITCH * size * levels > free:
@@ -114,14 +114,14 @@ def _room_right(sizes: Sizes, size: float, where: tuple[float, float]) -> float:
     return where[1] - where[0] - (2.0 * MARGIN + EYE_WIDE + FIRST_RIGHT) * size - sizes.column
 
 
-def rightwards(task: Task, anyhow: bool) -> Places | None:
+def place_rightwards(task: LayoutTask, anyhow: bool) -> Places | None:
     """None where it does not fit. Reflected rays go up, refracted ones down."""
     tree, size, sizes, where = task.tree, task.size, task.sizes, task.where
     margin, kinds = MARGIN * size, tree.nodes["kind"]
     unit = sizes.up + sizes.down + GAP_BELOW * size
     extent = ((sizes.up + 0.5 * GAP_BELOW * size) / unit, (sizes.down + 0.5 * GAP_BELOW * size) / unit)
     hits = {i for i in task.rows if kinds[i] != SHADOW}
-    laid = layout(tree, hits | set(task.folds), Room(*extent, 0.0, 0.0))
+    laid = tidy_layout(tree, hits | set(task.folds), Spacing(*extent, 0.0, 0.0))
     rim = (margin - 0.5 * GAP_BELOW * size, HEIGHT - margin + 0.5 * GAP_BELOW * size)
     across = _across(laid, extent, unit, rim)
     free, levels = _room_right(sizes, size, where), task.levels

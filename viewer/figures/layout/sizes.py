@@ -30,7 +30,7 @@ LONG, SHORT = 24, 14  # characters of a name, where there is room for it and whe
 
 
 @dataclass(frozen=True)
-class Wanted:
+class TreeStyle:
     """What is asked of a plan: `fold` is the weight below which branches are folded in any case."""
 
     size: float  # of the text, in points
@@ -58,10 +58,10 @@ class Sizes:
         rows: Collection[int],
         folds: dict[int, Fold],
         inside: dict[int, int],
-        wanted: Wanted,
+        style: TreeStyle,
     ) -> "Sizes":
         """Of all that stands in, over or under any box at any step, the deepest last."""
-        tree, size = trees[-1], wanted.size
+        tree, size = trees[-1], style.size
         kinds = tree.nodes["kind"]
         names, loose, stubs, shares = [""], [""], [""], [""]
         hung = {fold.under for fold in folds.values()}
@@ -70,7 +70,7 @@ class Sizes:
             if kinds[i] == SHADOW:
                 stubs.append(ray_label(tree, i))
                 continue
-            names.append(name_in_box(tree, i, wanted.longest))
+            names.append(name_in_box(tree, i, style.longest))
             loose.append(edge_label(tree, i))
             notes = [end_label(step, i) for step in trees if i < len(step)]
             loose += notes
@@ -85,7 +85,7 @@ class Sizes:
             shares += fold.words(range(len(tree)), inside)
         around = 2 * PADDING * size
         widest = max(
-            _widest(names, size) + around + SWATCH * size * wanted.swatches,
+            _widest(names, size) + around + SWATCH * size * style.swatches,
             _widest(shares, size) + around,
             _widest(loose, size),
         )

@@ -14,7 +14,7 @@ from tracer.tree.raytree import RayTree
 
 
 @dataclass(frozen=True)
-class Room:
+class Spacing:
     """What a node and its stubs take, in node widths."""
 
     left: float  # of a node's middle
@@ -29,7 +29,7 @@ class Room:
     bars: bool = False  # whether total internal reflection has a stub for the ray that does not go on
 
 
-NAMES_BESIDE = Room(left=0.32, right=0.92, stub_gap=0.32, stub_half=0.16)
+NAMES_BESIDE = Spacing(left=0.32, right=0.92, stub_gap=0.32, stub_half=0.16)
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class _Subtree:
     right: list[float]
 
 
-def layout(tree: RayTree, rows: set[int], room: Room = NAMES_BESIDE) -> Layout:
+def tidy_layout(tree: RayTree, rows: set[int], room: Spacing = NAMES_BESIDE) -> Layout:
     """Places of these rows (with every row its parent must be there); the root at x = 0."""
     subtrees: dict[int, _Subtree] = {}
     for i in sorted(rows, reverse=True):
@@ -70,7 +70,7 @@ def layout(tree: RayTree, rows: set[int], room: Room = NAMES_BESIDE) -> Layout:
     )
 
 
-def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtree], room: Room) -> _Subtree:
+def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtree], room: Spacing) -> _Subtree:
     """The subtree of row i from those of the rays it sends out, which are used up."""
     kinds = tree.nodes["kind"]
     stubs = [child for child in children if kinds[child] == SHADOW]
@@ -132,7 +132,7 @@ def _apart(subtrees: list[_Subtree]) -> list[float]:
     return shifts
 
 
-def _stub_places(count: int, ray_left: bool, ray_right: bool, room: Room) -> list[float]:
+def _stub_places(count: int, ray_left: bool, ray_right: bool, room: Spacing) -> list[float]:
     """Where the stubs to the lights hang: in the middle, or on the side where no ray goes."""
     if ray_left != ray_right and not room.sides:
         sign = 1.0 if ray_left else -1.0
@@ -140,7 +140,7 @@ def _stub_places(count: int, ray_left: bool, ray_right: bool, room: Room) -> lis
     return [room.stub_gap * (k - 0.5 * (count - 1)) for k in range(count)]
 
 
-def with_parents_only(parents: np.ndarray, wanted: set[int]) -> set[int]:
+def closed_under_parents(parents: np.ndarray, wanted: set[int]) -> set[int]:
     """Rows whose every ancestor is wanted too: a branch that is switched off takes what hangs on it along."""
     kept: set[int] = set()
     for i in sorted(wanted):

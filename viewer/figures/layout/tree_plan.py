@@ -11,9 +11,16 @@ from dataclasses import dataclass, replace
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
-from viewer.figures.layout.folds import Fold, folded
-from viewer.figures.layout.placing import Places, Task, downwards, levels_down, levels_right, rightwards
-from viewer.figures.layout.sizes import EDGE_LABEL, FOLD, SHORT, STUB, Sizes, Wanted, name_in_box
+from viewer.figures.layout.folds import Fold, fold_branches
+from viewer.figures.layout.placing import (
+    LayoutTask,
+    Places,
+    levels_down,
+    levels_right,
+    place_downwards,
+    place_rightwards,
+)
+from viewer.figures.layout.sizes import EDGE_LABEL, FOLD, SHORT, STUB, Sizes, TreeStyle, name_in_box
 from viewer.figures.marks import Point
 
 SMALLEST = 8.0  # points: of the text that may be asked for
@@ -25,7 +32,7 @@ class TreePlan:
     """Places in points. `rows` are drawn each for itself, `inside` says in which fold others are."""
 
     tree: RayTree  # the deepest
-    wanted: Wanted
+    style: TreeStyle
     rows: frozenset[int]
     folds: dict[int, Fold]  # by the row where they stand, or would
     inside: dict[int, int]  # a folded row -> the row of its fold
@@ -34,7 +41,7 @@ class TreePlan:
 
     @property
     def size(self) -> float:
-        return self.wanted.size
+        return self.style.size
 
     @property
     def at(self) -> dict[int, Point]:
@@ -56,86 +63,88 @@ class TreePlan:
         return 0.5 * self.box[1] + EDGE_LABEL * self.size
 
     def name(self, i: int) -> str:
-        return name_in_box(self.tree, i, self.wanted.longest)
+        return name_in_box(self.tree, i, self.style.longest)
 
 
-def plan_tree(trees: Sequence[RayTree], wanted: Wanted) -> TreePlan:
+def plan_tree(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
     """The plan for these steps of one tree, the deepest last; names are cut where that lets more rays in."""
-    long = _plan(trees, wanted)
+    long = _plan(trees, style)
     if all(len(long.name(i)) <= SHORT for i in long.rows):
         return long
-    short = _plan(trees, replace(wanted, longest=SHORT))
+    short = _plan(trees, replace(style, longest=SHORT))
     return short if len(short.rows) > len(long.rows) else long
 
 
-def fitting_size(trees: Sequence[RayTree], wanted: Wanted) -> float | None:
+def fitting_size(trees: Sequence[RayTree], style: TreeStyle) -> float | None:
     """The largest text, in whole points, with which all rays have room; None if not even the smallest does that."""
     rays = {i for i in range(len(trees[-1])) if trees[-1].nodes["kind"][i] != SHADOW}
     deepest = int(trees[-1].nodes["depth"].max())
-    for size in range(int(wanted.size), int(SMALLEST) - 1, -1):
-        asked = replace(wanted, size=float(size), longest=SHORT)
+    for size in range(int(style.size), int(SMALLEST) - 1, -1):
+        asked = replace(style, size=float(size), longest=SHORT)
         if deepest <= _last_level(trees, asked) and _try(trees, rays, asked, deepest):
             return float(size)
     return None
 
 
-def _plan(trees: Sequence[RayTree], wanted: Wanted) -> TreePlan:
+def _plan(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
     """With as many levels as there may be, or with one less where that shows more of the weight."""
-    last = _last_level(trees, wanted)
+    last = _last_level(trees, style)
     weights = trees[-1].nodes["weight"].max(axis=1)
     hits = trees[-1].nodes["kind"] != SHADOW
-    plans = [_plan_of(trees, wanted, levels) for levels in range(last, max(last - 2, -1), -1)]
+    plans = [_plan_of(trees, style, levels) for levels in range(last, max(last - 2, -1), -1)]
     return max(plans, key=lambda plan: float(sum(weights[i] for i in sorted(plan.rows) if hits[i])))
 
 
-def _plan_of(trees: Sequence[RayTree], wanted: Wanted, last: int) -> TreePlan:
+def _plan_of(trees: Sequence[RayTree], style: TreeStyle, last: int) -> TreePlan:
     tree = trees[-1]
     weights, kinds = tree.nodes["weight"].max(axis=1), tree.nodes["kind"]
-    rays = [i for i in range(len(tree)) if kinds[i] != SHADOW and (weights[i] >= wanted.fold or i == 0)]
+    rays = [i for i in range(len(tree)) if kinds[i] != SHADOW and (weights[i] >= style.fold or i == 0)]
     rays = {i for i in rays if tree.nodes["depth"][i] <= last}
     heaviest = sorted(rays, key=lambda i: (-weights[i], i))
     low, high = 0, len(heaviest)
-    best = _try(trees, set(heaviest), wanted, last)
+    best = _try(trees, set(heaviest), style, last)
     if best is not None:
         low = high
     while low + 1 < high:  # the most rays that fit: `low` do, `high` do not
         middle = (low + high) // 2
-        found = _try(trees, set(heaviest[:middle]), wanted, last)
+        found = _try(trees, set(heaviest[:middle]), style, last)
         if found is None:
             high = middle
         else:
             low, best = middle, found
     if best is None:  # even the first hit alone is too large: it is drawn all the same
-        return _try(trees, {0}, wanted, 0, anyhow=True)  # type: ignore[return-value]
+        return _try(trees, {0}, style, 0, anyhow=True)  # type: ignore[return-value]
     kept = set(heaviest[:low])
     # A branch of one ray takes no more room as itself than as a fold; and where one has no room, a lighter one may.
     single = sorted(r for fold in best.folds.values() for r in fold.roots if not tree.children[r] and r in rays)
     parents = tree.nodes["parent"]
     for i in (*single, *heaviest[low : low + MORE]):
         if i not in kept and int(parents[i]) in kept:
-            found = _try(trees, kept | {i}, wanted, last)
+            found = _try(trees, kept | {i}, style, last)
             if found is not None:
                 best = found
                 kept.add(i)
     return best
 
 
-def _last_level(trees: Sequence[RayTree], wanted: Wanted) -> int:
+def _last_level(trees: Sequence[RayTree], style: TreeStyle) -> int:
     """Below which there are no boxes."""
     deepest = int(trees[-1].nodes["depth"].max())
-    if wanted.eye == "left":
-        return levels_right(Sizes.of(trees, range(len(trees[-1])), {}, {}, wanted), wanted.size, wanted.where)
-    whole = levels_down(wanted.size, hung=False)
-    return whole if deepest <= whole else max(0, levels_down(wanted.size, hung=True))
+    if style.eye == "left":
+        return levels_right(Sizes.of(trees, range(len(trees[-1])), {}, {}, style), style.size, style.where)
+    whole = levels_down(style.size, hung=False)
+    return whole if deepest <= whole else max(0, levels_down(style.size, hung=True))
 
 
-def _try(trees: Sequence[RayTree], kept: set[int], wanted: Wanted, last: int, anyhow: bool = False) -> TreePlan | None:
+def _try(
+    trees: Sequence[RayTree], kept: set[int], style: TreeStyle, last: int, anyhow: bool = False
+) -> TreePlan | None:
     """The plan with these rays and all others folded; None where it does not fit onto the canvas."""
-    rows, folds, inside = folded(trees[-1], kept, last, wanted.lights)
-    sizes = Sizes.of(trees, rows, folds, inside, wanted)
+    rows, folds, inside = fold_branches(trees[-1], kept, last, style.lights)
+    sizes = Sizes.of(trees, rows, folds, inside, style)
     boxes = {row for row, fold in folds.items() if fold.under is None}
-    task = Task(trees[-1], rows, boxes, sizes, wanted.size, wanted.where, hung=len(boxes) < len(folds))
-    places = (rightwards if wanted.eye == "left" else downwards)(task, anyhow)
+    task = LayoutTask(trees[-1], rows, boxes, sizes, style.size, style.where, hung=len(boxes) < len(folds))
+    places = (place_rightwards if style.eye == "left" else place_downwards)(task, anyhow)
     if places is None:
         return None
-    return TreePlan(trees[-1], wanted, frozenset(rows), folds, inside, places, (sizes.column, sizes.box))
+    return TreePlan(trees[-1], style, frozenset(rows), folds, inside, places, (sizes.column, sizes.box))

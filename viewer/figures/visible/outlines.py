@@ -10,7 +10,7 @@ import contourpy
 import numpy as np
 
 from viewer.figures.marks import Point, Rectangle
-from viewer.figures.visible.rings import sharper, simpler, straighter
+from viewer.figures.visible.rings import sharpen_corners, simplify, straighten
 
 FINE = 2  # rays a point across and down: an outline is sure to a quarter of a point
 SMALL = 6.0  # square points: smaller spots are noise
@@ -35,7 +35,7 @@ class Area:
         return crossings % 2 == 1
 
 
-def places_of(numbers: np.ndarray, count: int) -> list[np.ndarray]:
+def pixels_of_numbers(numbers: np.ndarray, count: int) -> list[np.ndarray]:
     """Where in a picture each of the numbers 0 to count - 1 stands, as places in its flat order."""
     order = np.argsort(numbers, axis=None, kind="stable")
     ends = np.searchsorted(numbers.flat[order], np.arange(count + 1))
@@ -61,7 +61,7 @@ def window_of(places: np.ndarray, shape: tuple[int, int], where: Rectangle) -> t
     return (down, across), part
 
 
-def areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
+def outline_areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
     """The outlines of what is true, in points of the canvas."""
     if not mask.any():
         return ()
@@ -77,7 +77,7 @@ def areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
     for points, offsets in zip(*maker.filled(0.5, 2.0), strict=True):
         clipped = np.clip(points, 0.0, (width, height))
         fine = [clipped[a:b] for a, b in itertools.pairwise(offsets)]
-        rings = [sharper(straighter(simpler(ring)), ring) for ring in fine]
+        rings = [sharpen_corners(straighten(simplify(ring)), ring) for ring in fine]
         rings = [np.clip(ring, 0.0, (width, height)) + where[:2] for ring in rings]
         rings = [ring for ring in rings if len(ring) > 2 and _size(ring) >= SMALL]
         if rings:
@@ -86,7 +86,7 @@ def areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
     return tuple(found)
 
 
-def too_fine(squares: np.ndarray, within: np.ndarray) -> np.ndarray:
+def is_too_fine(squares: np.ndarray, within: np.ndarray) -> np.ndarray:
     """Where the squares of checkers are lower or narrower than SQUARE: by how often they begin and end nearby."""
     dense = np.zeros(squares.shape, bool)
     for axis in (0, 1):
@@ -108,7 +108,7 @@ def _about(values: np.ndarray, half: int) -> np.ndarray:
     return sums[np.ix_(bottom, right)] - sums[np.ix_(top, right)] - sums[np.ix_(bottom, left)] + sums[np.ix_(top, left)]
 
 
-def spots_of(mask: np.ndarray, where: Rectangle) -> tuple[Point, ...]:
+def label_spots(mask: np.ndarray, where: Rectangle) -> tuple[Point, ...]:
     """Places all over what is true: its rim is taken off until nothing is left, and the last ones come first."""
     found: list[Point] = []
     left = mask[:: FINE * COARSE, :: FINE * COARSE]

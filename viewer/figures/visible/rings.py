@@ -13,7 +13,7 @@ SIDE, CORNER = 20.0, 16.0  # two edges so long, joined by a way so short, meet i
 ROUNDED = 1.0  # if the way keeps so close to them
 
 
-def simpler(ring: np.ndarray) -> np.ndarray:
+def simplify(ring: np.ndarray) -> np.ndarray:
     """A closed outline with fewer corners, nowhere farther off than STRAIGHT, along long edges than LEVEL
     (Ramer 1972; Douglas & Peucker 1973)."""
     ring = ring[:-1] if len(ring) > 1 and (ring[0] == ring[-1]).all() else ring
@@ -38,7 +38,7 @@ def simpler(ring: np.ndarray) -> np.ndarray:
     return ring[sorted(kept)]
 
 
-def straighter(ring: np.ndarray) -> np.ndarray:
+def straighten(ring: np.ndarray) -> np.ndarray:
     """A closed outline without the corners that only bend a long edge, by no more than LEVEL."""
     kept = [(float(x), float(y)) for x, y in ring]
     at = idle = 0
@@ -54,7 +54,7 @@ def straighter(ring: np.ndarray) -> np.ndarray:
     return np.array(kept)
 
 
-def sharper(ring: np.ndarray, fine: np.ndarray) -> np.ndarray:
+def sharpen_corners(ring: np.ndarray, fine: np.ndarray) -> np.ndarray:
     """A closed outline with its corners where the edges on both sides of them meet; `fine` is it before it was simpler.
 
     An edge is the line that fits what is between its ends best: the ends themselves are rounded.

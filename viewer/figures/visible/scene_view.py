@@ -12,7 +12,7 @@ from tracer.kernel.world import World
 from viewer.base.orbit import Frame, Orbit, project
 from viewer.figures.marks import Rectangle
 from viewer.figures.ray_lines import RayLine
-from viewer.figures.visible.scenery import blockers, camera_of, scenery
+from viewer.figures.visible.scenery import occluder_world, orbit_camera, visible_parts
 
 PIECES = 24  # in which a ray is asked for whether it is seen; borders are then halved
 HALVINGS = 7
@@ -33,11 +33,11 @@ class SceneView:
     def __init__(self, world: World, orbit: Orbit, where: Rectangle) -> None:
         self.world, self.where = world, where
         self.frame = Frame.of(world)
-        self.camera = camera_of(orbit, self.frame)
+        self.camera = orbit_camera(orbit, self.frame)
         self.size = (where[2] - where[0], where[3] - where[1])
         self.matrix = orbit.matrix(self.size[0] / self.size[1])
-        self.seen = scenery(world, self.camera, where)
-        self.blockers = blockers(world, self.camera)
+        self.seen = visible_parts(world, self.camera, where)
+        self.blockers = occluder_world(world, self.camera)
         self.stretches: dict[tuple, list[Stretch]] = {}
 
     def at(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -13,23 +13,23 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import tracer
-from tracer.formulas.vector import rescale, unit
 from tracer.kernel.world import World
 from tracer.scene import Background, Camera, Checker, Image, Light, Material, Object, Scene, Tracing
-from tracer.shapes.box import Box
-from tracer.shapes.disc import Disc
-from tracer.shapes.mesh import Mesh
-from tracer.shapes.planar import unit_normal
-from tracer.shapes.plane import Plane
-from tracer.shapes.polygon import Polygon
-from tracer.shapes.triangle import Triangle
+from tracer.shapes.shape import Shape
 from viewer.base.orbit import FOV, Frame, Orbit
 from viewer.figures.marks import Point, Rectangle
-from viewer.figures.visible.outlines import FINE, SMALL, Area, areas, places_of, spots_of, too_fine, window_of
+from viewer.figures.visible.outlines import (
+    FINE,
+    SMALL,
+    Area,
+    is_too_fine,
+    label_spots,
+    outline_areas,
+    pixels_of_numbers,
+    window_of,
+)
 
 DARKER = (0.75, 0.45)  # cosines below which a surface is a shade darker
-FACETS = 400  # triangles of a cut stone whose edges are drawn; finer ones are round
-FLAT = (Plane, Polygon, Triangle, Disc)
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Scenery:
     glass: tuple[Part, ...]  # before all that is opaque; what is behind it is seen through it
 
 
-def camera_of(orbit: Orbit, frame: Frame) -> Camera:
+def orbit_camera(orbit: Orbit, frame: Frame) -> Camera:
     """The 3D view's eye as a camera of the scene."""
 
     def outside(place: np.ndarray) -> tuple[float, float, float]:
@@ -68,8 +68,9 @@ def solid_objects(world: World, camera: Camera) -> list[int]:
     for k, item in enumerate(world.scene.objects):
         if item.material.transmit > 0.0:
             continue
-        if isinstance(item.shape, FLAT):
-            from_behind = _side(item, eye) * _side(item, own) < 0.0
+        if (plane := item.shape.plane()) is not None:
+            point, n = np.array(plane[0]), np.array(plane[1])
+            from_behind = np.sign((eye - point) @ n) * np.sign((own - point) @ n) < 0.0
         else:
             from_behind = item.shape.contains(own) and not item.shape.contains(eye)
         if not from_behind:
@@ -77,19 +78,7 @@ def solid_objects(world: World, camera: Camera) -> list[int]:
     return found
 
 
-def _side(item: Object, eye: np.ndarray) -> float:
-    """On which side of a flat object an eye is: the sign."""
-    match item.shape:
-        case Plane(point=point, normal=normal) | Disc(center=point, normal=normal):
-            n = np.array(unit(rescale(normal)))
-        case Polygon(vertices=corners) | Triangle(vertices=corners):
-            point, n = corners[0], unit_normal(np.array(corners, float))
-        case _:
-            return 0.0
-    return float(np.sign((eye - np.array(point)) @ n))
-
-
-def scenery(world: World, camera: Camera, where: Rectangle) -> Scenery:
+def visible_parts(world: World, camera: Camera, where: Rectangle) -> Scenery:
     """What is seen within this rectangle of the canvas."""
     objects = world.scene.objects
     clear = [k for k, item in enumerate(objects) if item.material.transmit > 0.0]
@@ -114,7 +103,7 @@ def _parts(
     objects: Sequence[Object], seen: Sequence[int], camera: Camera, where: Rectangle, wanted: Sequence[int]
 ) -> tuple[Part, ...]:
     """The wanted of these objects; all of `seen` hide one another."""
-    faces = [(k, face) for k in seen for face in _faces(objects[k])]
+    faces = [(k, face) for k in seen for face in map(Face, objects[k].shape.faces())]
     if not faces:
         return ()
     paint = [
@@ -134,11 +123,11 @@ def _parts(
     )
     pixels = tracer.render(tracer.prepare(scene)).pixels
     numbers = np.rint(pixels[..., 0] * len(faces)).astype(np.int32) - 1
-    places = places_of(numbers, len(faces))
+    places = pixels_of_numbers(numbers, len(faces))
     cosine = pixels[..., 1].copy()
     for number, (_, face) in enumerate(faces):  # a flat face is of one shade
         here = places[number]
-        if face.flat and len(here):
+        if face.is_flat and len(here):
             cosine.flat[here] = cosine.flat[here].mean()
     own: dict[int, list[int]] = {}
     for number, (k, _) in enumerate(faces):
@@ -150,15 +139,15 @@ def _parts(
             continue
         window, there = window_of(here, numbers.shape, where)
         ours = numbers[window]
-        spots = [areas(ours == number, there) for number in own[k]]
+        spots = [outline_areas(ours == number, there) for number in own[k]]
         if any(spots):
             mine = np.isin(ours, own[k])
-            shades = tuple(areas(mine & (cosine[window] < below), there) for below in DARKER)
+            shades = tuple(outline_areas(mine & (cosine[window] < below), there) for below in DARKER)
             other = mine & (pixels[(*window, 2)] < 0.5)
-            fine = mine & too_fine(other, mine) if other.any() else other
-            checks, mingled = areas(other & ~fine, there), areas(fine, there)
+            fine = mine & is_too_fine(other, mine) if other.any() else other
+            checks, mingled = outline_areas(other & ~fine, there), outline_areas(fine, there)
             seen_faces = tuple(spot for spot in spots if spot)
-            found.append(Part(k, seen_faces, checks, mingled, shades, spots_of(mine, there)))
+            found.append(Part(k, seen_faces, checks, mingled, shades, label_spots(mine, there)))
     return tuple(found)
 
 
@@ -173,48 +162,14 @@ def _numbered(red: float, item: Object, shape: object) -> Material:
 class Face:
     """What of an object has an outline of its own."""
 
-    shapes: tuple
-    flat: bool
+    shapes: tuple[Shape, ...]
+
+    @property
+    def is_flat(self) -> bool:
+        return self.shapes[0].plane() is not None
 
 
-def _faces(item: Object) -> list[Face]:
-    """Boxes and cut stones face by face, for their edges are to be seen; any other shape as it is."""
-    match item.shape:
-        case Box():
-            return _box_faces(item.shape)
-        case Mesh():
-            corners = item.shape.placed()
-            if len(corners) <= FACETS and item.shape.smooth() is None:
-                return _facets(corners)
-    return [Face((item.shape,), isinstance(item.shape, FLAT))]
-
-
-def _box_faces(box: Box) -> list[Face]:
-    low, high = np.array(box.min), np.array(box.max)
-    found = []
-    for axis in range(3):
-        u, v = (axis + 1) % 3, (axis + 2) % 3
-        for end in (low, high):
-            corners = np.tile(end, (4, 1))
-            corners[:, u] = (low[u], high[u], high[u], low[u])
-            corners[:, v] = (low[v], low[v], high[v], high[v])
-            found.append(Face((Polygon(tuple(tuple(corner) for corner in corners.tolist())),), True))
-    return found
-
-
-def _facets(corners: np.ndarray) -> list[Face]:
-    """Triangles (n, 3, 3) by the plane they lie in."""
-    n = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    size = np.linalg.norm(n, axis=1, keepdims=True)
-    n, corners = (n / np.where(size > 0.0, size, 1.0))[size[:, 0] > 0.0], corners[size[:, 0] > 0.0]
-    extent = float(np.abs(corners - corners[0, 0]).max()) or 1.0
-    planes = np.c_[n, ((corners[:, 0] - corners[0, 0]) * n).sum(axis=1) / extent]
-    _, which = np.unique(np.round(planes, 5) + 0.0, axis=0, return_inverse=True)
-    groups = [corners[which.ravel() == k] for k in range(int(which.max()) + 1)]
-    return [Face(tuple(Triangle(tuple(map(tuple, t))) for t in group.tolist()), True) for group in groups]
-
-
-def blockers(world: World, camera: Camera) -> World | None:
+def occluder_world(world: World, camera: Camera) -> World | None:
     """The scene of what can hide a ray from the figure's eye."""
     kept = tuple(world.scene.objects[k] for k in solid_objects(world, camera))
     return tracer.prepare(replace(world.scene, objects=kept, camera=camera)) if kept else None

@@ -1,8 +1,9 @@
 """The ray tree as a graph for Graphviz: hits are nodes, rays are edges, dashed where they run to a light."""
 
 from tracer.kernel.nodes import SHADOW
+from tracer.tree.digits import number_text, rgb_text
 from tracer.tree.raytree import RayTree
-from tracer.tree.text import end_reason, number_text, rgb_text
+from tracer.tree.text import end_reason
 
 
 def write_dot(tree: RayTree) -> str:

@@ -4,7 +4,7 @@ import datetime
 import math
 from collections.abc import Sequence
 
-from viewer.base.theme import Color, in_bytes
+from viewer.base.theme import Color, rgb_bytes
 from viewer.figures.font import BASELINE, FAMILY, FONT, boxed
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
@@ -109,7 +109,7 @@ class _Page:
     def _text(self, text: Text) -> None:
         with self.pdf.local_context(fill_opacity=text.color[3]):
             self.pdf.set_font(FAMILY, size=text.size)
-            self.pdf.set_text_color(*in_bytes(text.color))
+            self.pdf.set_text_color(*rgb_bytes(text.color))
             self.pdf.text(text.box()[0], text.at[1] + BASELINE * text.size, boxed(text.content))
 
     def _point(self, p: Point) -> str:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from viewer.base.files import Unusable
-from viewer.base.theme import Arrow, Color, in_bytes
+from viewer.base.theme import Arrow, Color, rgb_bytes
 from viewer.figures.font import ANCHORS, FAMILY, text_width
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
 
@@ -196,7 +196,7 @@ def _paint(fill: Any, color: Color) -> None:
 def _rgb(color: Color) -> Any:
     from pptx.dml.color import RGBColor
 
-    return RGBColor(*in_bytes(color))
+    return RGBColor(*rgb_bytes(color))
 
 
 def _element(name: str, **attributes: str) -> Any:

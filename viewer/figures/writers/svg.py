@@ -2,7 +2,7 @@
 
 from xml.sax.saxutils import escape, quoteattr
 
-from viewer.base.theme import Color, in_bytes
+from viewer.base.theme import Color, rgb_bytes
 from viewer.figures.font import BASELINE, FALLBACK, FAMILY
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
@@ -83,7 +83,7 @@ def _stroke(stroke: Stroke | None) -> str:
 
 
 def _paint(what: str, color: Color) -> str:
-    r, g, b = in_bytes(color)
+    r, g, b = rgb_bytes(color)
     opacity = f' {what}-opacity="{_n(color[3])}"' if color[3] < 1.0 else ""
     return f' {what}="#{r:02X}{g:02X}{b:02X}"{opacity}'
 

@@ -3,7 +3,7 @@
 Alone the class `standalone` is loaded; where a document class is loaded already, only the picture is read.
 """
 
-from viewer.base.theme import Color, in_bytes
+from viewer.base.theme import Color, rgb_bytes
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
 
@@ -104,7 +104,7 @@ def _options(fill: Color | None, stroke: Stroke | None) -> str:
 
 
 def _ink(what: str, color: Color) -> str:
-    r, g, b = in_bytes(color)
+    r, g, b = rgb_bytes(color)
     opacity = f",{what} opacity={_n(color[3])}" if color[3] < 1.0 else ""
     return f"{what}={{rgb,255:red,{r};green,{g};blue,{b}}}{opacity}"
 

@@ -1,0 +1,32 @@
+"""Compilation of the kernels ahead of their use."""
+
+import time
+
+from tracer.compile.jit import is_cached, is_compiled
+from tracer.kernel.entry import trace_pixels
+from tracer.kernel.world import prepare
+from tracer.scene import Material, Object, Scene
+from tracer.shapes.sphere import Sphere
+from tracer.tree.trace import trace
+
+BALL = Scene((Object(Sphere((0.0, 0.0, -1.0), 0.5), Material()),))
+
+
+def are_kernels_cached() -> bool:
+    """Whether the kernels are on disk from an earlier start, so that nothing needs to be compiled."""
+    return is_cached(trace_pixels)
+
+
+def warm_up() -> float:
+    """Compile the kernels of images and trees, or load them from disk. Returns the seconds it took; 0 if ready."""
+    if is_compiled(trace_pixels):
+        return 0.0
+    began = time.perf_counter()
+    trace(prepare(BALL), ray=((0.0, 0.0, 0.0), (0.0, 0.0, -1.0)))
+    return time.perf_counter() - began
+
+
+def fill_cache() -> None:
+    """Compile every kernel that a scene may need, for later starts to load."""
+    warm_up()
+    prepare(BALL, hierarchy=True)

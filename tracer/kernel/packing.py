@@ -1,0 +1,117 @@
+"""From a scene to the rows that kernels read. Surfaces are in the file's order: their ids decide ties."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tracer.compile.rows import Rows, as_rows
+from tracer.formulas.vector import Vector, cross, rescale, unit
+from tracer.kernel.arrays import LIGHT, MATERIAL, OBJECT, LightRow, MaterialRow, ObjectRow
+from tracer.scene import Material, Object, Scene, Shape
+from tracer.shapes import CODES
+from tracer.shapes.surface_row import SURFACE, SurfaceRow
+
+INFINITE = np.array([[[-np.inf] * 3, [np.inf] * 3]])  # stands for the bounds of an infinite shape
+
+
+class Surfaces(NamedTuple):
+    """All surfaces of a scene."""
+
+    rows: Rows[SurfaceRow]
+    corners: np.ndarray  # (n, 3) of polygons
+    smooth: np.ndarray  # (n, 3, 3) vertex normals
+    bounds: np.ndarray  # (n, 2, 3)
+
+    def triangles(self) -> np.ndarray:
+        """The corners (n, 3, 3) of triangles, NaN for other surfaces."""
+        corners = np.stack([self.rows["a"], self.rows["b"], self.rows["c"]], axis=1)
+        corners[self.rows["shape_code"] != CODES["triangle"]] = np.nan
+        return corners
+
+
+def pack_surfaces(scene: Scene) -> Surfaces:
+    """One row for a shape, or for each face of a mesh."""
+    blocks, corners, smooth = [], [np.zeros((0, 3))], [np.zeros((0, 3, 3))]
+    bounds: list[np.ndarray] = []
+    corner_count = smooth_count = count = 0
+    first_such: dict[Shape, int] = {}
+    for k, item in enumerate(scene.objects):
+        shape = item.shape
+        boxes = shape.bounds()
+        rows = np.zeros(1 if boxes is None else len(boxes), SURFACE)
+        rows["object"], rows["first"], rows["smooth"] = k, -1, -1
+        rows["coincident"] = count + np.arange(len(rows))
+        if shape.curved:
+            rows["coincident"] = first_such.setdefault(shape, count)
+        count += len(rows)
+        rows["shape_code"] = CODES[shape.packed_as or shape.name]
+        shape.pack(rows)
+        if (outline := shape.outline()) is not None:
+            rows["first"] = corner_count
+            corners.append(outline)
+            corner_count += len(outline)
+        if (normals := shape.smooth()) is not None:
+            rows["smooth"] = smooth_count + np.arange(len(normals))
+            smooth.append(normals)
+            smooth_count += len(normals)
+        blocks.append(rows)
+        bounds.append(INFINITE if boxes is None else boxes)
+    rows = as_rows(np.concatenate(blocks), SurfaceRow)
+    return Surfaces(rows, np.concatenate(corners), np.concatenate(smooth), np.concatenate(bounds))
+
+
+def pack_objects(scene: Scene, materials: dict[Material, int], solids: list[int]) -> Rows[ObjectRow]:
+    """`materials` are numbered, `solids` are the objects that bound a medium, by rank."""
+    ranks = {k: rank for rank, k in enumerate(solids)}
+    rows = [_object(item, materials[item.material], ranks.get(k, -1)) for k, item in enumerate(scene.objects)]
+    return as_rows(np.array(rows, OBJECT), ObjectRow)
+
+
+def _object(item: Object, material: int, rank: int) -> tuple[Any, ...]:
+    shape = item.shape
+    plane = shape.plane() if shape.checker_in_plane else None
+    u, v = plane_axes(plane[1]) if plane else ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    return (material, rank, rank >= 0 and shape.is_closed(), plane is not None, u, v)
+
+
+def plane_axes(n: Vector) -> tuple[Vector, Vector]:
+    """Two unit axes in the plane with normal n, close to the two axes of the world that are farthest from n."""
+    axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    along = max(range(3), key=lambda k: abs(n[k]))
+    first, second = (axes[k] for k in range(3) if k != along)
+    v = cross(n, first)
+    if sum(a * b for a, b in zip(v, second, strict=True)) < 0.0:
+        v = (-v[0], -v[1], -v[2])
+    v = unit(v)
+    u = cross(n, v)
+    if sum(a * b for a, b in zip(u, first, strict=True)) < 0.0:
+        u = (-u[0], -u[1], -u[2])
+    return u, v
+
+
+def pack_materials(materials: dict[Material, int]) -> Rows[MaterialRow]:
+    """Each field by its name."""
+    rows = np.zeros(len(materials), MATERIAL)
+    for row, material in zip(rows, materials, strict=True):
+        for name in MATERIAL.names or ():
+            part, _, inner = name.partition("_")
+            value = getattr(material, part)
+            if not inner:
+                row[name] = value
+            elif value is not None:
+                row[name] = getattr(value, inner)
+    return as_rows(rows, MaterialRow)
+
+
+def pack_lights(scene: Scene) -> Rows[LightRow]:
+    """In the file's order."""
+    rows = np.zeros(len(scene.lights), LIGHT)
+    for row, light in zip(rows, scene.lights, strict=True):
+        row["color"] = light.color
+        row["distant"] = light.direction is not None
+        if light.direction is not None:
+            x, y, z = unit(rescale(light.direction))
+            row["towards"] = (-x, -y, -z)
+        elif light.position is not None:
+            row["position"] = light.position
+    return as_rows(rows, LightRow)

@@ -1,0 +1,85 @@
+"""The memory that a thread writes while it traces. Kernels allocate none."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tracer.accel.rows import STACK, StackRow
+from tracer.accel.sah import MAX_STACK
+from tracer.compile.bundle import bundle
+from tracer.compile.rows import Bool, Float, Int64, Numbers, Row, Rows, as_rows, dtype_of
+from tracer.compile.simd import WIDTH
+from tracer.formulas.camera import BATCH
+from tracer.kernel.nodes import KINDS, NODE, NodeRow
+
+MAX_CROSSINGS = 32  # transparent surfaces on the way to a light, before the slower search is used
+
+
+class OpenRow(Row):
+    """A ray that a best-first search has not traced yet."""
+
+    weight: Float  # its largest component
+    number: Int64  # in order of creation: of equal weights, the first is traced first
+    parent: Int64
+    refracted: Bool
+
+
+class CrossingRow(Row):
+    """A transparent surface on the way to a light."""
+
+    t: Float
+    surface: Int64
+
+
+OPEN, CROSSING = dtype_of(OpenRow), dtype_of(CrossingRow)
+
+
+class Space(NamedTuple):
+    """The memory as kernels see it."""
+
+    table: Rows[NodeRow]  # of the tree in progress
+    solids: Numbers  # (rows, 2, words): the solids around each ray before its hit, and behind it
+    eye_solids: Numbers  # (words,): the solids around the eye
+    open: Rows[OpenRow]  # heap of a best-first search
+    stack: Rows[StackRow]  # of a traversal
+    near: Numbers  # where the ray enters the boxes of one node
+    crossed: Rows[CrossingRow]  # transparent surfaces on the way to a light
+    directions: Numbers  # (3, BATCH) of the next camera rays
+    rays: Numbers  # traced in this call, by kind
+    tests: Numbers  # (1,): tests of a ray against a surface in this call; a block of eight triangles counts as eight
+    tree: Numbers  # (rows, residual) of the last tree; -1 rows if the table was too short for it
+
+
+class Workspace:
+    """The memory of one thread. It grows when a tree needs more."""
+
+    def __init__(self, eye_solids: np.ndarray, rows: int = 256) -> None:
+        words = len(eye_solids)
+        self.arrays = Space(
+            table=as_rows(np.zeros(rows, NODE), NodeRow),
+            solids=np.zeros((rows, 2, words), np.int64),
+            eye_solids=eye_solids,
+            open=as_rows(np.zeros(2 * rows, OPEN), OpenRow),
+            stack=as_rows(np.zeros(MAX_STACK, STACK), StackRow),
+            near=np.zeros(WIDTH),
+            crossed=as_rows(np.zeros(MAX_CROSSINGS, CROSSING), CrossingRow),
+            directions=np.zeros((3, BATCH)),
+            rays=np.zeros(len(KINDS), np.int64),
+            tests=np.zeros(1, np.int64),
+            tree=np.zeros(2),
+        )
+        self._bundle()
+
+    def grow(self) -> None:
+        """Four times as many rows."""
+        rows = 4 * len(self.arrays.table)
+        words = len(self.arrays.eye_solids)
+        self.arrays = self.arrays._replace(
+            table=as_rows(np.zeros(rows, NODE), NodeRow),
+            solids=np.zeros((rows, 2, words), np.int64),
+            open=as_rows(np.zeros(2 * rows, OPEN), OpenRow),
+        )
+        self._bundle()
+
+    def _bundle(self) -> None:
+        self.space = bundle(self.arrays, writable=True, ragged=("solids",))

@@ -1,0 +1,41 @@
+"""The view of a scene's camera. What the author left open frames the scene."""
+
+import math
+import operator
+
+from tracer.formulas.camera import View, make_view
+from tracer.formulas.vector import Vector, add, cross, rescale, scale, unit
+from tracer.scene.scene import Camera, Scene
+
+MARGIN = 1.1  # how much more than the scene's ball a framing camera sees
+
+
+def scene_view(scene: Scene, extent: tuple[Vector, float], size: tuple[int, int] | None = None) -> View:
+    """The view of the scene's camera.
+
+    `extent` is (centre, radius) of the scene; `size` is (width, height) in pixels, by default the scene's own.
+    ValueError for a size below 1x1.
+    """
+    camera = scene.camera
+    width, height = (operator.index(value) for value in size or (scene.image.width, scene.image.height))
+    if width < 1 or height < 1:
+        raise ValueError(f"size must be at least 1x1, got {width}x{height}")
+    middle, radius = extent
+    look_at = camera.look_at or middle
+    position = camera.position or framing_position(camera, look_at, radius, (width, height))
+    return make_view(position, look_at, camera.up, camera.fov, (width, height))
+
+
+def framing_position(camera: Camera, look_at: Vector, radius: float, size: tuple[int, int]) -> Vector:
+    """Where a camera sees a whole ball about `look_at`, from above and from the side, in an image of this size."""
+    width, height = size
+    narrow = math.radians(camera.fov) / 2
+    if width < height:
+        narrow = math.atan(math.tan(narrow) * width / height)
+    up = unit(rescale(camera.up))
+    aside = unit(cross(up, (0.0, 0.0, 1.0) if abs(up[2]) < 0.9 else (1.0, 0.0, 0.0)))
+    ahead = cross(aside, up)
+    away = unit(add(add(scale(0.35, up), scale(0.45, aside)), ahead))
+    # Near a speck far from the origin the camera's position would have too few digits.
+    least = 2.0**-40 * max(map(abs, look_at))
+    return add(look_at, scale(MARGIN * (max(radius, least) or 1.0) / math.sin(narrow), away))

@@ -1,0 +1,43 @@
+"""Notes on scenes that are allowed but hardly intended."""
+
+import itertools
+import math
+
+import numpy as np
+
+from tracer.scene.scene import Object
+
+
+def hidden_notes(ranked: list[Object]) -> list[str]:
+    """Transparent solids that never show, because they lie inside another that outranks them; a line each.
+
+    `ranked` is in the order of priority. A solid counts as inside if all corners of its box are, so every note is true,
+    but not every hidden solid is found.
+    """
+    infinite = np.full(3, math.inf)
+    boxes = [item.shape.bounds() for item in ranked]
+    low = np.array([-infinite if box is None else box[:, 0].min(axis=0) for box in boxes]).reshape(-1, 3)
+    high = np.array([infinite if box is None else box[:, 1].max(axis=0) for box in boxes]).reshape(-1, 3)
+    notes = []
+    for k, inner in enumerate(ranked):
+        if boxes[k] is None:
+            continue
+        around = ((low[:k] <= low[k]) & (high[:k] >= high[k])).all(axis=1)
+        corners = np.array(list(itertools.product(*zip(low[k], high[k], strict=True))))
+        for outer in (ranked[j] for j in np.flatnonzero(around)):
+            if all(outer.shape.contains(corner) for corner in corners):
+                notes.append(f'"{_name(inner)}" lies inside "{_name(outer)}" and never shows: raise its priority')
+                break
+    return notes
+
+
+def open_notes(opened: list[Object]) -> list[str]:
+    """Media that begin at a surface without an inside; a line each."""
+    return [
+        f'"{_name(item)}" is open: light that enters through it stays in its medium; make it thin, or a closed mesh'
+        for item in opened
+    ]
+
+
+def _name(item: Object) -> str:
+    return item.name or item.shape.name

@@ -1,0 +1,46 @@
+"""The row that a surface becomes for kernels. Shapes fill it in; each shape's file says how under "Packed as"."""
+
+from typing import Any, Protocol
+
+from tracer.compile.rows import Float, Float3, Int32, Numbers, Row, Rows, dtype_of
+
+
+class SurfaceRow(Row):
+    """One surface: a shape, or one face of a mesh."""
+
+    a: Float3  # a to count: as the shape's file says
+    b: Float3
+    c: Float3
+    normal: Float3  # unit normal of a flat face
+    normal_low: Float3  # the rounding error of `normal`: the low part of a double-double
+    r: Float
+    first: Int32  # index of a polygon's first corner, -1 for none
+    count: Int32  # corners of a flat face, 1 for a sphere, 0 for a shape without corners
+    shape_code: Int32  # as CODES numbers the shapes
+    object: Int32
+    coincident: Int32  # the first surface that is curved in the very same way at the same place; mostly itself
+    smooth: Int32  # index into `ShapeArrays.smooth`, -1 for a face without vertex normals
+
+
+SURFACE = dtype_of(SurfaceRow)
+
+
+class ShapeArrays(Protocol):
+    """What the functions of a shape read of the world."""
+
+    @property
+    def surfaces(self) -> Rows[SurfaceRow]: ...
+    @property
+    def corners(self) -> Numbers:
+        """(n, 3), of polygons."""
+        ...
+
+    @property
+    def smooth(self) -> Numbers:
+        """(n, 3, 3), vertex normals of faces that have them."""
+        ...
+
+    @property
+    def formulas(self) -> Any:
+        """The functions that kernels compute with (`tracer.kernel.formulas`)."""
+        ...

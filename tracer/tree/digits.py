@@ -1,0 +1,45 @@
+"""Numbers as text, with no more digits than their rounding error leaves."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+
+def significant_digits(size: float, error: float) -> int:
+    """The number of correct digits of a number with this size and this error, 0 to 17."""
+    if not error > 0.0:
+        return 17
+    return max(0, math.floor(math.log10(size / error))) if error < size else 0
+
+
+def degree_decimals(error: float) -> int:
+    """The number of correct decimals of an angle in degrees; -1 if even the whole degrees are uncertain.
+
+    `error` is in radians.
+    """
+    wrong = math.degrees(error)
+    return significant_digits(1.0, wrong) if wrong < 1.0 else -1
+
+
+def number_text(x: float, error: float = 0.0) -> str:
+    """Five digits, or as many as are correct; "?" for none. Empty for NaN."""
+    if math.isnan(x):
+        return ""
+    digits = 5 if x == 0.0 else min(5, significant_digits(abs(x), error))
+    return f"{x:.{digits}g}" if digits > 0 else "?"
+
+
+def degrees_text(radians: float, error: float = 0.0) -> str:
+    """An angle in degrees with two decimals, or as many as are correct; "?" for none. Empty for NaN."""
+    if math.isnan(radians):
+        return ""
+    decimals = min(2, degree_decimals(error))
+    return f"{math.degrees(radians):.{decimals}f}°" if decimals >= 0 else "?"
+
+
+def rgb_text(rgb: Sequence[float] | np.ndarray, shorten: bool = False) -> str:
+    """Three numbers; with `shorten` a single one where all three are equal."""
+    if shorten and rgb[0] == rgb[1] == rgb[2]:
+        return f"{rgb[0]:.4g}"
+    return " ".join(f"{x:.4f}" for x in rgb)

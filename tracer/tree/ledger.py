@@ -1,0 +1,35 @@
+"""The ledger of a tree: where the weight of 1 that the eye starts with has gone."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tracer.kernel.nodes import BACKGROUND, SHADOW, SURFACE
+from tracer.scene import Scene
+
+
+class Ledger(NamedTuple):
+    """The three shares add up to 1, up to rounding."""
+
+    leaves: float  # rays that ended: on opaque surfaces, in the background
+    cut: float  # rays that were not followed
+    absorbed: float  # what surfaces on the way passed on to no ray
+
+
+def make_ledger(nodes: np.ndarray, residual: float, scene: Scene) -> Ledger:
+    """The ledger of a node table. Weights count by their largest component; each sum is rounded once."""
+    rays = nodes[nodes["kind"] != SHADOW]
+    weights = rays["weight"].max(axis=1)
+    ended = np.isin(rays["end"], (SURFACE, BACKGROUND))
+    absorbed = np.array([_absorbed(scene, row) for row in rays[~ended]])
+    return Ledger(math.fsum(weights[ended]), residual, math.fsum(weights[~ended] * absorbed))
+
+
+def _absorbed(scene: Scene, row: np.void) -> float:
+    """The share that the surface hit passes on to no ray."""
+    item = scene.objects[row["object"]]
+    material = item.material
+    if material.transmit > 0.0 and row["n1"] == row["n2"] and not item.thin:
+        return 1.0 - material.transmit
+    return 1.0 - material.reflect - material.transmit

@@ -1,0 +1,122 @@
+"""The rows of a ray tree, and what can be asked of them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from tracer.kernel.nodes import BLOCKED, ENDS, KINDS, SHADOW, SURFACE
+from tracer.scene import Scene
+from tracer.scene.radiance_bound import radiance_bound
+from tracer.tree.digits import significant_digits
+from tracer.tree.ledger import Ledger, make_ledger
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TreeTable:
+    """One pixel's tree. `nodes` is a structured array, one row per ray, with the fields of `tracer.nodes`."""
+
+    nodes: np.ndarray
+    residual: float  # sum over the rays that were cut of the largest component of their weight
+    scene: Scene
+    depth: int
+    model: str
+    pixel: tuple[int, int] | None  # None: a ray given by hand
+    size: tuple[int, int]  # of the image, width and height
+    tolerance: float | None = None  # the residual asked for; the rows are then in order of tracing
+
+    @property
+    def radiance(self) -> np.ndarray:
+        """The colour of the pixel, linear RGB (3,)."""
+        return self.nodes["radiance"][0]
+
+    @cached_property
+    def bound(self) -> float:
+        """`radiance` lacks at most this in each component; inf where there is no bound."""
+        return self.residual * radiance_bound(self.scene) if self.residual > 0.0 else 0.0
+
+    @cached_property
+    def ledger(self) -> Ledger:
+        """Where the weight of 1 has gone: leaves, cut, absorbed."""
+        return make_ledger(self.nodes, self.residual, self.scene)
+
+    @property
+    def place(self) -> str:
+        """The pixel as text, or "a ray"."""
+        return f"pixel {self.pixel[0]},{self.pixel[1]}" if self.pixel else "a ray"
+
+    def __len__(self) -> int:
+        return len(self.nodes)
+
+    def __repr__(self) -> str:
+        color = " ".join(f"{x:.4f}" for x in self.radiance)
+        return f"<RayTree of {self.place}: depth {self.depth}, {len(self)} rows, radiance {color}>"
+
+    @cached_property
+    def children(self) -> list[list[int]]:
+        """For each row, the rows below it: its shadow rays first, then the rays that it sends out."""
+        below: list[list[int]] = [[] for _ in range(len(self.nodes))]
+        for i, parent in enumerate(self.nodes["parent"]):
+            if parent >= 0:
+                below[parent].append(i)
+        return below
+
+    def preorder(self) -> Iterator[int]:
+        """The rows in preorder: each ray, then all that is below it."""
+        waiting = [0]
+        while waiting:
+            i = waiting.pop()
+            yield i
+            waiting += reversed(self.children[i])
+
+    def kind(self, i: int) -> str:
+        """The kind of ray i, one of KINDS."""
+        return KINDS[self.nodes["kind"][i]]
+
+    def is_shadow(self, i: int) -> bool:
+        """Whether ray i is a shadow ray."""
+        return bool(self.nodes["kind"][i] == SHADOW)
+
+    def end(self, i: int) -> str | None:
+        """Why nothing follows ray i, one of ENDS; None if it has children and none was cut."""
+        code = self.nodes["end"][i]
+        return ENDS[code] if code >= 0 else None
+
+    def object_name(self, i: int) -> str | None:
+        """The name of the object that ray i hit; of a shadow ray, of the object in its way."""
+        k = self.nodes["object"][i]
+        return self.scene.object_name(k) if k >= 0 else None
+
+    def light_name(self, i: int) -> str | None:
+        """The name of the light that shadow ray i goes to."""
+        j = self.nodes["light"][i]
+        return self.scene.light_name(int(j)) if j >= 0 else None
+
+    def faces_away(self, i: int) -> bool:
+        """Whether ray i is a shadow ray from a surface that faces away from the light. It adds nothing, whatever it
+        meets.
+        """
+        row = self.nodes[i]
+        if row["kind"] != SHADOW:
+            return False
+        return bool(row["t"] == 0.0 or self.nodes["normal"][row["parent"]] @ row["direction"] <= 0.0)
+
+    def digits(self, i: int) -> int:
+        """The number of correct decimal digits of the hit point, 0 to 15."""
+        row = self.nodes[i]
+        size = max(row["t"], np.abs(row["point"]).max())
+        if not size > row["error"]:
+            return 0
+        return min(15, significant_digits(size, row["error"]))
+
+    def path(self, i: int) -> str:
+        """The light path of ray i in Heckbert's notation (SIGGRAPH 1990), eye first.
+
+        E is the eye, S a mirror or glass on the way, D a surface whose own colour is seen, L a light that is reached.
+        """
+        row = self.nodes[i]
+        letters = "E" + "S" * int(row["depth"])
+        if row["kind"] == SHADOW:
+            return letters + ("D" if row["end"] == BLOCKED else "DL")
+        return letters + ("D" if row["end"] == SURFACE else "")

@@ -1,0 +1,98 @@
+"""Traces the tree behind one pixel, or behind a ray given by hand."""
+
+import math
+import operator
+from collections.abc import Sequence
+
+import numpy as np
+
+from tracer.choices import MODELS, SAMPLERS, SOBOL
+from tracer.formulas.camera import View
+from tracer.formulas.sampler import PIXEL_CENTER, make_sampler
+from tracer.formulas.vector import rescale, unit
+from tracer.kernel.entry import one_pixel, ray_view, trace_list
+from tracer.kernel.limits import MAX_NODES, make_limits
+from tracer.kernel.nodes import PUBLIC
+from tracer.kernel.workspace import Workspace
+from tracer.kernel.world import World
+from tracer.tree.error_propagation import propagate_errors
+from tracer.tree.raytree import RayTree
+
+
+def trace(
+    world: World,
+    pixel: tuple[int, int] | None = None,
+    ray: tuple[Sequence[float], Sequence[float]] | None = None,
+    *,
+    depth: int | None = None,
+    size: tuple[int, int] | None = None,
+    sample: int | None = None,
+    min_weight: float = 0.0,
+    tolerance: float | None = None,
+    max_nodes: int = MAX_NODES,
+    model: str | None = None,
+    sampler: str = SAMPLERS[SOBOL],
+    samples: int | None = None,
+) -> RayTree:
+    """The tree behind a pixel (x, y) of the image, counted from the top left, or behind a ray (origin, direction).
+
+    `size` (width, height), `depth` and `model` are the scene's by default. `sample` is the number of one of the pixel's
+    sample points, by default its centre; jittered points also need the number of `samples`. `min_weight` cuts rays
+    whose largest weight is below it. With a `tolerance`, the heaviest rays are traced first, to any depth unless one is
+    given, until the weights of the rest sum up to no more than that, or `max_nodes` rays have been traced.
+
+    ValueError for a pixel outside the image, a ray without a direction, or another value that is not allowed.
+    """
+    if (pixel is None) == (ray is None):
+        raise ValueError("either a pixel or a ray is traced: give one of them")
+    camera = world.view(size)
+    limits = make_limits(world, depth, min_weight, tolerance, max_nodes, model, records=True)
+    if pixel is not None:
+        x, y = (operator.index(value) for value in pixel)
+        if not (0 <= x < camera.width and 0 <= y < camera.height):
+            raise ValueError(f"pixel must be within 0,0 .. {camera.width - 1},{camera.height - 1}, got {x},{y}")
+        view = camera
+    else:
+        assert ray is not None
+        x, y = 0, 0
+        view = _ray_view(*ray)
+    points = PIXEL_CENTER.sampler if sample is None else make_sampler(sampler, samples or sample + 1)
+    first = sample or 0
+    workspace = Workspace(world.solids_around(view.eye))
+    trace_list(world.arrays, view, limits, points, one_pixel(x, y, first, first + 1), workspace)
+    space = workspace.arrays
+    count = int(space.tree[0])
+    propagate_errors(world.arrays, space.table, count)
+    nodes = np.zeros(count, PUBLIC)
+    for name in PUBLIC.names or ():
+        nodes[name] = space.table[name][:count]
+    _fill_angles(nodes)
+    nodes.flags.writeable = False
+    residual = float(space.tree[1])
+    reached = limits.depth if depth is not None or tolerance is None else int(nodes["depth"].max())
+    image_size = (camera.width, camera.height)
+    return RayTree(nodes, residual, world.scene, reached, MODELS[limits.model], pixel and (x, y), image_size, tolerance)
+
+
+def _ray_view(origin: Sequence[float], direction: Sequence[float]) -> View:
+    numbers = [*map(float, origin), *map(float, direction)]
+    if len(numbers) != 6 or not all(map(math.isfinite, numbers)):
+        raise ValueError(f"a ray must be six finite numbers, got {numbers}")
+    if not any(numbers[3:]):
+        raise ValueError("a ray's direction must not be 0,0,0")
+    return ray_view((numbers[0], numbers[1], numbers[2]), unit(rescale(numbers[3:])))
+
+
+def _fill_angles(nodes: np.ndarray) -> None:
+    """Compute theta1 and theta2 from the recorded vectors. Readers need them, images do not."""
+    hit = np.flatnonzero(np.isfinite(nodes["normal"][:, 0]))
+    d, n = nodes["direction"][hit], nodes["normal"][hit]
+    across = np.cross(d, n)
+    s1 = np.sqrt((across * across).sum(axis=1))
+    theta1 = np.arctan2(s1, -(d * n).sum(axis=1))
+    nodes["theta1"][hit] = theta1
+    n1, n2, radicand = nodes["n1"][hit], nodes["n2"][hit], nodes["radicand"][hit]
+    bent = radicand > 0.0  # false where it is NaN
+    s2 = n1[bent] / n2[bent] * s1[bent]
+    theta2 = np.where(n1[bent] == n2[bent], theta1[bent], np.arctan2(s2, np.sqrt(radicand[bent])))
+    nodes["theta2"][hit[bent]] = theta2

@@ -1,0 +1,154 @@
+"""Kinds of values of command line options: each is read from text, and shown as text that reads back to it."""
+
+import math
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from tracer.formats import READERS
+
+MAX_PIXELS = 16384  # across an image
+SCENE_HELP = f"a {', '.join(list(READERS)[:-1])} or {list(READERS)[-1]} file, or a lesson's name"
+
+
+class Unreadable(ValueError):
+    """A text that is not such a value. The message says what is allowed and what was found."""
+
+
+@dataclass(frozen=True)
+class Value:
+    """A kind of value."""
+
+    read: Callable[[str], Any]  # raises Unreadable
+    show: Callable[[Any], str] = str
+    metavar: str = ""
+
+
+def _numbers(text: str) -> tuple[float, ...]:
+    """Numbers separated by commas; () if one of them is not a number."""
+    try:
+        return tuple(float(part) for part in text.split(","))
+    except ValueError:
+        return ()
+
+
+def _number(text: str, allowed: str, is_allowed: Callable[[float], bool]) -> float:
+    numbers = _numbers(text)
+    if len(numbers) != 1 or not is_allowed(numbers[0]):
+        raise Unreadable(f'{allowed}, got "{text}"')
+    return numbers[0]
+
+
+def _two(text: str, separator: str) -> tuple[int, int]:
+    parts = text.lower().split(separator)
+    if len(parts) != 2 or not all(re.fullmatch(r"\s*-?\d+\s*", part) for part in parts):
+        raise Unreadable(f'two whole numbers like 320{separator}240, got "{text}"')
+    return int(parts[0]), int(parts[1])
+
+
+def _size(text: str) -> tuple[int, int]:
+    width, height = _two(text, "x")
+    if not (1 <= width <= MAX_PIXELS and 1 <= height <= MAX_PIXELS):
+        raise Unreadable(f'a size from 1x1 to {MAX_PIXELS}x{MAX_PIXELS}, got "{text}"')
+    return width, height
+
+
+def _ray(text: str) -> tuple[float, ...]:
+    numbers = _numbers(text)
+    if len(numbers) != 6:
+        raise Unreadable(f'six numbers ox,oy,oz,dx,dy,dz, got "{text}"')
+    return numbers
+
+
+def _ray_name(text: str) -> str:
+    if re.fullmatch(r"L\d+", text, re.IGNORECASE):
+        raise Unreadable(f"a ray that meets a surface; {text} goes to a light: name the one before it")
+    if not re.fullmatch(r"(?:R|T|TIR)?\d+|E", text, re.IGNORECASE):
+        raise Unreadable(f'a ray as in the tree like 4, T4 or E, got "{text}"')
+    return text
+
+
+def _orbit(text: str) -> tuple[float, ...]:
+    numbers = _numbers(text)
+    finite = all(map(math.isfinite, numbers))
+    if finite and len(numbers) in (3, 6) and -90.0 <= numbers[1] <= 90.0 and numbers[2] > 0.0:
+        return numbers
+    asked = "degrees about and above (-90 to 90) and a distance > 0 like 38,22,2.6, or these and a target X,Y,Z"
+    raise Unreadable(f'{asked}, got "{text}"')
+
+
+def _depths(text: str) -> range:
+    found = re.fullmatch(r"(\d+)(?:\.\.(\d+))?", text)
+    first, last = (int(found[1]), int(found[2] or found[1])) if found else (1, 0)
+    if first > last:
+        raise Unreadable(f'a depth like 3, or several like 0..3, got "{text}"')
+    return range(first, last + 1)
+
+
+def _show_depths(depths: range) -> str:
+    first, last = depths[0], depths[-1]
+    return str(first) if first == last else f"{first}..{last}"
+
+
+def _show_numbers(numbers: Sequence[float]) -> str:
+    return ",".join(map(repr, numbers))
+
+
+TEXT = Value(str)
+FILE = Value(Path, metavar="FILE")
+PIXEL = Value(lambda text: _two(text, ","), lambda pixel: f"{pixel[0]},{pixel[1]}", "X,Y")
+SIZE = Value(_size, lambda size: f"{size[0]}x{size[1]}", "WxH")
+RAY = Value(_ray, _show_numbers, "ox,oy,oz,dx,dy,dz")  # origin and direction
+RAY_NAME = Value(_ray_name, metavar="T4")
+ORBIT = Value(_orbit, _show_numbers, "A,E,D[,X,Y,Z]")  # azimuth, elevation, distance, target
+DEPTHS = Value(_depths, _show_depths, "D|A..B")
+
+
+def whole(least: int, most: int | None = None, metavar: str = "N", allowed: str = "") -> Value:
+    """An integer in a range, described by `allowed`."""
+    allowed = allowed or (f"a whole number >= {least}" if most is None else f"a whole number from {least} to {most}")
+
+    def read(text: str) -> int:
+        if not re.fullmatch(r"-?\d+", text) or int(text) < least or (most is not None and int(text) > most):
+            raise Unreadable(f'{allowed}, got "{text}"')
+        return int(text)
+
+    return Value(read, metavar=metavar)
+
+
+def number(allowed: str, is_allowed: Callable[[float], bool], metavar: str) -> Value:
+    """A number for which `is_allowed` is true, described by `allowed`."""
+    return Value(lambda text: _number(text, allowed, is_allowed), repr, metavar)
+
+
+WEIGHT = number("a number >= 0", lambda x: 0.0 <= x < math.inf, "W")
+POSITIVE = number("a number > 0", lambda x: 0.0 < x < math.inf, "E")
+SHARE = number("a number from 0 to 1", lambda x: 0.0 <= x <= 1.0, "W")
+PIXELS = whole(16, MAX_PIXELS, "PX", f"pixels from 16 to {MAX_PIXELS}")
+POINTS = number("points from 8 to 48", lambda x: 8.0 <= x <= 48.0, "PT")
+
+
+def one_of(names: Sequence[str]) -> Value:
+    """One of these names."""
+
+    def read(text: str) -> str:
+        if text not in names:
+            raise Unreadable(f'one of {", ".join(names)}, got "{text}"')
+        return text
+
+    return Value(read, metavar="|".join(names))
+
+
+def some_of(names: Sequence[str]) -> Value:
+    """Some of these names, separated by commas, as a tuple without repetitions."""
+
+    def read(text: str) -> tuple[str, ...]:
+        chosen = tuple(dict.fromkeys(part.strip() for part in text.split(",")))
+        for name in chosen:
+            if name not in names:
+                raise Unreadable(f'any of {",".join(names)}, got "{name}"')
+        return chosen
+
+    return Value(read, ",".join, "A,B")

@@ -1,0 +1,48 @@
+"""From a name on the command line to a scene that is ready to be traced."""
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import tracer
+from tracer.formats import READERS
+from viewer.base.files import Unusable
+from viewer.base.progress import Progress
+from viewer.lessons import lesson
+from viewer.lessons.lesson import Lesson
+
+
+def find(name: str) -> tuple[Path, Lesson | None]:
+    """The scene's file, and the lesson if a lesson was named. Unusable if there is neither."""
+    path = Path(name)
+    if (path / "lesson.md").is_file():
+        found = lesson.read_file(path / "lesson.md")
+        return found.scene, found
+    if path.exists() or path.suffix.lower() in READERS:
+        return path, None
+    if name not in lesson.names() and (path.suffix or len(path.parts) > 1):
+        raise Unusable(f"{name}: a scene must be one of {', '.join(READERS)} or a lesson's name")
+    found = lesson.read(name)
+    return found.scene, found
+
+
+@contextlib.contextmanager
+def faults() -> Iterator[None]:
+    """Turn faults of a scene or of an argument into Unusable."""
+    try:
+        yield
+    except tracer.SceneError as error:
+        raise Unusable(*error.faults) from None
+    except ValueError as error:
+        raise Unusable(f"raytree: {error}") from None
+
+
+def prepared(path: Path) -> tracer.World:
+    """Load and prepare a scene. Its notes are printed."""
+    with Progress(f"load {path.name}") as progress:
+        scene = tracer.load(path, progress)
+        progress.say(f"prepare {path.name}")
+        world = tracer.prepare(scene)
+        for note in world.notes:
+            progress.put(f"note: {note}")
+    return world

@@ -1,0 +1,125 @@
+"""The options of each command. Those of `export`, which the window uses too: `viewer.figures.export_options`."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from tracer.choices import MODELS, SAMPLERS
+from viewer.base.options import argument, option, switch
+from viewer.base.pictures import WRITERS
+from viewer.base.values import FILE, PIXEL, POSITIVE, RAY, SCENE_HELP, SIZE, TEXT, WEIGHT, one_of, whole
+from viewer.figures.catalogue import DATA
+
+HEAVIEST = 300  # rays that `trace` prints as text
+OUTPUT = "FILE|FOLDER/"
+
+
+def _depth() -> Any:
+    return option(whole(0, metavar="D"), "recursion depth, the scene's own by default")
+
+
+def _model() -> Any:
+    return option(one_of(MODELS), "the scene's own by default")
+
+
+def _min_weight() -> Any:
+    return option(WEIGHT, "do not follow rays that weigh less", 0.0)
+
+
+def _tolerance() -> Any:
+    return option(
+        WEIGHT, "follow the heaviest rays first, to any depth, until those left weigh no more than T in sum",
+        metavar="T",
+    )  # fmt: skip
+
+
+def _size(of: str = "of the image, the scene's own by default") -> Any:
+    return option(SIZE, of)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ViewOptions:
+    """`raytree view`."""
+
+    scene: str | None = argument("SCENE", TEXT, SCENE_HELP, nargs="?")
+    pixel: tuple[int, int] | None = option(PIXEL, "pick this pixel, counted from the top left")
+    depth: int | None = _depth()
+    model: str | None = _model()
+    screenshot: Path | None = option(FILE, "draw the viewer into a file and leave", metavar="FILE.png")
+    size: tuple[int, int] | None = _size("of the window or the screenshot")
+
+
+@dataclass(frozen=True, kw_only=True)
+class TraceOptions:
+    """`raytree trace`."""
+
+    scene: str = argument("SCENE", TEXT, SCENE_HELP)
+    pixel: tuple[int, int] | None = option(PIXEL, "counted from the image's top left", group="where", required=True)
+    ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where", required=True)
+    depth: int | None = _depth()
+    model: str | None = _model()
+    min_weight: float = _min_weight()
+    tolerance: float | None = _tolerance()
+    size: tuple[int, int] | None = _size()
+    format: str = option(one_of(DATA), "text by default", "text")
+    rays: int = option(whole(0), f"text: show the N heaviest, {HEAVIEST} by default; 0 for all", HEAVIEST)
+    output: Path | None = option(FILE, "write there instead of the terminal", short="-o")
+
+
+@dataclass(frozen=True, kw_only=True)
+class RenderOptions:
+    """`raytree render`."""
+
+    scenes: tuple[str, ...] = argument("SCENE", TEXT, SCENE_HELP, nargs="+")
+    output: str = option(
+        TEXT, ".png, .npy or .exr; a folder for several scenes", metavar=OUTPUT, short="-o", required=True
+    )
+    format: str | None = option(one_of(tuple(WRITERS)), "of the files in a folder, png by default")
+    depth: int | None = _depth()
+    model: str | None = _model()
+    min_weight: float = _min_weight()
+    tolerance: float | None = _tolerance()
+    size: tuple[int, int] | None = _size()
+    samples: int | None = option(whole(1), "a pixel; 1, its centre, by default; at most, with one of these:")
+    sampler: str = option(one_of(SAMPLERS), "where they lie; jittered: N is a square", SAMPLERS[0])
+    until_error: float | None = option(POSITIVE, "samples where the error is, until it is estimated as E")
+    until_seconds: float | None = option(POSITIVE, "the same, until S seconds have passed", metavar="S")
+    threads: int | None = option(whole(1), "as many as processors by default", group="machine")
+    dask: str | None = option(
+        TEXT, "trace on the Dask cluster of this scheduler", metavar="tcp://HOST:PORT", group="machine"
+    )
+    stats: Path | None = option(FILE, "times, ray counts and what was left out", metavar="FILE.json")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReportOptions:
+    """`raytree report`."""
+
+    scene: str | None = argument("SCENE", TEXT, SCENE_HELP, nargs="?")
+    all: bool = switch("every lesson, and stiff trees with exact answers")
+    size: tuple[int, int] | None = _size("of its images; some 240 pixels across by default")
+    quick: bool = switch("fewer settings on smaller images: under a minute")
+    output: str = option(TEXT, "for the page, its plots and its data", metavar="FOLDER", short="-o", required=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanOptions:
+    """`raytree plan`."""
+
+    scene: str = argument("SCENE", TEXT, SCENE_HELP)
+    measure: bool = switch("with and without, in turn: rays and time; some 20 seconds")
+    json: bool = switch("for programs: one document")
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckOptions:
+    """`raytree check`."""
+
+    cases: tuple[str, ...] = argument("CASE", TEXT, "names like A1, or groups like A; all by default", nargs="*")
+    explain: bool = switch("what goes wrong in the textbook's way, every setting")
+    json: bool = switch("for programs: one document")
+
+
+@dataclass(frozen=True, kw_only=True)
+class LessonsOptions:
+    """`raytree lessons`."""

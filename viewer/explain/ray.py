@@ -1,0 +1,107 @@
+"""What the picked ray does and why, in the lecture's formulas with its own numbers put in.
+
+Sections of lines, for panels to lay out and tests to read: nothing here draws. Every number is taken from the node
+table or worked out again from it by the formulas of `tracer.formulas.optics`.
+"""
+
+import math
+
+from tracer.kernel.nodes import SHADOW
+from tracer.kernel.world import World
+from tracer.tree.raytree import RayTree
+from tracer.tree.text import END_REASONS
+from viewer.base.theme import STYLES
+from viewer.base.wording import format_angle, format_number, format_pair, format_point, format_rgb, format_weight
+from viewer.explain.lighting import local_light, one_light
+from viewer.explain.scattering import direction_error, scattering_sections
+from viewer.explain.sections import Section
+
+KIND_NAMES = {
+    "camera": "Camera ray",
+    "reflection": "Reflected ray",
+    "refraction": "Refracted ray",
+    "tir": "Total internal reflection",
+    "shadow": "Shadow ray",
+}
+
+
+def headline(tree: RayTree, i: int) -> tuple[str, str]:
+    """(which ray, what becomes of it) in a few words."""
+    row = tree.nodes[i]
+    name = KIND_NAMES[tree.kind(i)]
+    if row["kind"] == SHADOW:
+        from_object = tree.object_name(int(row["parent"]))
+        return f"{name} {i}", f"from {from_object} to {tree.light_name(i)}: {_shadow_fate(tree, i)}"
+    met = tree.object_name(i)
+    fate = f"meets {met}" if met else "meets nothing"
+    if met and tree.digits(i) == 0:
+        fate = f"{fate}, or so it seems: rounding has left no digit of where"
+    why = END_REASONS[tree.end(i)]
+    return f"{name} {i}", f"{fate}; {why}" if why else fate
+
+
+def _shadow_fate(tree: RayTree, i: int) -> str:
+    met = tree.object_name(i)
+    if tree.faces_away(i):
+        return "adds nothing, the surface faces away from the light"
+    return {"blocked": f"blocked by {met}", "filtered": f"dimmed by {met}, straight through"}.get(
+        tree.end(i) or "", "nothing in its way"
+    )
+
+
+def ray_numbers(tree: RayTree, i: int) -> Section:
+    """The row itself."""
+    row = tree.nodes[i]
+    section = Section("Numbers")
+    shadow = row["kind"] == SHADOW
+    parent = int(row["parent"])
+    section.add("kind", KIND_NAMES[tree.kind(i)].lower() + (f", sent by ray {parent}" if parent >= 0 else ""))
+    section.add("depth", str(int(row["depth"])))
+    section.add("object", tree.object_name(i) or "none")
+    error, turn = float(row["error"]), direction_error(tree, i)
+    section.add("distance t", format_number(row["t"], error=error))
+    section.add("point", format_point(row["point"], error))
+    if not math.isnan(error):
+        section.add("rounding may move it by", f"{error:.1g}".replace("-", "−"))
+    if not shadow:
+        section.add("normal n", format_point(row["normal"], turn))
+        section.add("n₁ → n₂", format_pair(format_number(row["n1"]), format_number(row["n2"])))
+        section.add("θ₁ → θ₂", format_pair(format_angle(row["theta1"], turn), format_angle(row["theta2"], turn)))
+        if not math.isnan(row["radicand"]):
+            section.add("1 − η²(1 − c₁²)", format_number(row["radicand"]))
+    section.add("factor", format_weight(row["factor"]))
+    section.add("weight", format_weight(row["weight"]))
+    section.add("sends up", format_rgb(row["radiance"], 4))
+    section.add("ends", END_REASONS[tree.end(i)] or "its children go on")
+    section.add("path", tree.path(i))
+    return section
+
+
+def explain_ray(tree: RayTree, world: World, i: int) -> list[Section]:
+    """All there is to say about row i, the most telling first."""
+    row = tree.nodes[i]
+    if row["kind"] == SHADOW:
+        parent = int(row["parent"])
+        return [one_light(tree, world, parent, int(row["light"])), ray_numbers(tree, i)]
+    if math.isnan(row["t"]):
+        return [_sum(tree, i), ray_numbers(tree, i)]
+    return [_sum(tree, i), *scattering_sections(tree, i), local_light(tree, world, i), ray_numbers(tree, i)]
+
+
+def _sum(tree: RayTree, i: int) -> Section:
+    """What the ray sends up, as the sum it is."""
+    row = tree.nodes[i]
+    section = Section("What it sends up", "I = local + Σ factor × child")
+    if tree.end(i) == "background":
+        section.add("background", format_rgb(row["radiance"], 4))
+        return section
+    section.add("local", format_rgb(row["local"], 4))
+    for child in tree.children[i]:
+        below = tree.nodes[child]
+        if below["kind"] != SHADOW:
+            section.add(
+                f"+ {format_weight(below['factor'])} × ray {child} ({STYLES[tree.kind(child)].letter})",
+                format_rgb(below["factor"] * below["radiance"], 4),
+            )
+    section.add("=", format_rgb(row["radiance"], 4))
+    return section

@@ -1,0 +1,130 @@
+"""Where the rays go that a hit sends out, in the lecture's formulas with its own numbers put in.
+
+Every number is taken from the node table or worked out again from it by the formulas of `tracer.formulas.optics`.
+"""
+
+import math
+
+from tracer.choices import MODELS
+from tracer.formulas import optics
+from tracer.formulas.double_double import U
+from tracer.formulas.vector import vector
+from tracer.scene import Material
+from tracer.tree.raytree import RayTree
+from viewer.base.wording import format_angle, format_number, format_point
+from viewer.explain.sections import Section
+
+
+def direction_error(tree: RayTree, i: int) -> float:
+    """How far rounding may have turned the directions at hit i: the ray's own and those it sends on."""
+    return float(max(tree.nodes["turn"][k] for k in (i, *tree.children[i])))
+
+
+def scattering_sections(tree: RayTree, i: int) -> list[Section]:
+    """Where the rays go that hit i sends out, and what they are worth."""
+    row = tree.nodes[i]
+    material = tree.scene.objects[row["object"]].material
+    sections = []
+    tir = row["radicand"] <= 0.0
+    if not math.isnan(row["radicand"]):
+        sections.append(_snell(tree, i))
+        if row["n1"] > row["n2"]:
+            sections.append(_critical(tree, i))
+        sections.append(_transmission(tree, i))
+        if tree.model == MODELS[1] and not tir:
+            sections.append(_fresnel(tree, i, material))
+    if material.reflect > 0.0 or tir or (tree.model == MODELS[1] and material.transmit > 0.0):
+        sections.append(_reflection(tree, i))
+    return sections
+
+
+def _snell(tree: RayTree, i: int) -> Section:
+    row = tree.nodes[i]
+    n1, n2 = float(row["n1"]), float(row["n2"])
+    left = n1 * math.sin(row["theta1"])
+    turn = direction_error(tree, i)
+    section = Section("Snell's law", "n₁ sin θ₁ = n₂ sin θ₂")
+    section.add(f"{format_number(n1)} · sin {format_angle(row['theta1'], turn)}", format_number(left, error=n1 * turn))
+    if row["radicand"] > 0.0:
+        section.add(
+            f"{format_number(n2)} · sin {format_angle(row['theta2'], turn)}",
+            format_number(n2 * math.sin(row["theta2"]), error=n2 * turn),
+        )
+    else:
+        section.add("sin θ₂ would be", f"{format_number(left / n2)} > 1")
+    return section
+
+
+def _critical(tree: RayTree, i: int) -> Section:
+    row = tree.nodes[i]
+    n1, n2 = float(row["n1"]), float(row["n2"])
+    critical = optics.critical_angle(n1, n2)
+    assert critical is not None
+    section = Section("Critical angle", "θc = asin(n₂ / n₁)")
+    section.add(f"asin({format_number(n2)} / {format_number(n1)})", format_angle(critical))
+    beyond = row["radicand"] <= 0.0
+    section.add(
+        f"θ₁ = {format_angle(row['theta1'], direction_error(tree, i))}",
+        "beyond it: total internal reflection" if beyond else "below it",
+    )
+    return section
+
+
+def _transmission(tree: RayTree, i: int) -> Section:
+    row = tree.nodes[i]
+    v, normal = vector(row["direction"]), vector(row["normal"])
+    n1, n2 = float(row["n1"]), float(row["n2"])
+    c1 = optics.cosine(v, normal)
+    root = float(row["radicand"])
+    turn = direction_error(tree, i)
+    section = Section("Transmission direction", "t = η v + (η c₁ − c₂) n,  η = n₁/n₂")
+    section.add("η = n₁/n₂", format_number(n1 / n2))
+    section.add("c₁ = −v·n", format_number(c1, error=turn))
+    section.add("1 − η²(1 − c₁²)", format_number(root, error=2.0 * (n1 / n2) ** 2 * turn))
+    if root <= 0.0:
+        section.add("η²(1 − c₁²)", f"{format_number(1.0 - root)} ≥ 1: total internal reflection")
+        return section
+    c2 = math.sqrt(root)
+    section.add("c₂ = √", format_number(c2, error=turn))
+    section.add("v", format_point(v, turn))
+    section.add("n", format_point(normal, turn))
+    if n1 == n2:
+        section.add("t = v", "equal indices: straight on")
+    else:
+        section.add("t", format_point(optics.transmission(v, normal, n1, n2, c1, c2), turn))
+    return section
+
+
+def _fresnel(tree: RayTree, i: int, material: Material) -> Section:
+    row = tree.nodes[i]
+    v, normal = vector(row["direction"]), vector(row["normal"])
+    thin = row["n1"] == row["n2"]
+    n1, n2 = float(row["n1"]), float(material.ior if thin else row["n2"])
+    c1 = min(1.0, optics.cosine(v, normal))
+    c2 = math.sqrt(max(optics.radicand(optics.sine(v, normal), n1, n2), 0.0))
+    r, t = optics.fresnel(c1, n1, n2)
+    section = Section("Fresnel", "reflected kr + kt R,  refracted kt T")
+    section.add("rₛ = (n₁c₁ − n₂c₂) / (n₁c₁ + n₂c₂)", format_number(_share(n1 * c1, n2 * c2)))
+    section.add("rₚ = (n₂c₁ − n₁c₂) / (n₂c₁ + n₁c₂)", format_number(_share(n2 * c1, n1 * c2)))
+    section.add("R = (rₛ² + rₚ²) / 2", format_number(r))
+    section.add("T", format_number(t))
+    section.add("kr + kt R", format_number(material.reflect + material.transmit * r))
+    section.add("kt T", format_number(material.transmit * t))
+    return section
+
+
+def _share(a: float, b: float) -> float:
+    """(a - b) / (a + b), and 0 where the difference is no more than the rounding of a and b, as at Brewster's angle."""
+    return (a - b) / (a + b) if abs(a - b) > 4.0 * U * (a + b) else 0.0
+
+
+def _reflection(tree: RayTree, i: int) -> Section:
+    row = tree.nodes[i]
+    v, n = vector(row["direction"]), vector(row["normal"])
+    turn = direction_error(tree, i)
+    section = Section("Reflection", "r = v − 2 (n·v) n")
+    section.add("v", format_point(v, turn))
+    section.add("n", format_point(n, turn))
+    section.add("n·v", format_number(-optics.cosine(v, n), error=turn))
+    section.add("r", format_point(optics.reflect(v, n), turn))
+    return section

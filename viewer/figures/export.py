@@ -1,0 +1,164 @@
+"""Makes the files of an export: a pixel's ray tree as figures and as data."""
+
+import math
+import shlex
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import tracer
+from tracer.kernel.world import World
+from viewer.base.files import Unusable, write_atomically
+from viewer.base.options import words
+from viewer.base.orbit import STEEPEST, Frame, Orbit, ViewAngles, initial_orbit, orbit_beside
+from viewer.base.theme import THEMES
+from viewer.figures.catalogue import FIGURES, FORMATS
+from viewer.figures.export_options import ExportOptions
+from viewer.figures.figure import both, tree
+from viewer.figures.figure.hit import hit_row
+from viewer.figures.layout.tree_plan import fitting_size
+from viewer.figures.marks import Figure, Text
+from viewer.figures.pages import pages
+from viewer.figures.steps import Step, by_color, by_depth, by_ray, without_lights
+from viewer.figures.subject import FigureStyle, Subject
+from viewer.figures.targets import Target, check_pages, grouped, mark_of, stem_of
+from viewer.figures.writers.png import PIXELS
+
+FARTHER = 1.8  # the view steps back to show the camera as well, but by no larger factor
+
+
+@dataclass(frozen=True)
+class Made:
+    """Files with their content, and notes for the user."""
+
+    files: list[tuple[Path, bytes]]
+    notes: list[str]
+
+    def write(self) -> None:
+        for file, content in self.files:
+            file.parent.mkdir(exist_ok=True)
+            write_atomically(file, content)
+
+
+def check_options(options: ExportOptions) -> None:
+    """Unusable if an option has no meaning for the figure."""
+    found = []
+    if options.step != "depth" and options.depth and len(options.depth) > 1:
+        found.append(f"raytree export: --step {options.step} goes through one tree: give one depth")
+    if options.step != "depth" and options.figure == "hit":
+        found.append(f"raytree export: a hit has no steps: --step {options.step} is for tree, scene and both")
+    for name in dict.fromkeys(name for kind in FIGURES for name in kind.options):
+        figures = [kind.name for kind in reversed(FIGURES) if name in kind.options]
+        if getattr(options, name) and options.figure not in figures:
+            found.append(f"raytree export: --{name} is for --figure {' and '.join(figures)}, got {options.figure}")
+    if found:
+        raise Unusable(*found)
+
+
+def make(
+    options: ExportOptions,
+    world: World,
+    scene: str,
+    target: Target,
+    view: ViewAngles | None = None,
+    progress: Callable[[float], None] = lambda share: None,
+) -> Made:
+    """Make the files that the options ask for.
+
+    `scene` is its name in file names. `view` is where a lesson sees it from. ValueError or Unusable for options that
+    the scene or the tree does not allow.
+    """
+    depth = world.scene.tracing.depth
+    depths = options.depth or range(depth, depth + 1)
+    steps = steps_of(world, options, depths)
+    check_pages(target, steps)
+    subject = Subject(steps, world, orbit_of(options.view, world, view))
+    style = style_of(options, steps)
+    stem = stem_of(scene, options.pixel)
+    drawn = pages(options.figure, subject, style) if any(FORMATS[name].figures for name in target.formats) else []
+    notes = fold_notes(drawn, options.figure, subject, style)
+    files: list[tuple[Path, bytes]] = []
+    for name in target.formats:
+        kind = FORMATS[name]
+        figures = [replace(page, command=command_line(options, name)) for page in drawn]
+        notes += letter_notes(drawn, name)
+        for k, group in enumerate(grouped(kind, steps, options.step)):
+            progress(len(files) / (len(target.formats) * len(steps)))
+            if kind.figures:
+                mark = mark_of(group, steps, options.step, depths)
+                content = kind.write(figures if kind.many_pages else figures[k : k + 1], options.width or PIXELS)
+                files.append((target.file(f"{stem}_{options.figure}_{mark}", kind.suffix), content))
+            else:
+                one = group[-1].tree
+                files.append((target.file(f"{stem}_d{one.depth}", kind.suffix), kind.text(one).encode("utf-8")))
+    return Made(files, notes)
+
+
+def command_line(options: ExportOptions, format_name: str) -> str:
+    """The command that makes the same figure again, but for where it is written."""
+    width = options.width if format_name == "png" else None
+    same = replace(options, format=(format_name,), width=width)
+    return shlex.join(["raytree", "export", *words(same, leave_out=("output",))])
+
+
+def steps_of(world: World, options: ExportOptions, depths: range) -> list[Step]:
+    """Trace the trees, and divide them into pages."""
+    ray = (options.ray[:3], options.ray[3:]) if options.ray else None
+    how = {"size": options.size, "min_weight": options.min_weight, "model": options.model}
+    trees = [tracer.trace(world, options.pixel, ray, depth=depth, **how) for depth in depths]
+    if options.step == "rays":
+        steps = by_ray(trees[-1])
+    elif options.step == "colour":
+        steps = by_color(trees[-1])
+    else:
+        steps = by_depth(trees)
+    return without_lights(steps) if options.no_lights else steps
+
+
+def style_of(options: ExportOptions, steps: Sequence[Step]) -> FigureStyle:
+    """The style of the figure."""
+    return FigureStyle(
+        THEMES[options.theme],
+        options.text_size,
+        swatches=options.swatches or options.step == "colour",  # without them, its pages would all look the same
+        fold=options.fold,
+        ground=options.ground,
+        node=hit_row(steps[-1].tree, options.node) if options.figure == "hit" else 0,
+        eye=options.eye or "top",
+        lights=not options.no_lights,
+    )
+
+
+def orbit_of(numbers: tuple[float, ...] | None, world: World, view: ViewAngles | None) -> Orbit:
+    """Where the scene is seen from: the numbers of --view, or the view that the window begins with.
+
+    The latter steps back to show the camera as well, if that takes at most the factor FARTHER.
+    """
+    frame = Frame.of(world)
+    if numbers is None:
+        orbit = initial_orbit(world, frame, view)
+        nearest = orbit.distance
+        orbit.take_in(frame.inside(world.view().eye)[None])
+        if orbit.distance > FARTHER * nearest:  # the subject of the figure would be too small
+            orbit.distance = nearest
+        return orbit
+    azimuth, elevation, distance, *target = numbers
+    steep = math.degrees(STEEPEST)
+    return orbit_beside(world, frame, azimuth, min(steep, max(-steep, elevation)), distance, target)
+
+
+def fold_notes(drawn: Sequence[Figure], figure: str, subject: Subject, style: FigureStyle) -> list[str]:
+    """A note on branches that were folded for want of room."""
+    if style.fold or not any(mark.name.startswith("fold-") for page in drawn for mark in page.marks):
+        return []
+    where = both.TREE if figure == "both" else tree.WHERE
+    size = fitting_size([step.tree for step in subject.steps], tree.tree_style(style, where))
+    helps = f", --text-size {size:g} all of them" if size else ""
+    return [f"{figure}: branches are folded for want of room; a smaller --depth leaves some out{helps}"]
+
+
+def letter_notes(drawn: Sequence[Figure], format_name: str) -> list[str]:
+    """A note on letters that a format cannot show."""
+    content = "".join(mark.content for page in drawn for mark in page.marks if isinstance(mark, Text))
+    missing = FORMATS[format_name].missing_letters(content)
+    return [f'{format_name} has no letter for "{missing}": svg and pptx leave it to the reader'] if missing else []

@@ -1,0 +1,46 @@
+"""The pages of a figure: its marks, title, description and the command that makes it again."""
+
+from pkgutil import resolve_name
+
+from tracer.tree.digits import rgb_text
+from tracer.tree.raytree import RayTree
+from viewer.figures.catalogue import FIGURES
+from viewer.figures.export_options import TEXT_SIZE
+from viewer.figures.marks import Figure, with_line_width
+from viewer.figures.subject import FigureStyle, Subject
+
+THINNEST, THICKEST = 0.45, 1.6  # factors of the line width, which follows the text size
+
+
+def pages(name: str, subject: Subject, style: FigureStyle, command: str = "") -> list[Figure]:
+    """One page of the named figure for each step. ValueError if the subject or the style does not allow it."""
+    marks_of = resolve_name(next(kind.function for kind in FIGURES if kind.name == name))
+    width = min(THICKEST, max(THINNEST, style.text_size / TEXT_SIZE))
+    made = [[with_line_width(mark, width) for mark in marks] for marks in marks_of(subject, style)]
+    return [
+        Figure(title(step.tree), description(step.tree), command, tuple(marks), style.theme.ground, style.ground)
+        for step, marks in zip(subject.steps, made, strict=True)
+    ]
+
+
+def title(tree: RayTree) -> str:
+    where = f"pixel {tree.pixel[0]},{tree.pixel[1]}" if tree.pixel else "a ray"
+    return f"{tree.scene.caption}: the rays behind {where}, depth {tree.depth}"
+
+
+def description(tree: RayTree) -> str:
+    """The figure in words, for readers who cannot see it."""
+    kinds = [tree.kind(i) for i in range(len(tree))]
+    counts = [(kinds.count(kind), words) for kind, words in KINDS]
+    made_of = ", ".join(f"{count} {words}" for count, words in counts if count)
+    rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
+    return f"{rays}: {made_of}. The pixel's colour is {rgb_text(tree.radiance)} (linear r g b)."
+
+
+KINDS = (
+    ("camera", "from the eye"),
+    ("reflection", "reflected"),
+    ("refraction", "refracted"),
+    ("tir", "totally reflected"),
+    ("shadow", "to lights"),
+)

@@ -1,0 +1,53 @@
+"""The subject of a figure, and the style it is drawn in."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from tracer.kernel.world import World
+from viewer.base.orbit import Orbit
+from viewer.base.theme import LIGHT, Theme
+from viewer.figures.export_options import TEXT_SIZE
+from viewer.figures.marks import HEIGHT, WIDTH, Mark, Rectangle
+from viewer.figures.steps import Step
+
+if TYPE_CHECKING:
+    from viewer.figures.visible.scene_view import SceneView
+
+Pages = list[list[Mark]]
+
+
+@dataclass(frozen=True)
+class FigureStyle:
+    """How a figure is drawn."""
+
+    theme: Theme = LIGHT
+    text_size: float = TEXT_SIZE
+    swatches: bool = False  # each box shows the radiance of its ray
+    fold: float = 0.0  # branches with a smaller weight are folded
+    ground: bool = False  # on the theme's background; otherwise transparent
+    node: int = 0  # the row of the hit that the figure is about, if it is about one
+    eye: str = "top"  # of a tree: or "left"
+    lights: bool = True  # with the rays to the lights
+
+
+@dataclass(frozen=True)
+class Subject:
+    """The steps of one tree, the fullest last. Figures of the scene also need the world and the orbit."""
+
+    steps: Sequence[Step]
+    world: World | None = None
+    orbit: Orbit | None = None  # from which the scene is seen
+
+    def view(self, where: Rectangle) -> SceneView:
+        """The scene as seen in a rectangle of the canvas."""
+        from viewer.figures.visible.scene_view import SceneView
+
+        if self.world is None or self.orbit is None:
+            raise ValueError("a figure of the scene needs the scene and from where it is seen")
+        aspect = (where[2] - where[0]) / (where[3] - where[1])
+        farther = max(1.0, math.sqrt(WIDTH / HEIGHT / aspect))  # a narrow picture shows less
+        return SceneView(self.world, replace(self.orbit, distance=farther * self.orbit.distance), where)

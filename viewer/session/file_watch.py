@@ -1,0 +1,54 @@
+"""Notices that the scene's file, or a mesh file it names, has been saved."""
+
+import time
+from pathlib import Path
+
+from tracer.scene import Scene
+from tracer.shapes.mesh import Mesh
+
+PERIOD = 0.3  # seconds between looks
+SETTLED = 2  # looks in a row that must agree: an editor may write a file in several parts
+
+Stamp = tuple[int, int] | None  # time of change and size; None: no such file
+
+
+class FileWatch:
+    """Looks at files from time to time."""
+
+    def __init__(self) -> None:
+        self.known: dict[Path, Stamp] = {}  # when the files were read
+        self.seen: dict[Path, Stamp] = {}  # at the last look
+        self.agreed = 0  # looks in a row with the same result
+        self.last = 0.0
+
+    def follow(self, path: Path) -> None:
+        """Look at this file from now on, and at no other. Call it before the file is read."""
+        self.known = self.seen = {path: _stamp(path)}
+        self.agreed = 0
+
+    def follow_meshes(self, path: Path, scene: Scene) -> None:
+        """Look also at the mesh files of the scene in `path`."""
+        names = {item.shape.file for item in scene.objects if isinstance(item.shape, Mesh)}
+        self.known = {**{path.parent / name: _stamp(path.parent / name) for name in names}, **self.known}
+
+    def changed(self) -> bool:
+        """Whether a file has changed since it was read, and is not being written any more."""
+        now = time.monotonic()
+        if now - self.last < PERIOD or not self.known:
+            return False
+        self.last = now
+        stamps = {path: _stamp(path) for path in self.known}
+        self.agreed = self.agreed + 1 if stamps == self.seen else 1
+        self.seen = stamps
+        if stamps == self.known or self.agreed < SETTLED or None in stamps.values():
+            return False
+        self.known = stamps
+        return True
+
+
+def _stamp(path: Path) -> Stamp:
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return (found.st_mtime_ns, found.st_size)

@@ -1,0 +1,174 @@
+"""Renders the image in the background: coarse at once, then finer. An outdated image is stopped within a tile."""
+
+import os
+import threading
+import time
+from collections import OrderedDict
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tracer.formulas.sampler import PIXEL_CENTER
+from tracer.image.converge import ConvergingImage, RoundStats
+from tracer.image.film import Traced
+from tracer.image.passes import Stopped, trace_passes
+from tracer.image.render import processors
+from tracer.image.task import Task, Work
+from tracer.image.tiles import COARSE_TO_FINE, Tile, make_passes
+from tracer.kernel.limits import Limits
+from tracer.kernel.world import World
+from viewer.base.srgb import srgb
+
+BLACK = (0, 0, 0, 255)
+MAX_KEPT = 8  # finished images, so that stepping the depth back and forth shows them at once
+NICENESS = 10  # of rendering threads: the window goes first
+
+
+@dataclass(eq=False)
+class Picture:
+    """One image, finished or not."""
+
+    shown: np.ndarray  # 8-bit sRGB (height, width, 4), opaque: graphics cards take this format as it is
+    pixels: np.ndarray  # linear RGB (height, width, 3) with one sample per pixel
+    share: float = 0.0  # of its tiles that are finished, over all passes
+    seconds: float = 0.0
+    cancelled: threading.Event = field(default_factory=threading.Event)
+    tiles: list[Tile] = field(default_factory=list)  # finished so far, for those who show what is new
+    is_endless: bool = False  # gets finer for as long as it may
+
+    @property
+    def finished(self) -> bool:
+        return self.share >= 1.0
+
+
+class ImageRenderer:
+    """Renders one image at a time. Finished ones are kept as long as their world is shown."""
+
+    def __init__(self, finished: Callable[[], object] = lambda: None) -> None:
+        self.finished = finished  # called in another thread when an image ends
+        self.progress: Callable[[], object] = lambda: None  # called in another thread after each tile
+        self.picture: Picture | None = None
+        self.kept: OrderedDict[tuple, Picture] = OrderedDict()
+        self.threads = processors()
+        self.pool = ThreadPoolExecutor(self.threads, initializer=_lower_priority)
+        self.runner = ThreadPoolExecutor(1)
+        self.running: Future[None] | None = None
+
+    def show(self, world: World, limits: Limits, size: tuple[int, int]) -> None:
+        """Show this image: at once if it is kept, otherwise as it renders. The image in progress is dropped."""
+        key = (id(world), limits, size)
+        self.pause()
+        if key in self.kept:
+            self.kept.move_to_end(key)
+            self.picture = self.kept[key]
+            return
+        width, height = size
+        picture = Picture(np.full((height, width, 4), BLACK, np.uint8), np.zeros((height, width, 3)))
+        self.picture = picture
+        self.running = self.runner.submit(self._render, picture, world, limits, key)
+
+    def refine(self, image: ConvergingImage, picture: Picture, noted: Callable[[RoundStats | None], None]) -> None:
+        """Continue an image that converges, and show it, until it is paused or another image is shown.
+
+        `noted` is called in another thread after each round, with None once nothing more is to be gained.
+        """
+        self.pause()
+        picture.cancelled, picture.share = threading.Event(), 0.0
+        self.picture = picture
+        self.running = self.runner.submit(self._refine, image, picture, picture.cancelled, noted)
+
+    def pause(self) -> None:
+        """Stop the image in progress."""
+        if self.picture and not self.picture.finished:
+            self.picture.cancelled.set()
+
+    def forget(self) -> None:
+        """Drop every image, for another world."""
+        if self.picture:
+            self.picture.cancelled.set()
+        self.picture = None
+        self.kept.clear()
+
+    def wait(self) -> None:
+        """Wait until the shown image is finished, unless it is endless."""
+        if self.running and self.picture and not self.picture.finished and not self.picture.is_endless:
+            self.running.result()
+
+    def close(self) -> None:
+        self.forget()
+        self.runner.shutdown()
+        self.pool.shutdown()
+
+    def _render(self, picture: Picture, world: World, limits: Limits, key: tuple) -> None:
+        pixels = picture.pixels
+        if picture.cancelled.is_set():
+            return
+        began = time.perf_counter()
+        height, width, _ = pixels.shape
+        task = Task.of(world, world.view((width, height)), limits, PIXEL_CENTER.sampler)
+        passes = [[Work(tile) for tile in tiles] for tiles in make_passes(width, height, COARSE_TO_FINE)]
+
+        def finished(traced: Traced, share: float) -> None:
+            _show(picture, traced.tile, pixels[traced.tile.part])
+            picture.seconds = time.perf_counter() - began
+            picture.tiles.append(traced.tile)
+            picture.share = share
+            self.progress()
+
+        try:
+            trace_passes(task, passes, self.pool, self.threads, finished, pixels, picture.cancelled.is_set)
+        except Stopped:
+            return
+        if not picture.cancelled.is_set():
+            self.kept[key] = picture
+            while len(self.kept) > MAX_KEPT:
+                self.kept.popitem(last=False)
+            self.finished()
+
+    def _refine(
+        self,
+        image: ConvergingImage,
+        picture: Picture,
+        cancelled: threading.Event,
+        noted: Callable[[RoundStats | None], None],
+    ) -> None:
+        before = image.seconds
+        began = time.perf_counter()
+
+        def finished(traced: Traced, share: float) -> None:
+            part = traced.tile.part
+            sums, counts = image.statistics.sums[part], image.statistics.counts[part]
+            if counts.min() > 1:  # one sample looks worse than the pixel centres that are shown already
+                _show(picture, traced.tile, sums[..., :3] / counts[..., None])
+                picture.tiles.append(traced.tile)
+            picture.seconds = before + time.perf_counter() - began
+            picture.share = min(share, 0.999)
+            self.progress()
+
+        try:
+            for stats in image.rounds(self.pool, self.threads, finished, cancelled.is_set):
+                noted(stats)
+            noted(None)
+        except Stopped:
+            pass
+        if picture.cancelled is cancelled:  # otherwise it has been continued since
+            picture.share = 1.0
+            self.finished()
+
+
+def _show(picture: Picture, tile: Tile, linear: np.ndarray) -> None:
+    """Encode the pixels that a tile's pass has traced, each over the square that it stands for."""
+    height, width = linear.shape[:2]
+    traced = srgb(linear[:: tile.step, :: tile.step])
+    picture.shown[tile.part][..., :3] = traced.repeat(tile.step, 0).repeat(tile.step, 1)[:height, :width]
+
+
+def _lower_priority() -> None:
+    """Lower the priority of this thread, on systems where threads have one.
+
+    Relative to the process, since a process that was started with a low priority may not raise it.
+    """
+    if hasattr(os, "setpriority") and os.uname().sysname == "Linux":
+        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), os.getpriority(os.PRIO_PROCESS, 0) + NICENESS)

@@ -1,0 +1,30 @@
+"""Calls that background threads hand over to the window's thread, the only one that changes the session."""
+
+from collections.abc import Callable
+from queue import Empty, SimpleQueue
+
+Call = Callable[[], object]
+
+
+class Inbox:
+    """A queue of calls."""
+
+    def __init__(self, wake: Call = lambda: None) -> None:
+        self.wake = wake  # ends the window's sleep. Called from any thread
+        self._calls: SimpleQueue[Call] = SimpleQueue()
+
+    def post(self, call: Call = lambda: None) -> None:
+        """Have `call` made in the window's thread, before its next frame. Without a call, only a frame is drawn."""
+        self._calls.put(call)
+        self.wake()
+
+    def take(self) -> bool:
+        """Make the calls that have been posted. Returns whether there were any."""
+        some = False
+        while True:
+            try:
+                call = self._calls.get_nowait()
+            except Empty:
+                return some
+            call()
+            some = True

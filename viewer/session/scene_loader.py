@@ -1,0 +1,83 @@
+"""Loads scenes in the background, and again when their files are saved."""
+
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
+from typing import NamedTuple
+
+import tracer
+from tracer.kernel.world import World
+from viewer.lessons.lesson import Lesson
+from viewer.session.file_watch import FileWatch
+from viewer.session.inbox import Inbox
+from viewer.session.warmup import Warmup
+
+
+class Opening(NamedTuple):
+    """A scene to be opened, and what is shown of it; None: what its lesson or the scene says."""
+
+    path: Path
+    lesson: Lesson | None = None
+    depth: int | None = None
+    pixel: tuple[int, int] | None = None
+    model: str | None = None
+
+
+class SceneLoader:
+    """Loads one scene at a time. A later one takes the place of an earlier one that is not loaded yet."""
+
+    def __init__(
+        self,
+        inbox: Inbox,
+        warmup: Warmup,
+        loaded: Callable[[World, Opening], object],
+        failed: Callable[[list[str]], object],
+    ) -> None:
+        self.inbox, self.warmup = inbox, warmup
+        self.loaded, self.failed = loaded, failed  # called in the window's thread
+        self.opening: Opening | None = None  # the last one, with success or not
+        self.loading: Future[World] | None = None
+        self.worker = ThreadPoolExecutor(1)
+        self.watch = FileWatch()
+
+    def open(self, opening: Opening) -> None:
+        """Load a scene."""
+        self.opening = opening
+        self.watch.follow(opening.path)
+        if self.loading:
+            self.loading.cancel()
+
+        def load() -> World:
+            if not self.warmup.ready and self.warmup.compiles:
+                self.warmup.wait()  # the kernels that prepare a large scene are being compiled as well
+            return tracer.prepare(tracer.load(opening.path))
+
+        self.loading = self.worker.submit(load)
+        self.loading.add_done_callback(lambda loading: self.inbox.post(lambda: self._finish(loading, opening)))
+
+    def reload(self) -> None:
+        """Load the last scene again."""
+        if self.opening:
+            self.open(self.opening)
+
+    def look(self) -> None:
+        """Load the scene again if one of its files has been saved. Called before every frame."""
+        if self.watch.changed():
+            self.reload()
+
+    def _finish(self, loading: Future[World], opening: Opening) -> None:
+        if loading is not self.loading:
+            return  # another scene has been opened since
+        self.loading = None
+        try:
+            world = loading.result()
+        except tracer.SceneError as error:
+            self.failed(error.faults)
+        except Exception as error:  # a bug must not end a lecture: it is shown, and the last scene stays
+            self.failed([f"{type(error).__name__}: {error}"])
+        else:
+            self.watch.follow_meshes(opening.path, world.scene)
+            self.loaded(world, opening)
+
+    def close(self) -> None:
+        self.worker.shutdown(wait=False, cancel_futures=True)
