@@ -8,21 +8,19 @@ import math
 import re
 import shutil
 import subprocess
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from tracer.formulas.vector import Vector
 from tracer.kernel.world import prepare
-from tracer.scene import Material, Object, Scene
-from tracer.shapes.box import Box
+from tracer.scene import Material, Object, Scene, Shape
 from tracer.shapes.cone import Cone
-from tracer.shapes.disc import Disc
 from tracer.shapes.mesh import Mesh
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
-from tracer.shapes.sphere import Sphere
-from tracer.shapes.triangle import Triangle
 
 
 def available() -> bool:
@@ -59,26 +57,37 @@ def _object(item: Object, textures: dict[str, str]) -> str:
     finish = f"texture {{ {textures.setdefault(texture, f'T{len(textures)}')} }}"
     if item.material.transmit > 0.0:
         finish += f" interior {{ ior {item.material.ior!r} }}"
-    match item.shape:
-        case Sphere(center, radius):
-            return f"sphere {{ {_v(center)}, {radius!r} {finish} }}"
-        case Plane(point, normal):
-            unit = np.array(normal) / np.linalg.norm(normal)
-            return f"plane {{ {_v(unit)}, {float(unit @ point)!r} {finish} }}"
-        case Box():
-            return f"box {{ {_v(item.shape.min)}, {_v(item.shape.max)} {finish} }}"
-        case Cone(base, base_radius, apex, apex_radius):
-            return f"cone {{ {_v(base)}, {base_radius!r}, {_v(apex)}, {apex_radius!r} open {finish} }}"
-        case Disc(center, normal, radius):
-            return f"disc {{ {_v(center)}, {_v(normal)}, {radius!r} {finish} }}"
-        case Polygon(vertices):
-            corners = ", ".join(_v(corner) for corner in (*vertices, vertices[0]))
-            return f"polygon {{ {len(vertices) + 1}, {corners} {finish} }}"
-        case Triangle(vertices):
-            return f"triangle {{ {', '.join(map(_v, vertices))} {finish} }}"
-        case Mesh():
-            return f"mesh {{ {' '.join(_faces(item.shape))} inside_vector <0.3, 0.9, 0.2> {finish} }}"
-    raise TypeError(type(item.shape).__name__)
+    if item.shape.name not in WRITERS:
+        raise TypeError(f"POV-Ray's writer does not know the shape {item.shape.name}: add it to WRITERS")
+    name, content = WRITERS[item.shape.name](item.shape)
+    return f"{name} {{ {content} {finish} }}"
+
+
+def _plane(shape: Plane) -> tuple[str, str]:
+    unit = np.array(shape.normal) / np.linalg.norm(shape.normal)
+    return "plane", f"{_v(unit)}, {float(unit @ shape.point)!r}"
+
+
+def _cone(shape: Cone) -> tuple[str, str]:
+    return "cone", f"{_v(shape.base)}, {shape.base_radius!r}, {_v(shape.apex)}, {shape.apex_radius!r} open"
+
+
+def _polygon(shape: Polygon) -> tuple[str, str]:
+    corners = [*shape.vertices, shape.vertices[0]]
+    return "polygon", f"{len(corners)}, {', '.join(map(_v, corners))}"
+
+
+# The name of each shape in POV-Ray's language, and its numbers.
+WRITERS: dict[str, Callable[[Any], tuple[str, str]]] = {
+    "sphere": lambda shape: ("sphere", f"{_v(shape.center)}, {shape.radius!r}"),
+    "plane": _plane,
+    "polygon": _polygon,
+    "triangle": lambda shape: ("triangle", ", ".join(map(_v, shape.vertices))),
+    "box": lambda shape: ("box", f"{_v(shape.min)}, {_v(shape.max)}"),
+    "cone": _cone,
+    "disc": lambda shape: ("disc", f"{_v(shape.center)}, {_v(shape.normal)}, {shape.radius!r}"),
+    "mesh": lambda shape: ("mesh", f"{' '.join(_faces(shape))} inside_vector <0.3, 0.9, 0.2>"),
+}
 
 
 def _faces(mesh: Mesh) -> Iterator[str]:
@@ -91,15 +100,15 @@ def _faces(mesh: Mesh) -> Iterator[str]:
             yield f"smooth_triangle {{ {', '.join(map(_v, face.reshape(6, 3)))} }}"
 
 
-def _texture(shape: object, material: Material) -> str:
+def _texture(shape: Shape, material: Material) -> str:
     opaque = 1.0 - material.transmit or 1.0
     pigment = f"color {_rgb(material.color)} transmit {material.transmit!r}"
     if material.checker:
         assert material.transmit == 0.0
         size = material.checker.size
         pigment = f"checker color {_rgb(material.color)} color {_rgb(material.checker.color)} scale {size!r}"
-        if isinstance(shape, Polygon | Plane | Disc):
-            pigment += f" translate {_v(_into_a_cell(shape, size))}"
+        if shape.checker_in_plane and (plane := shape.plane()):
+            pigment += f" translate {_v(_into_a_cell(plane, size))}"
     shares = {
         "ambient": material.ambient / opaque,
         "diffuse": material.diffuse / opaque,
@@ -111,14 +120,11 @@ def _texture(shape: object, material: Material) -> str:
     return f"texture {{ pigment {{ {pigment} }} finish {{ {finish} }} }}"
 
 
-def _into_a_cell(shape: Polygon | Plane | Disc, size: float) -> np.ndarray:
-    """Its checker is one of cubes: moved along the face's normal, an axis, so that the face lies in the middle of cubes
-    whose third number is even."""
-    if isinstance(shape, Polygon):
-        corners = np.array(shape.vertices)
-        point, normal = corners[0], np.cross(corners[1] - corners[0], corners[2] - corners[0])
-    else:
-        point, normal = np.array(shape.center if isinstance(shape, Disc) else shape.point), np.array(shape.normal)
+def _into_a_cell(plane: tuple[Vector, Vector], size: float) -> np.ndarray:
+    """POV-Ray's checker is one of cubes. Move it along the normal, an axis, so that the face lies in the middle of the
+    cubes whose third number is even.
+    """
+    point, normal = plane
     axis = int(np.abs(normal).argmax())
     assert np.count_nonzero(normal) == 1, "only faces along the axes"
     return (point[axis] - 0.5 * size) * np.eye(3)[axis]

@@ -1,10 +1,7 @@
 from . import optics as optics
 from .formats import load as load
-from .image.render import Image as Image
-from .image.render import render as render
-from .kernel.world import World as World
-from .kernel.world import prepare as prepare
-from .scene import Scene as Scene
-from .scene import SceneError as SceneError
+from .image.render import Image as Image, render as render
+from .kernel.world import World as World, prepare as prepare
+from .scene import Scene as Scene, SceneError as SceneError
 from .tree.raytree import RayTree as RayTree
 from .tree.trace import trace as trace

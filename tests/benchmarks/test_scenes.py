@@ -11,8 +11,7 @@ import tracer
 from benchmarks.scenes import SCENES
 from benchmarks.scenes.lattice import lattice
 from benchmarks.scenes.mountain import RADIUS, mountain
-from benchmarks.scenes.patches import RADIUS as CIRCLE
-from benchmarks.scenes.patches import TUBE, patches
+from benchmarks.scenes.patches import RADIUS as CIRCLE, TUBE, patches
 from benchmarks.scenes.rings import JOINTS, WIRE, rings
 from benchmarks.scenes.sphereflake import NINE, frame_along, sphereflake
 from benchmarks.stone import SMALL, coherent_rays, scattered_rays, stone, stone_world

@@ -1,29 +1,15 @@
 """What an author writes: a scene as frozen dataclasses with their defaults, and the camera that follows from them."""
 
 from tracer.scene.scene import (
-    Background,
-    Camera,
-    Checker,
-    Image,
-    Light,
-    Material,
-    Object,
-    Scene,
-    SceneError,
-    Shape,
-    Tracing,
+    Background as Background,
+    Camera as Camera,
+    Checker as Checker,
+    Image as Image,
+    Light as Light,
+    Material as Material,
+    Object as Object,
+    Scene as Scene,
+    SceneError as SceneError,
+    Shape as Shape,
+    Tracing as Tracing,
 )
-
-__all__ = [
-    "Background",
-    "Camera",
-    "Checker",
-    "Image",
-    "Light",
-    "Material",
-    "Object",
-    "Scene",
-    "SceneError",
-    "Shape",
-    "Tracing",
-]

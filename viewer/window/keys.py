@@ -1,4 +1,10 @@
-"""Keys. Letters and digits go by the character they write, so that they are where they stand on any keyboard."""
+"""The key bindings: one table for what keys do and for the help that explains them.
+
+Letters and digits go by the character they write, so that they are where they are printed on any keyboard.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
@@ -6,116 +12,144 @@ from imgui_bundle.imgui import internal
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
-HELP = (
-    ("click, drag", "on the image: show the rays of a pixel"),
-    ("arrow keys", "move the picked pixel (with Shift by 10)"),
-    ("wheel, right-drag", "on the image: enlarge, move"),
-    ("0 1 2 3 ... 9", "recursion depth"),
-    ("+  -", "one deeper, one less"),
-    ("click", "on a ray, in 3D or in the tree: select it"),
-    ("Page Down, Page Up", "select the next ray, the one before"),
-    ("drag", "in the scene: turn; with Shift or the right button: move"),
-    ("wheel", "in the scene, on the tree: nearer and farther"),
-    ("F", "the 3D view as it was at first"),
-    ("V", "look through the scene's camera"),
-    ("C  L  N  B", "camera, lights, normals, names: show or hide"),
-    ("M", "Whitted's model or Fresnel's"),
-    ("R", "refine the image, pause"),
-    ("T", "light or dark theme"),
-    ("Tab", "lecture size: everything larger"),
-    ("Esc", "select nothing, pick nothing"),
-    ("F5", "read the scene's file again (it is, when it is saved)"),
-    ("Ctrl+S", "export what is on show as a figure (menu Figure: which, and how)"),
-    ("Ctrl+C", "copy that figure: a picture to paste onto a slide; with Shift its command line"),
-    ("Ctrl+O, Ctrl+Q", "open a scene; quit"),
-    ("H or ?", "this help"),
-)
+Act = Callable[[Session], object]
+K = imgui.Key
+CTRL = (K.left_ctrl, K.right_ctrl, K.left_super, K.right_super)
+SHIFT = (K.left_shift, K.right_shift)
+
+
+@dataclass(frozen=True)
+class Binding:
+    """A row of the help, and what its keys do."""
+
+    label: str
+    meaning: str
+    typed: Mapping[str, Act] = field(default_factory=dict)  # by character
+    pressed: Mapping[imgui.Key, Act] = field(default_factory=dict)
+    repeated: Mapping[imgui.Key, Act] = field(default_factory=dict)  # again and again while the key is held
+    ctrl: Mapping[imgui.Key, Act] = field(default_factory=dict)  # together with Ctrl (on a Mac: Cmd)
+
+
+def _nudge(dx: int, dy: int) -> Act:
+    def act(session: Session) -> None:
+        step = 10 if imgui.get_io().key_shift else 1
+        session.nudge(step * dx, step * dy)
+
+    return act
+
+
+def _toggle(name: str) -> Act:
+    return lambda session: setattr(session.shown, name, not getattr(session.shown, name))
+
+
+def _deeper(by: int) -> Act:
+    return lambda session: session.set_depth(session.depth + by)
+
+
+def _copy(session: Session) -> None:
+    if imgui.get_io().key_shift or _just_released(SHIFT):
+        session.copy_command()
+    else:
+        session.export_figure(copied=True)
+
+
+def _escape(session: Session) -> None:
+    if session.shows_help:
+        session.shows_help = False
+    elif session.faults:
+        session.show_faults([])
+    else:
+        session.clear()
+
+
+def _help(session: Session) -> None:
+    session.shows_help = not session.shows_help
+
+
+BINDINGS = (
+    Binding("click, drag", "on the image: show the rays of a pixel"),
+    Binding(
+        "arrow keys", "move the picked pixel (with Shift by 10)",
+        repeated={
+            K.left_arrow: _nudge(-1, 0), K.right_arrow: _nudge(1, 0),
+            K.up_arrow: _nudge(0, -1), K.down_arrow: _nudge(0, 1),
+        },
+    ),
+    Binding("wheel, right-drag", "on the image: enlarge, move"),
+    Binding(
+        "0 1 2 3 ... 9", "recursion depth",
+        typed={str(depth): lambda session, depth=depth: session.set_depth(depth) for depth in range(10)},
+    ),
+    Binding("+  -", "one deeper, one less", typed={"+": _deeper(1), "=": _deeper(1), "-": _deeper(-1)}),
+    Binding("click", "on a ray, in 3D or in the tree: select it"),
+    Binding(
+        "Page Down, Page Up", "select the next ray, the one before",
+        repeated={K.page_down: lambda session: session.step(1), K.page_up: lambda session: session.step(-1)},
+    ),
+    Binding("drag", "in the scene: turn; with Shift or the right button: move"),
+    Binding("wheel", "in the scene, on the tree: nearer and farther"),
+    Binding("F", "the 3D view as it was at first", {"f": Session.home}),
+    Binding("V", "look through the scene's camera", {"v": Session.through_camera}),
+    Binding(
+        "C  L  N  B", "camera, lights, normals, names: show or hide",
+        {"c": _toggle("camera"), "l": _toggle("lights"), "n": _toggle("normals"), "b": _toggle("labels")},
+    ),
+    Binding("M", "Whitted's model or Fresnel's", {"m": Session.toggle_model}),
+    Binding("R", "refine the image, pause", {"r": Session.toggle_refinement}),
+    Binding("T", "light or dark theme", {"t": Session.toggle_theme}),
+    Binding("Tab", "lecture size: everything larger", pressed={K.tab: Session.toggle_lecture_size}),
+    Binding("Esc", "select nothing, pick nothing", pressed={K.escape: _escape}),
+    Binding(
+        "F5", "read the scene's file again (it is, when it is saved)",
+        pressed={K.f5: lambda session: session.loader.reload()},
+    ),
+    Binding(
+        "Ctrl+S", "export what is on show as a figure (menu Figure: which, and how)", ctrl={K.s: Session.export_figure}
+    ),
+    Binding(
+        "Ctrl+C", "copy that figure: a picture to paste onto a slide; with Shift its command line", ctrl={K.c: _copy}
+    ),
+    Binding(
+        "Ctrl+O, Ctrl+Q", "open a scene; quit",
+        ctrl={
+            K.o: lambda session: session.requests.append(Request.OPEN_DIALOG),
+            K.q: lambda session: session.requests.append(Request.QUIT),
+        },
+    ),
+    Binding("H or ?", "this help", {"h": _help, "?": _help}),
+)  # fmt: skip
+
+HELP = [(binding.label, binding.meaning) for binding in BINDINGS]
 
 
 def handle(session: Session) -> None:
-    """Act on what was typed since the last frame, unless it goes into a text field."""
+    """Do what the keys say that were pressed since the last frame, unless a text field takes them."""
     io = imgui.get_io()
-    key = imgui.Key
     if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
-        if imgui.is_key_pressed(key.escape, False):
+        if imgui.is_key_pressed(K.escape, False):
             internal.close_popup_to_level(0, True)
         return
     if io.want_text_input:
         return
-    if io.key_ctrl or io.key_super or _just_let_go(key.left_ctrl, key.right_ctrl, key.left_super, key.right_super):
-        if imgui.is_key_pressed(key.q, False):
-            session.requests.append(Request.QUIT)
-        if imgui.is_key_pressed(key.o, False):
-            session.requests.append(Request.OPEN_DIALOG)
-        if imgui.is_key_pressed(key.s, False):
-            session.export_figure()
-        if imgui.is_key_pressed(key.c, False):
-            if io.key_shift or _just_let_go(key.left_shift, key.right_shift):
-                session.copy_command()
-            else:
-                session.export_figure(copied=True)
+    if io.key_ctrl or io.key_super or _just_released(CTRL):
+        _press([binding.ctrl for binding in BINDINGS], session, repeat=False)
         return
-    _typed(session)
-    step = 10 if io.key_shift else 1
-    for arrow, dx, dy in (
-        (key.left_arrow, -1, 0),
-        (key.right_arrow, 1, 0),
-        (key.up_arrow, 0, -1),
-        (key.down_arrow, 0, 1),
-    ):
-        if imgui.is_key_pressed(arrow):
-            session.nudge(step * dx, step * dy)
-    if imgui.is_key_pressed(key.page_down):
-        session.step(1)
-    if imgui.is_key_pressed(key.page_up):
-        session.step(-1)
-    if imgui.is_key_pressed(key.tab, False):
-        session.toggle_lecture_size()
-    if imgui.is_key_pressed(key.escape, False):
-        if session.shows_help:
-            session.shows_help = False
-        elif session.faults:
-            session.faults = []
-        else:
-            session.clear()
-    if imgui.is_key_pressed(key.f5, False):
-        session.loader.reload()
-
-
-def _just_let_go(*keys: imgui.Key) -> bool:
-    """Of a chord typed fast the modifier may come up in the very frame in which the letter goes down."""
-    return any(imgui.is_key_released(key) for key in keys)
-
-
-def _typed(session: Session) -> None:
-    shown = session.shown
-    characters = imgui.get_io().input_queue_characters
+    characters = io.input_queue_characters
     for k in range(characters.size()):
-        typed = chr(characters[k]).lower()
-        match typed:
-            case _ if typed.isdecimal() and typed.isascii():
-                session.set_depth(int(typed))
-            case "+" | "=":
-                session.set_depth(session.depth + 1)
-            case "-":
-                session.set_depth(session.depth - 1)
-            case "f":
-                session.home()
-            case "v":
-                session.through_camera()
-            case "c":
-                shown.camera = not shown.camera
-            case "l":
-                shown.lights = not shown.lights
-            case "n":
-                shown.normals = not shown.normals
-            case "b":
-                shown.labels = not shown.labels
-            case "m":
-                session.toggle_model()
-            case "r":
-                session.toggle_refinement()
-            case "t":
-                session.toggle_theme()
-            case "h" | "?":
-                session.shows_help = not session.shows_help
+        for binding in BINDINGS:
+            if act := binding.typed.get(chr(characters[k]).lower()):
+                act(session)
+    _press([binding.repeated for binding in BINDINGS], session, repeat=True)
+    _press([binding.pressed for binding in BINDINGS], session, repeat=False)
+
+
+def _press(groups: list[Mapping[imgui.Key, Act]], session: Session, repeat: bool) -> None:
+    for group in groups:
+        for key, act in group.items():
+            if imgui.is_key_pressed(key, repeat):
+                act(session)
+
+
+def _just_released(keys: tuple[imgui.Key, ...]) -> bool:
+    """Whether a modifier came up in this frame: typed fast, that may be the frame in which the letter goes down."""
+    return any(imgui.is_key_released(key) for key in keys)

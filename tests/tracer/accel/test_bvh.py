@@ -6,8 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 import tracer
 from tests.scenes import MATTE, ball, world_of

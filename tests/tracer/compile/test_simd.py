@@ -4,8 +4,7 @@ import math
 from typing import Any
 
 import numpy as np
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from tracer.compile import simd
 from tracer.compile.jit import kernel

@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 import tracer
 from tests.scenes import cone, disc, random_cone, world_of
@@ -14,8 +13,7 @@ from tests.tracer.kernel.test_scale import LENGTHS, scaled
 from tracer.formulas.vector import Vector, vector
 from tracer.scene import Light, Material, Object, Scene, Shape
 from tracer.shapes.box import Box
-from tracer.shapes.mesh import Geometry, Mesh
-from tracer.shapes.mesh import rotation_matrix as turn_of
+from tracer.shapes.mesh import Geometry, Mesh, rotation_matrix as turn_of
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere

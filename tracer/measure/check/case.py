@@ -5,6 +5,7 @@ how much more than the answer's own rounding the rounding of what is given may c
 with 50 decimal digits or are whole numbers, fractions and words.
 """
 
+import inspect
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -64,7 +65,15 @@ class Case:
     id: str
     title: str  # what it is, in one line
     read: Callable[[], Iterable[Reading]]
-    wrong: str  # what goes wrong in the textbook's way, and why; plain text, wrapped when shown
+    wrong: str  # what goes wrong in the textbook's way, and why; wrapped when shown
+
+
+Read = Callable[[], Iterable[Reading]]
+
+
+def case(id: str, title: str) -> Callable[[Read], Case]:
+    """Make a case of a function that yields its readings. The docstring says what goes wrong in the textbook's way."""
+    return lambda read: Case(id, title, read, inspect.cleandoc(read.__doc__ or ""))
 
 
 @dataclass(frozen=True)

@@ -1,30 +1,14 @@
 """All cases of `raytree check`, group by group, and how they come out."""
 
-from collections.abc import Callable, Sequence
+import pkgutil
+from collections.abc import Callable, Iterator, Sequence
 from decimal import Decimal
 from fractions import Fraction
-from types import ModuleType
+from importlib import import_module
 from typing import Any
 
+from tracer.measure.check import cases
 from tracer.measure.check.case import Case, Result, run
-from tracer.measure.check.cases import (
-    bending,
-    chains,
-    faces,
-    gaps,
-    lenses,
-    limbs,
-    media,
-    needless,
-    plates,
-    sameness,
-    spheres,
-    starts,
-)
-
-GROUPS: tuple[ModuleType, ...] = (
-    spheres, limbs, gaps, faces, starts, bending, chains, plates, lenses, media, sameness, needless,
-)  # fmt: skip
 
 # What the cases' letters stand for.
 TOPICS = {
@@ -41,9 +25,14 @@ TOPICS = {
     "L": "nothing traced that a scene does not need",
 }
 
-CASES: tuple[Case, ...] = tuple(
-    sorted((case for group in GROUPS for case in group.CASES), key=lambda case: (case.id[0], int(case.id[1:])))
-)
+
+def all_cases() -> Iterator[Case]:
+    """The cases in the files of the folder `cases`."""
+    for file in pkgutil.iter_modules(cases.__path__, f"{cases.__name__}."):
+        yield from (value for value in vars(import_module(file.name)).values() if isinstance(value, Case))
+
+
+CASES = tuple(sorted(set(all_cases()), key=lambda one: (one.id[0], int(one.id[1:]))))
 
 
 def run_all(cases: Sequence[Case] = CASES, progress: Callable[[float], None] = lambda share: None) -> list[Result]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from tracer.formulas import optics
 from tracer.measure.check import exact_optics, textbook
-from tracer.measure.check.case import Case, Reading, U, decimal, exactly
+from tracer.measure.check.case import Reading, U, case, decimal, exactly
 from tracer.measure.check.scenes import box, glass, path, plane, world
 from tracer.tree.raytree import RayTree
 
@@ -50,7 +50,12 @@ def given(n: float) -> float:
     return max(1.0, 4.0 * n / ((n - 1.0) * (n + 1.0)))
 
 
+@case("D1", "just below the critical angle: the ray that still leaves, and R")
 def near_critical() -> Iterator[Reading]:
+    """Here the cosine behind the surface is the root of a number close to 0. An angle wrong by u is by nature u /
+    cosine wrong behind the glass, whatever the formula. 1 - eta^2 (1 - c1^2) adds the rounding of c1^2 and of the
+    subtraction to this; (1 - s2)(1 + s2) with the sine from a cross product adds almost nothing.
+    """
     critical = math.asin(1.0 / 1.5)
     for aside in (0.1, 1e-3, 1e-6, 1e-9, 1e-12):
         tree = out_of(1.5, math.sin(critical - aside), math.cos(critical - aside))
@@ -60,14 +65,24 @@ def near_critical() -> Iterator[Reading]:
         yield Reading(f"R, {aside:g} below", exact.r, share(tree, 1), unit, 8.0, r)
 
 
+@case("D2", "exactly at the critical angle: everything is reflected")
 def at_critical() -> Iterator[Reading]:
+    """Half of all digits are lost here by nature: a sine wrong by 1e-16 makes a cosine wrong by 1e-8. The textbook
+    takes its sine from 1 - c1^2, lands a little below the critical angle and lets 1e-7 of the light pass. What
+    counts is that nothing is NaN and the ray sent on has length 1.
+    """
     tree = out_of(2.5, 0.6, 0.8, outside=1.5)
     # A sine u wrong makes a cosine sqrt(2u) wrong: more digits than half nobody has here.
     yield Reading("R", 1, share(tree, 1), math.sqrt(U), 16.0, usual(tree)[0])
     yield Reading("|r|", 1, float(np.linalg.norm(tree.nodes["direction"][1])), U, 4.0)
 
 
+@case("D3", "the angle of refraction shown to people, near normal incidence")
 def near_normal() -> Iterator[Reading]:
+    """An angle taken as the acos of a dot product has half the digits at most: the cosine of 1e-8 is 1 - 5e-17,
+    which is rounded to 1. So at 1e-4 rad eight digits are right, at 1e-8 none: 0 is shown. atan2 of the length of
+    the cross product and the dot product has all digits at every angle.
+    """
     for angle in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10):
         tree = into(1.5, math.sin(angle), math.cos(angle))
         exact = exact_optics.arcsin(bent(tree).s2)
@@ -75,7 +90,13 @@ def near_normal() -> Iterator[Reading]:
         yield Reading(f"{angle:g} rad", exact, float(tree.nodes["theta2"][0]), U * float(exact), 4.0, usual_angle)
 
 
+@case("D4", "nearly equal indices: how far the ray is turned, and R")
 def matched() -> Iterator[Reading]:
+    """The textbook's rs is the difference of n1 c1 and n2 c2, which agree in all but the last digits where the
+    indices nearly match; R is its square. With n = 1 + 1e-9 half of R's digits are gone. Written as (n2 - n1)(n2 +
+    n1) over a sum, the only difference is one that was given. The acos of two nearly equal directions loses the
+    rest: a turn of 1e-9 is shown as 0 or 1e-8.
+    """
     for k in (3, 6, 9, 12):
         n = 1.0 + 10.0**-k
         tree = into(n, math.sqrt(0.75), 0.5)
@@ -87,7 +108,12 @@ def matched() -> Iterator[Reading]:
         yield Reading(f"R, n = 1 + 1e-{k}", exact.r, share(tree, 1), U * float(exact.r), 8.0, r)
 
 
+@case("D5", "grazing incidence: the share that still gets into the glass")
 def grazing() -> Iterator[Reading]:
+    """The textbook says T = 1 - R. At a cosine of 1e-12, R is 1 - 6e-12, and of T only four digits are left; at
+    1e-16 T is half wrong or 0. Each share has a formula of its own without a difference in it; the smaller one has
+    to be computed, the larger one may then be 1 less that.
+    """
     for cosine in (1e-2, 1e-5, 1e-8, 1e-12, 1e-16):
         tree = into(1.5, math.sqrt((1.0 - cosine) * (1.0 + cosine)), cosine)
         d = exact_optics.unit(tree.nodes["direction"][0].tolist())
@@ -106,14 +132,22 @@ def grazing() -> Iterator[Reading]:
         )
 
 
+@case("D6", "light falling head on: R = ((n - 1) / (n + 1))^2")
 def head_on() -> Iterator[Reading]:
+    """Nothing much goes wrong here: with c1 = 1 the textbook's terms are exact but for the rounding of the
+    products. The case is here to show that care elsewhere costs nothing where none is needed, even for n = 1e8.
+    """
     for n in (1.5, 1.33, 1.333, 2.42, 1e8):
         tree = into(n, 0.0, 1.0)
         exact = ((Fraction(n) - 1) / (Fraction(n) + 1)) ** 2
         yield Reading(f"R, n = {n:g}", exact, share(tree, 1), U * float(exact) * given(n), 2.0, usual(tree)[0])
 
 
+@case("D7", "Brewster's angle: the two rays are perpendicular, R = 25/338")
 def brewster() -> Iterator[Reading]:
+    """rp is zero here as the difference of two equal products; the textbook leaves about 1e-16 of it, which squared
+    is harmless. As a product of (c1 - s2) and (c1 + s2) the factor that vanishes is in plain sight.
+    """
     tree = into(1.5, 3.0, 2.0)
     exact = Fraction(25, 338)
     yield Reading("R, n = 1.5", exact, share(tree, 1), U * float(exact), 8.0, usual(tree)[0])
@@ -123,7 +157,11 @@ def brewster() -> Iterator[Reading]:
     )
 
 
+@case("D9", "angles in between: R, T and the angle of refraction")
 def spots() -> Iterator[Reading]:
+    """At common angles every formula has nearly all its digits. The few that the textbook loses come from 1 - c1^2,
+    from the differences in rs and rp, and from acos, a few units each.
+    """
     for degrees, inside in ((45, False), (10, True), (60, False)):
         a = math.radians(degrees)
         tree = (out_of if inside else into)(1.5, math.sin(a), math.cos(a))
@@ -137,7 +175,11 @@ def spots() -> Iterator[Reading]:
         yield Reading(f"angle behind, {way}", theta, got, unit, 8.0, textbook.angle(t, normal))
 
 
+@case("D10", "the 3-4-5 triangle: cosine 0.6 into n = 4/3, everything rational")
 def three_four_five() -> Iterator[Reading]:
+    """The answers are fractions: R = 49/1250, the sine behind the surface 3/5, its cosine 4/5. The textbook is off
+    by a few units in the last place; there is no excuse to be off by more.
+    """
     tree = into(4 / 3, 4.0, 3.0)
     r, t = usual(tree)
     got = (share(tree, 1), share(tree, 2), *tree.nodes["direction"][2, :2].tolist())
@@ -148,7 +190,12 @@ def three_four_five() -> Iterator[Reading]:
         yield Reading(what, value, number, U * unit, 4.0, other)
 
 
+@case("D11", "in and out of a slab: the direction comes back")
 def slab() -> Iterator[Reading]:
+    """A ray that leaves a slab is parallel to the one that came. Leaving the glass at grazing incidence is like
+    approaching the critical angle from inside: an error u of the direction in the glass grows by 1 / cosine. This
+    is the nature of the thing; at 89.99 degrees that is 6000 fold for every formula.
+    """
     stage = world(box((-1e6, -1, -1e6), (1e6, 0, 1e6), glass(1.5)))
     random = np.random.default_rng(5)
     for degrees in (10, 30, 60, 80, 89, 89.99):
@@ -163,7 +210,12 @@ def slab() -> Iterator[Reading]:
         yield Reading(f"{degrees:g} degrees", 0, worst, U / c, 8.0, other)
 
 
+@case("D12", "equal indices on both sides: the ray goes straight on, alone")
 def equal_indices() -> Iterator[Reading]:
+    """In the textbook c2 is sqrt(1 - (1 - c1^2)), which is not c1 to the last bit. So at one angle in four or so
+    glass in the same glass sends out a second ray, of weight 1e-33, which then branches again. Equal indices are no
+    surface: one ray, the same bits.
+    """
     directions = [(math.sin(0.03 * k), -math.cos(0.03 * k), 0.1) for k in range(50)]
     for n in (1.0, 1.5):
         inner = box((-9, -3, -9), (9, -1, 9), glass(n), "inner", 1)
@@ -174,93 +226,3 @@ def equal_indices() -> Iterator[Reading]:
         straight = sum(bool((tree.nodes["direction"][0] == tree.nodes["direction"][1]).all()) for tree in trees)
         yield exactly(f"rays sent on, n = {n:g}", 50, sum(len(tree) - 1 for tree in trees), rays)
         yield exactly(f"of 50 unbent to the bit, n = {n:g}", 50, straight, same)
-
-
-CASES = (
-    Case(
-        "D1",
-        "just below the critical angle: the ray that still leaves, and R",
-        near_critical,
-        "Here the cosine behind the surface is the root of a number close to 0. An angle wrong by u is by nature u / "
-        "cosine wrong behind the glass, whatever the formula. 1 - eta^2 (1 - c1^2) adds the rounding of c1^2 and of "
-        "the subtraction to this; (1 - s2)(1 + s2) with the sine from a cross product adds almost nothing.",
-    ),
-    Case(
-        "D2",
-        "exactly at the critical angle: everything is reflected",
-        at_critical,
-        "Half of all digits are lost here by nature: a sine wrong by 1e-16 makes a cosine wrong by 1e-8. The textbook "
-        "takes its sine from 1 - c1^2, lands a little below the critical angle and lets 1e-7 of the light pass. What "
-        "counts is that nothing is NaN and the ray sent on has length 1.",
-    ),
-    Case(
-        "D3",
-        "the angle of refraction shown to people, near normal incidence",
-        near_normal,
-        "An angle taken as the acos of a dot product has half the digits at most: the cosine of 1e-8 is 1 - 5e-17, "
-        "which is rounded to 1. So at 1e-4 rad eight digits are right, at 1e-8 none: 0 is shown. atan2 of the length "
-        "of the cross product and the dot product has all digits at every angle.",
-    ),
-    Case(
-        "D4",
-        "nearly equal indices: how far the ray is turned, and R",
-        matched,
-        "The textbook's rs is the difference of n1 c1 and n2 c2, which agree in all but the last digits where the "
-        "indices nearly match; R is its square. With n = 1 + 1e-9 half of R's digits are gone. Written as (n2 - n1)"
-        "(n2 + n1) over a sum, the only difference is one that was given. The acos of two nearly equal directions "
-        "loses the rest: a turn of 1e-9 is shown as 0 or 1e-8.",
-    ),
-    Case(
-        "D5",
-        "grazing incidence: the share that still gets into the glass",
-        grazing,
-        "The textbook says T = 1 - R. At a cosine of 1e-12, R is 1 - 6e-12, and of T only four digits are left; at "
-        "1e-16 T is half wrong or 0. Each share has a formula of its own without a difference in it; the smaller "
-        "one has to be computed, the larger one may then be 1 less that.",
-    ),
-    Case(
-        "D6",
-        "light falling head on: R = ((n - 1) / (n + 1))^2",
-        head_on,
-        "Nothing much goes wrong here: with c1 = 1 the textbook's terms are exact but for the rounding of the "
-        "products. "
-        "The case is here to show that care elsewhere costs nothing where none is needed, even for n = 1e8.",
-    ),
-    Case(
-        "D7",
-        "Brewster's angle: the two rays are perpendicular, R = 25/338",
-        brewster,
-        "rp is zero here as the difference of two equal products; the textbook leaves about 1e-16 of it, which squared "
-        "is harmless. As a product of (c1 - s2) and (c1 + s2) the factor that vanishes is in plain sight.",
-    ),
-    Case(
-        "D9",
-        "angles in between: R, T and the angle of refraction",
-        spots,
-        "At common angles every formula has nearly all its digits. The few that the textbook loses come from 1 - c1^2, "
-        "from the differences in rs and rp, and from acos, a few units each.",
-    ),
-    Case(
-        "D10",
-        "the 3-4-5 triangle: cosine 0.6 into n = 4/3, everything rational",
-        three_four_five,
-        "The answers are fractions: R = 49/1250, the sine behind the surface 3/5, its cosine 4/5. The textbook is off "
-        "by a few units in the last place; there is no excuse to be off by more.",
-    ),
-    Case(
-        "D11",
-        "in and out of a slab: the direction comes back",
-        slab,
-        "A ray that leaves a slab is parallel to the one that came. Leaving the glass at grazing incidence is like "
-        "approaching the critical angle from inside: an error u of the direction in the glass grows by 1 / cosine. "
-        "This is the nature of the thing; at 89.99 degrees that is 6000 fold for every formula.",
-    ),
-    Case(
-        "D12",
-        "equal indices on both sides: the ray goes straight on, alone",
-        equal_indices,
-        "In the textbook c2 is sqrt(1 - (1 - c1^2)), which is not c1 to the last bit. So at one angle in four or so "
-        "glass in the same glass sends out a second ray, of weight 1e-33, which then branches again. Equal indices "
-        "are no surface: one ray, the same bits.",
-    ),
-)

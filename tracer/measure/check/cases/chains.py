@@ -7,7 +7,7 @@ from decimal import Decimal
 import numpy as np
 
 from tracer.measure.check import exact_optics, textbook
-from tracer.measure.check.case import Case, Reading, U, exactly
+from tracer.measure.check.case import Reading, U, case, exactly
 from tracer.measure.check.scenes import MIRROR, ball, box, glass, path, plane, world
 from tracer.scene import Object
 from tracer.shapes.cone import Cone
@@ -20,7 +20,12 @@ def far_from(points: np.ndarray, row: int, exact: list[Decimal]) -> float:
     return math.hypot(*(float(x - y) for x, y in zip(exact_optics.point(points[row].tolist()), exact, strict=False)))
 
 
+@case("E1", "two mirrors face to face: the height after 100 000 bounces")
 def parallel() -> Iterator[Reading]:
+    """Moving each start 1e-4 off its mirror along the normal shortens every crossing by that much: the ray gains
+    too little height, 1e-4 of a step a bounce, always the same way. After 10 000 bounces it is 1e-3 too low. A
+    start that stays on its mirror has only rounding to lose.
+    """
     walls = (plane((0, 0, 0), (1, 0, 0), MIRROR, "left"), plane((1, 0, 0), (-1, 0, 0), MIRROR, "right"))
     nodes = path(world(*walls), (0.5, 0, 0), (1, 2.0**-10, 0), 100_000, max_nodes=MANY).nodes
     dx, dy, _ = exact_optics.point(nodes["direction"][0].tolist())
@@ -32,7 +37,12 @@ def parallel() -> Iterator[Reading]:
         yield Reading(f"height after {bounces}", exact, got, U * bounces * float(exact), 4.0, usual)
 
 
+@case("E2", "a ray that runs round inside a glass ball, totally reflected")
 def gallery() -> Iterator[Reading]:
+    """A start moved inwards by 1e-4 lies on another chord than the ray's. The angle of incidence changes with each
+    bounce, and the error of the place grows with the square of their number: 1e-2 after ten bounces, anywhere on
+    the circle after a thousand.
+    """
     start, d = (math.sin(math.radians(50.0)), 0.0, 0.0), (0.0, 1.0, 0.0)
     nodes = path(world(ball((0, 0, 0), 1.0, glass(1.5))), start, d, 100_000, max_nodes=MANY).nodes
     for bounces in (10, 1000, 100_000):
@@ -44,7 +54,11 @@ def gallery() -> Iterator[Reading]:
         yield exactly(f"weight, {bounces} bounces", 1, float(nodes["weight"][bounces, 0]))
 
 
+@case("E3", "a light guide: how far along it the ray is after 100 000 reflections")
 def guide() -> Iterator[Reading]:
+    """As between two mirrors: every start moved off the wall by 1e-4 costs 3e-4 of the way, and all these errors
+    have the same sign. After 1000 reflections the point is 0.3 off, after 10 000 it is 3 off.
+    """
     slab = box((-10, -1, -10), (1e6, 1, 10), glass(1.5))
     nodes = path(world(slab, model="fresnel"), (0, 0, 0), (3, 1, 0), 100_000, max_nodes=MANY).nodes
     dx, dy, _ = exact_optics.point(nodes["direction"][0].tolist())
@@ -56,7 +70,12 @@ def guide() -> Iterator[Reading]:
         yield Reading(f"way along it after {bounces}", exact, got, U * bounces * float(exact), 4.0, usual)
 
 
+@case("E4", "a skew ray in a mirrored tube")
 def fibre() -> Iterator[Reading]:
+    """The ray winds round the tube by the same angle at each bounce. With starts moved off the wall the angle
+    drifts; the place on the wall is wrong with the square of the number of bounces, the way along the tube with
+    their number.
+    """
     start = (0.2, 0.4, 0.0)
     tube = Object(Cone((0.0, 0.0, -10.0), 1.0, (0.0, 0.0, 1e6), 1.0), MIRROR, "tube")
     nodes = path(world(tube), start, (-2, 1, 2), 100_000, max_nodes=MANY).nodes
@@ -77,7 +96,11 @@ def fibre() -> Iterator[Reading]:
         )
 
 
+@case("E5", "a corner of three mirrors sends a ray back the way it came")
 def corner() -> Iterator[Reading]:
+    """The direction comes back in the textbook, too. The line does not: each of the three starts is moved off its
+    mirror by 1e-4, so the ray returns beside where it should, by as much.
+    """
     random = np.random.default_rng(7)
     for what, count in (("along the axes", 1), ("turned at random", 60)):
         back, beside, usual = 0.0, 0.0, 0.0
@@ -97,7 +120,12 @@ def corner() -> Iterator[Reading]:
         yield Reading(f"place, {what}", 0, beside, U, 36.0, usual)
 
 
+@case("E7", "to and fro through the centre of a mirrored ball")
 def concentric() -> Iterator[Reading]:
+    """A ray through the centre meets the ball along its normal and comes back. Here moving the start along the
+    normal does no harm, it stays on the diameter: an error that hides in the simplest test. What is left is
+    rounding, which adds up by one unit a bounce at most.
+    """
     nodes = path(world(ball((0, 0, 0), 1.0, MIRROR)), (0, 0, 0), (0.3, -0.5, 0.81), 10_000).nodes
     d = nodes["direction"][0]
     off = np.linalg.norm(np.cross(nodes["point"], d), axis=1)
@@ -109,7 +137,12 @@ def concentric() -> Iterator[Reading]:
         )
 
 
+@case("E8", "between two mirrored balls: each bounce multiplies the distance from the axis")
 def unstable() -> Iterator[Reading]:
+    """A ray at 1e-6 beside the axis leaves it as 1, 3, 11, 41, 153, ... times that, 3.7 fold a bounce. Errors grow
+    as fast as the thing itself: a start moved by 1e-4 along the normal is 1e-4 in relation after each bounce, and
+    it never gets better. Rounding alone leaves 15 digits.
+    """
     centers = ((0.0, 0.0, 0.0), (3.0, 0.0, 0.0))
     stage = world(*(ball(center, 1.0, MIRROR, f"ball {i}") for i, center in enumerate(centers)))
     still = path(stage, (1.5, 0, 0), (1, 0, 0), 1000).nodes
@@ -123,7 +156,12 @@ def unstable() -> Iterator[Reading]:
         yield Reading(f"height at bounce {k}", y, got, U * float(y) * (k + 1), 8.0, usual[k][1])
 
 
+@case("E9", "the same off the axes of coordinates: a tracer must say when it knows no more")
 def chaos() -> Iterator[Reading]:
+    """Every bounce multiplies any error by 3.73. Rounding alone, 1e-16, is as large as the balls after 28 bounces:
+    no double precision can go on, and the textbook's formulas are no worse than ours. But a tracer that tells no
+    error draws the rest as if it were true; here the row says that its digits are gone.
+    """
     centers, growth = ((0.0, 0.0, 0.0), (1.3, 2.1, 1.7)), 3.728458374
     stage = world(*(ball(center, 1.0, MIRROR, f"ball {i}") for i, center in enumerate(centers)))
     start, d = (0.65, 1.05, 0.85), (1.3, 2.1, 1.7)
@@ -138,69 +176,3 @@ def chaos() -> Iterator[Reading]:
     gone = int(np.argmax(~(nodes["error"] <= 1.0)))
     said = "yes" if 24 <= gone < 29 else f"at bounce {gone}"
     yield exactly("digits gone before bounce 29", "yes", said)
-
-
-CASES = (
-    Case(
-        "E1",
-        "two mirrors face to face: the height after 100 000 bounces",
-        parallel,
-        "Moving each start 1e-4 off its mirror along the normal shortens every crossing by that much: the ray gains "
-        "too little height, 1e-4 of a step a bounce, always the same way. After 10 000 bounces it is 1e-3 too low. A "
-        "start that stays on its mirror has only rounding to lose.",
-    ),
-    Case(
-        "E2",
-        "a ray that runs round inside a glass ball, totally reflected",
-        gallery,
-        "A start moved inwards by 1e-4 lies on another chord than the ray's. The angle of incidence changes with each "
-        "bounce, and the error of the place grows with the square of their number: 1e-2 after ten bounces, anywhere "
-        "on the circle after a thousand.",
-    ),
-    Case(
-        "E3",
-        "a light guide: how far along it the ray is after 100 000 reflections",
-        guide,
-        "As between two mirrors: every start moved off the wall by 1e-4 costs 3e-4 of the way, and all these errors "
-        "have the same sign. After 1000 reflections the point is 0.3 off, after 10 000 it is 3 off.",
-    ),
-    Case(
-        "E4",
-        "a skew ray in a mirrored tube",
-        fibre,
-        "The ray winds round the tube by the same angle at each bounce. With starts moved off the wall the angle "
-        "drifts; the place on the wall is wrong with the square of the number of bounces, the way along the tube with "
-        "their number.",
-    ),
-    Case(
-        "E5",
-        "a corner of three mirrors sends a ray back the way it came",
-        corner,
-        "The direction comes back in the textbook, too. The line does not: each of the three starts is moved off its "
-        "mirror by 1e-4, so the ray returns beside where it should, by as much.",
-    ),
-    Case(
-        "E7",
-        "to and fro through the centre of a mirrored ball",
-        concentric,
-        "A ray through the centre meets the ball along its normal and comes back. Here moving the start along the "
-        "normal does no harm, it stays on the diameter: an error that hides in the simplest test. What is "
-        "left is rounding, which adds up by one unit a bounce at most.",
-    ),
-    Case(
-        "E8",
-        "between two mirrored balls: each bounce multiplies the distance from the axis",
-        unstable,
-        "A ray at 1e-6 beside the axis leaves it as 1, 3, 11, 41, 153, ... times that, 3.7 fold a bounce. Errors grow "
-        "as fast as the thing itself: a start moved by 1e-4 along the normal is 1e-4 in relation after each bounce, "
-        "and it never gets better. Rounding alone leaves 15 digits.",
-    ),
-    Case(
-        "E9",
-        "the same off the axes of coordinates: a tracer must say when it knows no more",
-        chaos,
-        "Every bounce multiplies any error by 3.73. Rounding alone, 1e-16, is as large as the balls after 28 bounces: "
-        "no double precision can go on, and the textbook's formulas are no worse than ours. But a tracer that tells no "
-        "error draws the rest as if it were true; here the row says that its digits are gone.",
-    ),
-)

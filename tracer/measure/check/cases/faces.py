@@ -7,7 +7,7 @@ from decimal import Decimal
 
 from tracer.formulas.vector import Vector, as_floats
 from tracer.measure.check import textbook
-from tracer.measure.check.case import DIGITS, Case, Reading, U, decimal, exactly
+from tracer.measure.check.case import DIGITS, Reading, U, case, decimal, exactly
 from tracer.measure.check.exact_optics import dot, point
 from tracer.measure.check.scenes import DARK, box, glass, path, plane, world
 from tracer.scene import Object
@@ -39,7 +39,11 @@ def reading(
     return Reading(setting, exact, float(row["t"]), U * float(exact), allowed, textbook.triangle(o, d, corners))
 
 
+@case("B4", "the hit on a plain triangle: t and its place")
 def inside() -> Iterator[Reading]:
+    """Nothing goes wrong here: with sides of length 1 and the eye at distance 1, the textbook is good to the last
+    digits, too. The case is there so that care for the others costs nothing where all is well.
+    """
     corners, chance = ((0, 0, 0), (1, 0, 0), (0, 1, 0)), random.Random(2)
     some = []
     for _ in range(200):
@@ -56,19 +60,34 @@ def inside() -> Iterator[Reading]:
         yield max((one for one in some if one.setting.endswith(name)), key=lambda one: one.error)
 
 
+@case("B6", "a triangle like a needle, 1e-6 to 1e-100 wide")
 def needle() -> Iterator[Reading]:
+    """The usual test throws a triangle away when its determinant is below 1e-8, as if the ray ran along it. But the
+    determinant is twice the area seen by the ray, and a needle of width 1e-12 seen from straight above has just
+    1e-12 of it. The needle is missed. A sign decides without any such limit.
+    """
     for width in (1e-6, 1e-12, 1e-100):
         corners = ((0, 0, 0), (1, 0, 0), (0.5, width, 0))
         yield reading(f"width {width:g}", corners, (0.5, width / 3, 1), (0, 0, -1), 4.0)
 
 
+@case("B7", "triangles of any size, legs of 1e-60 to 1e60")
 def sizes() -> Iterator[Reading]:
+    """The determinant is the product of two legs: 1e-12 for legs of 1e-6, 1e-120 for legs of 1e-60, and a limit of
+    1e-8 takes either for a ray along the plane. A scene in metres is there, the same scene in kilometres or as a
+    fine mesh has holes.
+    """
     for size in (1e-60, 1e-6, 1.0, 1e8, 1e60):
         corners = ((0, 0, 0), (size, 0, 0), (0, size, 0))
         yield reading(f"legs {size:g}", corners, (0.25 * size, 0.25 * size, 1), (0, 0, -1), 4.0)
 
 
+@case("B8", "a millimetre above a triangle of a thousand kilometres")
 def flat() -> Iterator[Reading]:
+    """The distance comes from corners 1e6 away, and the eye is 1e-6 above: products of size 1e12 are rounded before
+    they cancel. Lying level, the triangle is lucky, as its zeros are exact. Turned, its textbook distance has a few
+    digits only or none at all. In pairs, twice the digits are carried until all has cancelled.
+    """
     turned = [turn(corner) for corner in FLAT]
     for height in (1e-3, 1e-6):
         origin, aim = (123.456, height, 7.89), (1.0, -1e-3, 1e-3)
@@ -85,7 +104,12 @@ def turn(a: Sequence[float]) -> Vector:
     return (0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z)
 
 
+@case("B9", "a ray within a plane, and rays that graze it")
 def within() -> Iterator[Reading]:
+    """Within the plane t = 0/0, so the case has to be asked for. The distance is correct at every angle, but o + t
+    d is rounded: the hit may lie 1e-16 beside the plane, on either side, and the next ray then starts under the
+    floor. The hit is put onto the plane instead.
+    """
     scene = world(plane((0, 0, 0), (0, 1, 0), DARK))
     for aim in ((1, 0, 0), (0.6, 0, -0.8)):
         usual = textbook.plane((0, 0, 0), aim, (0, 0, 0), (0, 1, 0)) < math.inf
@@ -100,7 +124,12 @@ def within() -> Iterator[Reading]:
         yield exactly(f"at {angle:g}: height of the hit", 0, float(row["point"][1]), after)
 
 
+@case("B10", "a ray in the face of a box")
 def slabs() -> Iterator[Reading]:
+    """The usual test multiplies by 1/d, infinite where d is 0. A ray that starts in the plane of a face has 0 times
+    infinity there: NaN, which no comparison puts right again, and the box is missed. A direction of 0 never crosses
+    that pair of planes: where the ray starts decides.
+    """
     low, high = (0.0, -1.0, -1.0), (1.0, 1.0, 1.0)
     scene = world(box(low, high, glass(1.0)))
     for setting, x, across in (
@@ -113,54 +142,3 @@ def slabs() -> Iterator[Reading]:
         usual = f"{enter:g} to {leave:g}" if enter <= leave else "miss"
         got = f"{t[0]:.17g} to {t[0] + t[1]:.17g}" if len(t) > 1 else "miss"
         yield exactly(setting, "4 to 6", got, usual)
-
-
-CASES = (
-    Case(
-        "B4",
-        "the hit on a plain triangle: t and its place",
-        inside,
-        "Nothing goes wrong here: with sides of length 1 and the eye at distance 1, the textbook is good to the last "
-        "digits, too. The case is there so that care for the others costs nothing where all is well.",
-    ),
-    Case(
-        "B6",
-        "a triangle like a needle, 1e-6 to 1e-100 wide",
-        needle,
-        "The usual test throws a triangle away when its determinant is below 1e-8, as if the ray ran along it. But the "
-        "determinant is twice the area seen by the ray, and a needle of width 1e-12 seen from straight above has just "
-        "1e-12 of it. The needle is missed. A sign decides without any such limit.",
-    ),
-    Case(
-        "B7",
-        "triangles of any size, legs of 1e-60 to 1e60",
-        sizes,
-        "The determinant is the product of two legs: 1e-12 for legs of 1e-6, 1e-120 for legs of 1e-60, and a limit of "
-        "1e-8 takes either for a ray along the plane. A scene in metres is there, the same scene in kilometres or as a "
-        "fine mesh has holes.",
-    ),
-    Case(
-        "B8",
-        "a millimetre above a triangle of a thousand kilometres",
-        flat,
-        "The distance comes from corners 1e6 away, and the eye is 1e-6 above: products of size 1e12 are rounded before "
-        "they cancel. Lying level, the triangle is lucky, as its zeros are exact. Turned, its textbook distance has "
-        "a few digits only or none at all. In pairs, twice the digits are carried until all has cancelled.",
-    ),
-    Case(
-        "B9",
-        "a ray within a plane, and rays that graze it",
-        within,
-        "Within the plane t = 0/0, so the case has to be asked for. The distance is correct at every "
-        "angle, but o + t d is rounded: the hit may lie 1e-16 beside the plane, on either side, and the next ray then "
-        "starts under the floor. The hit is put onto the plane instead.",
-    ),
-    Case(
-        "B10",
-        "a ray in the face of a box",
-        slabs,
-        "The usual test multiplies by 1/d, infinite where d is 0. A ray that starts in the plane of a face has 0 times "
-        "infinity there: NaN, which no comparison puts right again, and the box is missed. A direction of 0 never "
-        "crosses that pair of planes: where the ray starts decides.",
-    ),
-)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from tracer.measure.check import textbook
-from tracer.measure.check.case import Case, Reading, exactly
+from tracer.measure.check.case import Reading, case, exactly
 from tracer.measure.check.scenes import DARK, glass, path, world
 from tracer.scene import Object
 from tracer.shapes.mesh import Geometry, Mesh
@@ -33,7 +33,13 @@ def sphere_mesh(rings: int = 16, sectors: int = 32, radius: float = 2.0) -> tupl
     return np.array(points), np.array(faces)
 
 
+@case("B1", "no gap in a closed mesh: rays from inside, at corners and edges")
 def closed() -> Iterator[Reading]:
+    """Moeller and Trumbore's test works out u and v of every triangle on its own. On a shared edge each of the two
+    neighbours may round to just outside, -1e-17, and the ray slips through the crack: about one in ten of those
+    aimed at corners and edges. Ours gives a corner the same two numbers whichever triangle asks. Of the textbook's
+    triangles, slow as they are in Python, the first 100 rays alone are asked: that is the *.
+    """
     points, faces = sphere_mesh()
     scene = world(Object(Mesh(Geometry(points, faces)), DARK, "mesh"))
     chance = random.Random(1)
@@ -70,8 +76,13 @@ def textbook_hits(
     )
 
 
+@case("B3", "along the diagonals of a cube of 12 triangles")
 def parity() -> Iterator[Reading]:
-    """A cube of 12 triangles; every ray runs through the diagonals of two faces."""
+    # A cube of 12 triangles. Every ray passes through the diagonals of two faces.
+    """A ray that meets the diagonal of a face meets both of its triangles, at the same distance. A program that
+    takes each as a surface of its own counts the face twice: inside and outside are exchanged, glass is entered two
+    times. Surfaces at the same distance to the bit are one interface here.
+    """
     points = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
     quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
     faces = np.array([side for a, b, c, d in quads for side in ((a, b, c), (a, c, d))])
@@ -86,24 +97,3 @@ def parity() -> Iterator[Reading]:
         usual += sum(textbook.triangle(origin, (0, 0, 1), points[face].tolist()) < math.inf for face in faces)
     yield exactly("31 rays: faces of the cube met", 62, crossings, usual)
     yield exactly("31 rays: 2 to the cube and 2 through it, to the bit", 31, right)
-
-
-CASES = (
-    Case(
-        "B1",
-        "no gap in a closed mesh: rays from inside, at corners and edges",
-        closed,
-        "Moeller and Trumbore's test works out u and v of every triangle on its own. On a shared edge each of the two "
-        "neighbours may round to just outside, -1e-17, and the ray slips through the crack: about one in ten of those "
-        "aimed at corners and edges. Ours gives a corner the same two numbers whichever triangle asks. "
-        "Of the textbook's triangles, slow as they are in Python, the first 100 rays alone are asked: that is the *.",
-    ),
-    Case(
-        "B3",
-        "along the diagonals of a cube of 12 triangles",
-        parity,
-        "A ray that meets the diagonal of a face meets both of its triangles, at the same distance. A program that "
-        "takes each as a surface of its own counts the face twice: inside and outside are exchanged, glass is entered "
-        "two times. Surfaces at the same distance to the bit are one interface here.",
-    ),
-)

@@ -8,7 +8,7 @@ import numpy as np
 
 from tracer.formulas import optics
 from tracer.measure.check import exact_optics, textbook
-from tracer.measure.check.case import Case, Reading, U, decimal, exactly, root
+from tracer.measure.check.case import Reading, U, case, decimal, exactly, root
 from tracer.measure.check.cases.bending import bent
 from tracer.measure.check.scenes import MATTE, MIRROR, ball, box, glass, path, plane, world
 from tracer.scene import Object
@@ -44,7 +44,12 @@ def turned(direction) -> float:
     return -math.atan2(float(direction[1]), float(direction[0])) % (2.0 * math.pi)
 
 
+@case("G1", "the rainbow's angles, by rays traced through a drop")
 def rainbow() -> Iterator[Reading]:
+    """A ray of the rainbow runs through the drop on chords of equal length. Starts moved off the surface by 1e-4
+    change each chord, and with it every later angle: the first bow is off by 1e-7 rad, which no one sees, the third
+    by 6e-6, the one of twenty reflections by 1e-2.
+    """
     n, full = 4 / 3, 2 * exact_optics.pi()
     for k, b in RAINBOWS.items():
         out = last_out(through_drop(b, n, k))
@@ -57,7 +62,11 @@ def rainbow() -> Iterator[Reading]:
         yield Reading(f"{k} inside", exact % full, turned(out["direction"]), U * (k + 1), 9.0, usual)
 
 
+@case("G2", "a ball of n = 2 sends light nearly back: by how much it misses")
 def cat_eye() -> Iterator[Reading]:
+    """The angle to the way back is b^3 / 4, 2.5e-10 at an impact of 1e-3. acos of a dot product cannot tell any
+    angle below 1e-8 from 0. With atan2 the angle is as good as the directions themselves: 1e-16 absolute.
+    """
     for b in (0.5, 0.1, 1e-2, 1e-3, 1e-4):
         d = last_out(through_drop(b, 2.0, 1))["direction"]
         exact = 2 * exact_optics.arcsin(b) - 4 * exact_optics.arcsin(decimal(b) / 2)
@@ -65,7 +74,11 @@ def cat_eye() -> Iterator[Reading]:
         yield Reading(f"b = {b:g}", abs(exact), optics.angle(tuple(d), (-1.0, 0.0, 0.0)), U, 8.0, usual)
 
 
+@case("G3", "where a ball lens crosses its axis")
 def ball_lens() -> Iterator[Reading]:
+    """Starting the ray inside the glass 1e-4 off the surface moves it to a neighbouring line; the focus is then
+    wrong in the fourth or fifth digit. No lens designer would take that; nothing but an epsilon is to blame.
+    """
     for n, b in ((1.5, 0.8), (1.5, 0.5), (1.5, 0.1), (1.5, 1e-3), (2.0, 0.5)):
         nodes = path(world(ball((0, 0, 0), 1.0, glass(n))), (-2, b, 0), (1, 0, 0), 2).nodes
         a = exact_optics.bend(b, 1.0, n)
@@ -77,7 +90,11 @@ def ball_lens() -> Iterator[Reading]:
         yield Reading(f"n = {n:g}, b = {b:g}", exact, got, U * float(exact), 8.0, usual)
 
 
+@case("G6", "a prism of 60 degrees at its least deviation")
 def prism() -> Iterator[Reading]:
+    """The deviation itself is no difficulty for the textbook's formulas at such angles; only its acos costs a few
+    units. The prism is a mesh: the ray must find its faces without a gap.
+    """
     for n, name in ((1.5, "1.5"), (math.sqrt(2.0), "root 2")):
         stage = world(Object(Mesh(Geometry(PRISM, np.array(FACES))), glass(n), "prism"))
         incidence = math.asin(n / 2.0)
@@ -91,7 +108,11 @@ def prism() -> Iterator[Reading]:
         yield Reading(f"n = {name}", exact, got, U, 4.0, textbook.angle(d, usual))
 
 
+@case("G7", "how far a slab moves a ray aside: 0.35 in the 3-4-5 case")
 def shift() -> Iterator[Reading]:
+    """A start moved 1e-4 along the normal takes that much of the slab's thickness from the way in the glass: the
+    shift is wrong by a part in ten thousand. The direction is right, so nothing looks wrong.
+    """
     for sine, cosine, n in ((0.8, 0.6, 4 / 3), (math.sqrt(0.75), 0.5, 1.5)):
         slab = box((-1e3, -1, -1e3), (1e3, 0, 1e3), glass(n))
         tree = path(world(slab), (-sine, cosine, 0), (sine, -cosine, 0), 2)
@@ -104,7 +125,12 @@ def shift() -> Iterator[Reading]:
         yield Reading(f"sine {sine:.3g}, n = {n:.3g}", exact, got, U, 4.0, usual)
 
 
+@case("G8", "through hundreds of layers of different glass and out again")
 def many_layers() -> Iterator[Reading]:
+    """Every face moves the start by 1e-4 along the normal, always the same way: with a hundred layers of thickness
+    1 the shift is wrong by a part in ten thousand. Each layer touches the next: two faces at the same place are one
+    interface, and what counts are the indices on its sides.
+    """
     random = np.random.default_rng(11)
     for count in (10, 100, 300):
         indices = random.uniform(1.0, 2.5, count).tolist()
@@ -126,7 +152,11 @@ def many_layers() -> Iterator[Reading]:
         yield Reading(f"shift, {count}", exact, got, U * float(exact), allowed, usual)
 
 
+@case("G9", "Snell's window: where a diver sees the sky, and where the pool")
 def window() -> Iterator[Reading]:
+    """The edge is where the radicand changes its sign. Between 1 - eta^2 (1 - c1^2) and (1 - s2)(1 + s2) lie a few
+    units; both decide rightly at 1e-12 from the edge. What matters is that no threshold blurs it.
+    """
     n = 4 / 3
     water = world(plane((0, 0, 0), (0, 1, 0), glass(n, "water")))
 
@@ -144,7 +174,11 @@ def window() -> Iterator[Reading]:
     yield Reading("radius over depth", exact, low, U * (n * n / (n * n - 1.0)) ** 1.5, 4.0)
 
 
+@case("G11", "apparent depth: three quarters of the real one")
 def apparent_depth() -> Iterator[Reading]:
+    """The way in the water starts 1e-4 below its surface in the textbook's manner, so the ground is met 1e-4 too
+    early: four digits of the ratio are right, at every angle.
+    """
     water = plane((0, 0, 0), (0, 1, 0), glass(4 / 3, "water"))
     stage = world(water, plane((0, -1, 0), (0, 1, 0), MATTE, "ground"))
     for name, tangent in (("from above", 1e-8), ("45 degrees", 1.0)):
@@ -157,7 +191,11 @@ def apparent_depth() -> Iterator[Reading]:
         yield Reading(name, exact, got, U * float(exact), 4.0, usual)
 
 
+@case("G13", "a concave mirror: where a ray parallel to the axis crosses it")
 def concave() -> Iterator[Reading]:
+    """The reflected ray starts 1e-4 inside the mirror in the textbook's manner, on a parallel line. Its crossing is
+    wrong by some 1e-5 to 1e-4; the true one is 1 / (2 cosine) to the last digits.
+    """
     for h in (0.1, 0.6, 0.8):
         nodes = path(world(ball((0, 0, 0), 1.0, MIRROR)), (0, h, 0), (1, 0, 0), 1).nodes
         exact = 1 / (2 * root(1 - decimal(h) ** 2))
@@ -166,73 +204,3 @@ def concave() -> Iterator[Reading]:
         usual = crossing(textbook.offset(hit, textbook.unit(hit), d), d)
         got = crossing(nodes["point"][0], nodes["direction"][1])
         yield Reading(f"h = {h:g}", exact, got, U * float(exact), 4.0, usual)
-
-
-CASES = (
-    Case(
-        "G1",
-        "the rainbow's angles, by rays traced through a drop",
-        rainbow,
-        "A ray of the rainbow runs through the drop on chords of equal length. Starts moved off the surface by 1e-4 "
-        "change each chord, and with it every later angle: the first bow is off by 1e-7 rad, which no one sees, the "
-        "third by 6e-6, the one of twenty reflections by 1e-2.",
-    ),
-    Case(
-        "G2",
-        "a ball of n = 2 sends light nearly back: by how much it misses",
-        cat_eye,
-        "The angle to the way back is b^3 / 4, 2.5e-10 at an impact of 1e-3. acos of a dot product cannot tell any "
-        "angle below 1e-8 from 0. With atan2 the angle is as good as the directions themselves: 1e-16 absolute.",
-    ),
-    Case(
-        "G3",
-        "where a ball lens crosses its axis",
-        ball_lens,
-        "Starting the ray inside the glass 1e-4 off the surface moves it to a neighbouring line; the focus is then "
-        "wrong in the fourth or fifth digit. No lens designer would take that; nothing but an epsilon is to blame.",
-    ),
-    Case(
-        "G6",
-        "a prism of 60 degrees at its least deviation",
-        prism,
-        "The deviation itself is no difficulty for the textbook's formulas at such angles; only its acos costs a few "
-        "units. The prism is a mesh: the ray must find its faces without a gap.",
-    ),
-    Case(
-        "G7",
-        "how far a slab moves a ray aside: 0.35 in the 3-4-5 case",
-        shift,
-        "A start moved 1e-4 along the normal takes that much of the slab's thickness from the way in the glass: the "
-        "shift is wrong by a part in ten thousand. The direction is right, so nothing looks wrong.",
-    ),
-    Case(
-        "G8",
-        "through hundreds of layers of different glass and out again",
-        many_layers,
-        "Every face moves the start by 1e-4 along the normal, always the same way: with a hundred layers of "
-        "thickness 1 "
-        "the shift is wrong by a part in ten thousand. Each layer touches the next: two faces at the same place "
-        "are one interface, and what counts are the indices on its sides.",
-    ),
-    Case(
-        "G9",
-        "Snell's window: where a diver sees the sky, and where the pool",
-        window,
-        "The edge is where the radicand changes its sign. Between 1 - eta^2 (1 - c1^2) and (1 - s2)(1 + s2) lie a few "
-        "units; both decide rightly at 1e-12 from the edge. What matters is that no threshold blurs it.",
-    ),
-    Case(
-        "G11",
-        "apparent depth: three quarters of the real one",
-        apparent_depth,
-        "The way in the water starts 1e-4 below its surface in the textbook's manner, so the ground is met 1e-4 too "
-        "early: four digits of the ratio are right, at every angle.",
-    ),
-    Case(
-        "G13",
-        "a concave mirror: where a ray parallel to the axis crosses it",
-        concave,
-        "The reflected ray starts 1e-4 inside the mirror in the textbook's manner, on a parallel line. Its crossing is "
-        "wrong by some 1e-5 to 1e-4; the true one is 1 / (2 cosine) to the last digits.",
-    ),
-)

@@ -5,7 +5,7 @@ import random
 from collections.abc import Iterator, Sequence
 
 from tracer.measure.check import textbook
-from tracer.measure.check.case import Case, Reading, exactly
+from tracer.measure.check.case import Reading, case, exactly
 from tracer.measure.check.scenes import DARK, MATTE, ball, box, glass, path, world
 from tracer.scene import Light
 from tracer.tree.raytree import RayTree
@@ -38,12 +38,22 @@ def distant_tangent() -> Iterator[Reading]:
             yield exactly(f"2^-{k} {where} the edge, D = 2^30", exact, met(path(scene, origin, aim)), usual)
 
 
+@case("A4", "hit or miss, a hair inside and outside of the edge")
 def decided() -> Iterator[Reading]:
+    """Whether the ray hits is the sign of b^2 - 4ac. Both are 4 |f|^2, and the edge makes a difference of about 8 *
+    2^-k: from 5 away that still has digits, from 2^30 away b^2 is 5e18, where doubles count in steps of 1024. The
+    answer is then the same on either side of the edge.
+    """
     yield from tangent()
     yield from distant_tangent()
 
 
+@case("A5", "both roots in one point")
 def double() -> Iterator[Reading]:
+    """The careful quadratic computes q = -(b + sign(b) sqrt(b^2 - 4ac)) / 2, and its roots q/a and c/q. A ray that
+    starts on the sphere and runs along it has b = c = 0: q is 0, and c/q is 0/0, which is no number. Every
+    comparison with it is false, and a pixel may end as NaN.
+    """
     scene = world(ball(CENTER, 1.0, DARK))
     got = float(path(scene, (1, 0, -5), (0, 0, 1)).nodes[0]["t"])
     yield exactly("edge, from 5 away: t", 5, got, textbook.press(1.0, -10.0, 25.0)[0])
@@ -55,7 +65,12 @@ def double() -> Iterator[Reading]:
     yield exactly("starting on it, along it", "no hit", own, usual)
 
 
+@case("A10", "through the pole of a glass ball, straight on")
 def pole() -> Iterator[Reading]:
+    """On the axis a sphere has no longitude, so programs that need one set x to 1e-5 of the radius there. The
+    normal tilts by 1e-5, and the ray that should pass straight through leaves it turned by 2e-6: ten billion
+    roundings. A normal that is the point minus the centre needs no longitude.
+    """
     tree = path(world(ball(CENTER, 1.0, glass(1.5))), (0, 0, -5), (0, 0, 1), depth=2)
     enter, inside, out = tree.nodes
     aim, origin = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
@@ -74,7 +89,12 @@ def text(a: Sequence[float]) -> str:
     return " ".join(f"{x + 0.0:.17g}" if float(f"{x:.11g}").is_integer() else f"{x:.11g}" for x in a)
 
 
+@case("A11", "what a ray hits, throws a shadow along it: one geometry")
 def two_questions() -> Iterator[Reading]:
+    """Some programs solve the quadratic to find the nearest hit, and ask a quicker formula whether a shadow ray is
+    blocked. Near the edge of a sphere 1e6 away the two disagree about one ray in three: a point that is seen lets
+    light through, or one that is not seen throws a shadow. One test for both cannot disagree.
+    """
     chance, found = random.Random(4), {"ours": 0, "textbook": 0, "hits": 0}
     floor = box((-2, -2, -1e6 - 1), (2, 2, -1e6), MATTE, "floor")
     for _ in range(200):
@@ -91,39 +111,3 @@ def two_questions() -> Iterator[Reading]:
         found["textbook"] += quadratic != textbook.haines(start, aim, CENTER, 1.0)
     yield exactly("200 rays: the answers differ", 0, found["ours"], found["textbook"])
     yield exactly("some are blocked, some are not", "yes", "yes" if 50 < found["hits"] < 150 else "no")
-
-
-CASES = (
-    Case(
-        "A4",
-        "hit or miss, a hair inside and outside of the edge",
-        decided,
-        "Whether the ray hits is the sign of b^2 - 4ac. Both are 4 |f|^2, and the edge makes a difference of about "
-        "8 * 2^-k: from 5 away that still has digits, from 2^30 away b^2 is 5e18, where doubles count in steps of "
-        "1024. The answer is then the same on either side of the edge.",
-    ),
-    Case(
-        "A5",
-        "both roots in one point",
-        double,
-        "The careful quadratic computes q = -(b + sign(b) sqrt(b^2 - 4ac)) / 2, and its roots q/a and c/q. A ray that "
-        "starts on the sphere and runs along it has b = c = 0: q is 0, and c/q is 0/0, which is no number. Every "
-        "comparison with it is false, and a pixel may end as NaN.",
-    ),
-    Case(
-        "A10",
-        "through the pole of a glass ball, straight on",
-        pole,
-        "On the axis a sphere has no longitude, so programs that need one set x to 1e-5 of the radius there. The "
-        "normal tilts by 1e-5, and the ray that should pass straight through leaves it turned by 2e-6: ten "
-        "billion roundings. A normal that is the point minus the centre needs no longitude.",
-    ),
-    Case(
-        "A11",
-        "what a ray hits, throws a shadow along it: one geometry",
-        two_questions,
-        "Some programs solve the quadratic to find the nearest hit, and ask a quicker formula whether a shadow ray is "
-        "blocked. Near the edge of a sphere 1e6 away the two disagree about one ray in three: a point that is "
-        "seen lets light through, or one that is not seen throws a shadow. One test for both cannot disagree.",
-    ),
-)

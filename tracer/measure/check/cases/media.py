@@ -9,7 +9,7 @@ import numpy as np
 
 from tracer.kernel.world import World
 from tracer.measure.check import exact_optics, textbook
-from tracer.measure.check.case import Case, Reading, U, decimal, exactly, root
+from tracer.measure.check.case import Reading, U, case, decimal, exactly, root
 from tracer.measure.check.scenes import MATTE, MIRROR, ball, box, glass, path, plane, world
 from tracer.scene import Light
 from tracer.tree.raytree import RayTree
@@ -37,7 +37,12 @@ def slant(stage: World) -> RayTree:
     return path(stage, (-SINE, COSINE, 0), (SINE, -COSINE, 0), 3)
 
 
+@case("H1", "glass on water, face to face: 60 degrees in, 60 degrees out")
 def touching() -> Iterator[Reading]:
+    """Where two media touch there are two faces at the same place. A textbook tracer leaves the glass for air, at
+    60 degrees, and misses the water's face because it is nearer than its smallest distance. At the bottom it then
+    leaves water at 60 degrees, where the sine outside would be 1.15: total reflection where there is none.
+    """
     tree = slant(glass_over_water())
     rows, nodes = straight_through(tree), tree.nodes
     sine = exact_optics.across(nodes["direction"][0].tolist())
@@ -59,7 +64,12 @@ def touching() -> Iterator[Reading]:
     yield Reading("weight", through, float(nodes["weight"][rows[3], 0]), U * float(through), 8.0)
 
 
+@case("H2", "contact or a gap of 1e-15: R is 0.145 or 1")
 def gap() -> Iterator[Reading]:
+    """At 60 degrees glass reflects everything at air, but not at water. So the narrowest gap turns a clear contact
+    into a mirror. A tracer that treats every face as one with air has R = 1 in both; one that merges what lies
+    within 1e-4 has 0.145 in both. Only faces at the same number touch.
+    """
     for width in (0.0, 1e-15, 1e-9, 1e-3):
         bottom = box((-9, -1, -9), (9, -width, 9), glass(WATER), "water")
         tree = path(
@@ -76,7 +86,12 @@ def gap() -> Iterator[Reading]:
         yield Reading(f"R, gap {width:g}", exact, got, unit * (20.0 if width == 0.0 else 1.0), 8.0, usual)
 
 
+@case("H3", "two panes with a hair of air between them: four faces")
 def two_panes() -> Iterator[Reading]:
+    """A gap below the smallest distance of 1e-4 is jumped over, so the tracer counts three faces and believes to be
+    in glass when it is in air. A ray at 30 degrees then leaves at 19.5 degrees, one at 45 degrees at 28.1: as if
+    the air below were glass. (Shown is by how much the direction's coordinates are off, at most.)
+    """
     for degrees in (30, 45):
         s, c = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
         for width in (1e-2, 1e-5, 1e-9, 1e-12):
@@ -93,7 +108,12 @@ def two_panes() -> Iterator[Reading]:
             yield Reading(f"off by, {degrees} degrees, gap {width:g}", 0, off, U / c, 16.0, other)
 
 
+@case("H4", "water that reaches into the glass around it: the glass has priority")
 def overlapping() -> Iterator[Reading]:
+    """Modellers let media overlap so that no gap is left. Face by face the overlap is wrong: the ray enters water
+    inside the glass, then leaves the glass as if for air. With priorities the hidden face is no face: the tree has
+    the same bits as where both just touch.
+    """
     plain, overlapped = slant(glass_over_water()), slant(glass_over_water(0.1))
     for field in ("point", "direction", "theta1", "theta2", "weight", "n1", "n2"):
         a, b = plain.nodes[field], overlapped.nodes[field]
@@ -108,7 +128,11 @@ def overlapping() -> Iterator[Reading]:
     yield Reading("angle in the water", theta, got, U * float(theta) * 2, 8.0, usual)
 
 
+@case("H5", "the same ball twice in the file: nothing changes")
 def twice() -> Iterator[Reading]:
+    """Two equal surfaces at the same place bend the ray twice where each is taken as one between air and glass: the
+    turn is 1.6 times too large. The second ball begins where the first does, so inside there is one glass.
+    """
     once = path(world(ball((0, 0, 0), 1.0, glass(1.5))), (-2, 0.5, 0), (1, 0, 0), 4)
     both = path(
         world(ball((0, 0, 0), 1.0, glass(1.5), "a"), ball((0, 0, 0), 1.0, glass(1.5), "b")), (-2, 0.5, 0), (1, 0, 0), 4
@@ -141,7 +165,11 @@ def trees_that_differ(count: int) -> int:
     return found
 
 
+@case("H6", "the eye under water: the first medium is found before the first ray")
 def diver() -> Iterator[Reading]:
+    """A tracer that starts every path in air bends the first ray as if the water were not there, and leaves glass
+    for air at the angle it came with. Which solids the eye is in is asked before the first ray.
+    """
     tree = path(glass_over_water(), (0, -2, 0), (0.3, 1, 0), 3)
     rows = straight_through(tree)
     n = [float(tree.nodes["n1"][row]) for row in rows]
@@ -153,7 +181,12 @@ def diver() -> Iterator[Reading]:
     yield Reading("sine outside", sine, got, U * float(sine), 8.0, usual[0] if usual else None)
 
 
+@case("I2", "the edge of a ball's shadow, decided at 7.5 (1 - 1e-14) and 7.5 (1 + 1e-14)")
 def shadow() -> Iterator[Reading]:
+    """A shadow ray that starts 1e-4 above its floor comes from another point: at the shadow's edge that is an error
+    of 1e-4, and every point nearer to the edge than that is decided by the offset. Starting on the floor and with a
+    discriminant free of cancellation, the edge is right to 1e-14.
+    """
     floor = plane((0, 0, 0), UP, MATTE, "floor")
     lamp = Light("lamp", position=(0.0, 10.0, 0.0))
     stage = world(floor, ball((0, 5, 0), 3.0, MATTE), lights=(lamp,))
@@ -166,7 +199,11 @@ def shadow() -> Iterator[Reading]:
         yield exactly(f"7.5 (1 {side:+g})", word, tree.end(1) or "", "blocked" if t < math.inf else "lit")
 
 
+@case("I7", "what a mirror shows is as far away as its image behind the mirror")
 def virtual() -> Iterator[Reading]:
+    """The ray that leaves the mirror starts 1e-4 above it, so both ways together are short by about that much:
+    distances through mirrors have four digits. Started on the mirror they add up to the distance of the image.
+    """
     thing, origin = (1.0, 2.0, 4.0), (0.5, 0.3, 3.0)
     stage = world(plane((0, 0, 0), (0, 0, 1), MIRROR, "mirror"), ball(thing, 0.7, MATTE))
     for aside in (0.0, 0.1, 0.3):
@@ -181,69 +218,3 @@ def virtual() -> Iterator[Reading]:
         start = textbook.offset(textbook.at(origin, way, t), (0.0, 0.0, 1.0), back)
         usual = t + textbook.sphere(start, back, thing, 0.7)
         yield Reading(f"{aside:g} aside", exact, float(nodes["t"].sum()), U * float(exact), 8.0, usual)
-
-
-CASES = (
-    Case(
-        "H1",
-        "glass on water, face to face: 60 degrees in, 60 degrees out",
-        touching,
-        "Where two media touch there are two faces at the same place. A textbook tracer leaves the glass for "
-        "air, at 60 "
-        "degrees, and misses the water's face because it is nearer than its smallest distance. At the bottom it then "
-        "leaves water at 60 degrees, where the sine outside would be 1.15: total reflection where there is none.",
-    ),
-    Case(
-        "H2",
-        "contact or a gap of 1e-15: R is 0.145 or 1",
-        gap,
-        "At 60 degrees glass reflects everything at air, but not at water. So the narrowest gap turns a clear contact "
-        "into a mirror. A tracer that treats every face as one with air has R = 1 in both; one that merges what lies "
-        "within 1e-4 has 0.145 in both. Only faces at the same number touch.",
-    ),
-    Case(
-        "H3",
-        "two panes with a hair of air between them: four faces",
-        two_panes,
-        "A gap below the smallest distance of 1e-4 is jumped over, so the tracer counts three faces and believes to be "
-        "in glass when it is in air. A ray at 30 degrees then leaves at 19.5 degrees, one at 45 degrees at 28.1: as if "
-        "the air below were glass. (Shown is by how much the direction's coordinates are off, at most.)",
-    ),
-    Case(
-        "H4",
-        "water that reaches into the glass around it: the glass has priority",
-        overlapping,
-        "Modellers let media overlap so that no gap is left. Face by face the overlap is wrong: the ray enters water "
-        "inside the glass, then leaves the glass as if for air. With priorities the hidden face is no face: the "
-        "tree has the same bits as where both just touch.",
-    ),
-    Case(
-        "H5",
-        "the same ball twice in the file: nothing changes",
-        twice,
-        "Two equal surfaces at the same place bend the ray twice where each is taken as one between air and glass: the "
-        "turn is 1.6 times too large. The second ball begins where the first does, so inside there is one glass.",
-    ),
-    Case(
-        "H6",
-        "the eye under water: the first medium is found before the first ray",
-        diver,
-        "A tracer that starts every path in air bends the first ray as if the water were not there, and leaves glass "
-        "for air at the angle it came with. Which solids the eye is in is asked before the first ray.",
-    ),
-    Case(
-        "I2",
-        "the edge of a ball's shadow, decided at 7.5 (1 - 1e-14) and 7.5 (1 + 1e-14)",
-        shadow,
-        "A shadow ray that starts 1e-4 above its floor comes from another point: at the shadow's edge that is an error "
-        "of 1e-4, and every point nearer to the edge than that is decided by the offset. Starting on the floor "
-        "and with a discriminant free of cancellation, the edge is right to 1e-14.",
-    ),
-    Case(
-        "I7",
-        "what a mirror shows is as far away as its image behind the mirror",
-        virtual,
-        "The ray that leaves the mirror starts 1e-4 above it, so both ways together are short by about that much: "
-        "distances through mirrors have four digits. Started on the mirror they add up to the distance of the image.",
-    ),
-)

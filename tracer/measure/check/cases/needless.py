@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from tracer.image.render import render
 from tracer.kernel.world import World, prepare
-from tracer.measure.check.case import Case, Reading, exactly
+from tracer.measure.check.case import Reading, case, exactly
 from tracer.measure.check.scenes import MATTE, MIRROR, box, glass, path, plane
 from tracer.scene import Camera, Light, Material, Object, Scene, Tracing
 
@@ -32,15 +32,27 @@ def floor(material: Material) -> Object:
     return plane((0, 0, 0), (0, 1, 0), material, "floor")
 
 
+@case("L1", "a matte scene with one light: one ray and one shadow ray a pixel")
 def matte() -> Iterator[Reading]:
+    """A tracer that sends every kind of ray from every hit and multiplies by 0 afterwards does the work of a tree
+    for a picture that needs none: two children a hit are 63 rays a pixel at depth 5, of which 62 count for nothing.
+    """
     yield from counts(view(floor(MATTE), lights=[Light("lamp", position=(1, 5, 1))]), 5, shadow=PIXELS)
 
 
+@case("L2", "no light: no shadow ray")
 def dark() -> Iterator[Reading]:
+    """A shadow ray asks whether a light is seen. Where there is none, there is nothing to ask; a loop that always
+    sends one would double the work for a black picture.
+    """
     yield from counts(view(floor(MATTE)), 5)
 
 
+@case("L3", "a mirror, equal indices, total internal reflection: one ray each")
 def one_child() -> Iterator[Reading]:
+    """A surface that always splits sends a ray of weight 0 along with the other. With one such ray a hit the tree
+    doubles at every level: a thousand rays at depth ten where ten would do.
+    """
     world = view(floor(MIRROR))
     yield exactly(
         "a mirror: reflection rays", PIXELS, int(render(world, size=SIZE, depth=5, threads=1).rays["reflection"])
@@ -56,42 +68,13 @@ def one_child() -> Iterator[Reading]:
     yield exactly("beyond the critical angle: their kind", "tir", tree.kind(1))
 
 
+@case("L5", "a light behind the surface: no shadow ray")
 def unlit() -> Iterator[Reading]:
+    """Where n.l is below 0 the light adds nothing, whatever stands in its way. To search the scene first and to
+    find that out afterwards wastes, on a closed body, about half of all shadow rays.
+    """
     yield from counts(view(floor(MATTE), lights=[Light("under", position=(0, -5, 0))]), 5)
     both = [Light("under", position=(0, -5, 0)), Light("over", position=(1, 5, 1))]
     for reading in counts(view(floor(MATTE), lights=both), 5, shadow=PIXELS):
         if reading.setting == "shadow rays":
             yield exactly("a light on either side: shadow rays", PIXELS, reading.got)
-
-
-CASES = (
-    Case(
-        "L1",
-        "a matte scene with one light: one ray and one shadow ray a pixel",
-        matte,
-        "A tracer that sends every kind of ray from every hit and multiplies by 0 afterwards does the work of a tree "
-        "for a picture that needs none: two children a hit are 63 rays a pixel at depth 5, of which 62 count for "
-        "nothing.",
-    ),
-    Case(
-        "L2",
-        "no light: no shadow ray",
-        dark,
-        "A shadow ray asks whether a light is seen. Where there is none, there is nothing to ask; a loop that always "
-        "sends one would double the work for a black picture.",
-    ),
-    Case(
-        "L3",
-        "a mirror, equal indices, total internal reflection: one ray each",
-        one_child,
-        "A surface that always splits sends a ray of weight 0 along with the other. With one such ray a hit the tree "
-        "doubles at every level: a thousand rays at depth ten where ten would do.",
-    ),
-    Case(
-        "L5",
-        "a light behind the surface: no shadow ray",
-        unlit,
-        "Where n.l is below 0 the light adds nothing, whatever stands in its way. To search the scene first and to "
-        "find that out afterwards wastes, on a closed body, about half of all shadow rays.",
-    ),
-)

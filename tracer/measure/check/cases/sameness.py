@@ -8,7 +8,7 @@ import numpy as np
 from tracer.formulas.vector import Vector
 from tracer.kernel.world import World
 from tracer.measure.check import textbook
-from tracer.measure.check.case import Case, Reading, U, decimal, exactly
+from tracer.measure.check.case import Reading, U, case, decimal, exactly
 from tracer.measure.check.cases.starts import second_way
 from tracer.measure.check.scenes import DARK, MATTE, ball, box, glass, path, plane, world
 from tracer.scene import Light, Material, Object
@@ -74,12 +74,22 @@ def textbook_differing(k: int) -> int:
     return count
 
 
+@case("C3", "a scene times 2^-200 to 2^200: the same trees, bit for bit")
 def scales() -> Iterator[Reading]:
+    """A power of two changes no digit of a number, so it should change none of a tree. Any length built into a
+    program does: with a smallest distance of 1e-4 every hit is lost in a scene of size 1e-6, and the same scene in
+    other units is another picture.
+    """
     for k in (-200, -60, -20, 1, 60, 200):
         yield exactly(f"times 2^{k}: numbers that differ", 0, differing(k, 1.0), textbook_differing(k))
 
 
+@case("C10", "glass over a core, moved up to 2^38 away")
 def places() -> Iterator[Reading]:
+    """Far from the origin the coordinates have fewer digits for the gap between the two surfaces. The list of hits
+    must stay as long as the gap has any: at 2^38 a step of the coordinates is 6e-5, the gap 1e-3. And where the
+    difference to the centre is exact, the distance must be the same to the last bit.
+    """
     gap = 2.0**-10
     for k in (0, 10, 20, 30, 38):
         far = 2.0**k
@@ -100,11 +110,19 @@ def places() -> Iterator[Reading]:
         yield exactly(f"slanting, moved by 2^{k}: same t", decimal(bits), float(tree.nodes["t"][0]), usual)
 
 
+@case("J2", "a mirrored scene has the mirrored trees, bit for bit")
 def mirrored() -> Iterator[Reading]:
+    """Rounding knows no left and right: changing every sign of x changes no digit. A program that sums in another
+    order on one side, or picks a side by a sign, draws a symmetric scene with a picture that is not.
+    """
     yield exactly("12 trees, x to -x: numbers that differ", 0, differing(0, -1.0))
 
 
+@case("J4", "rays that are none: NaN, infinite, without direction")
 def bad_rays() -> Iterator[Reading]:
+    """Every comparison with NaN is false, so the usual test reports a miss, the pixel shows the background, and
+    nobody hears of it. Such a ray is refused here, in words.
+    """
     scene, nan, inf = world(ball((0, 0, 0), 1.0, MATTE)), math.nan, math.inf
     rays: tuple[tuple[str, Sequence[float], Sequence[float]], ...] = (
         ("direction NaN", (0, 0, 5), (0, nan, -1)),
@@ -122,7 +140,11 @@ def bad_rays() -> Iterator[Reading]:
         yield exactly(setting, "refused", own, "a miss" if t == math.inf else f"t = {t}")
 
 
+@case("J6", "lengths near the smallest that there are")
 def subnormal() -> Iterator[Reading]:
+    """Squares of lengths below 1e-162 are 0, and the quadratic is left with nothing. The answer must be right, or
+    the scene refused; the worst is a wrong number without a word.
+    """
     for s in (1e-150, 1e-310):
         try:
             own = float(path(world(ball((0, 0, 0), s, MATTE)), (0, 0, 5 * s), (0, 0, -1)).nodes["t"][0])
@@ -134,7 +156,11 @@ def subnormal() -> Iterator[Reading]:
         yield Reading(f"radius {s:g}", exact, own, max(U * 4 * s, 5e-324), 4.0, usual)
 
 
+@case("J7", "two surfaces at the same distance: the first in the file is met")
 def ties() -> Iterator[Reading]:
+    """With no rule the winner is whatever the search happens to meet first, which may change when any object is
+    added elsewhere. A picture should not flicker for that.
+    """
     corners = ((-1.0, -1.0, 0.0), (1.0, -1.0, 0.0), (1.0, 1.0, 0.0), (-1.0, 1.0, 0.0))
     faces = {"square": Object(Polygon(corners), DARK, "square"), "box": box((-1, -1, -1), (1, 1, 0), DARK, "box")}
     for crowd in (0, 40):  # with more things, a tree of boxes is searched in an order of its own
@@ -143,51 +169,3 @@ def ties() -> Iterator[Reading]:
             scene = world(faces[first], *others, faces[second])
             own = path(scene, (0.3, 0.2, 4), (0, 0, -1)).object_name(0) or "none"
             yield exactly(f"{first} before {second}, {crowd} others", first, own)
-
-
-CASES = (
-    Case(
-        "C3",
-        "a scene times 2^-200 to 2^200: the same trees, bit for bit",
-        scales,
-        "A power of two changes no digit of a number, so it should change none of a tree. Any length built into a "
-        "program does: with a smallest distance of 1e-4 every hit is lost in a scene of size 1e-6, and the same scene "
-        "in other units is another picture.",
-    ),
-    Case(
-        "C10",
-        "glass over a core, moved up to 2^38 away",
-        places,
-        "Far from the origin the coordinates have fewer digits for the gap between the two surfaces. The list of hits "
-        "must stay as long as the gap has any: at 2^38 a step of the coordinates is 6e-5, the gap 1e-3. And where the "
-        "difference to the centre is exact, the distance must be the same to the last bit.",
-    ),
-    Case(
-        "J2",
-        "a mirrored scene has the mirrored trees, bit for bit",
-        mirrored,
-        "Rounding knows no left and right: changing every sign of x changes no digit. A program that sums in another "
-        "order on one side, or picks a side by a sign, draws a symmetric scene with a picture that is not.",
-    ),
-    Case(
-        "J4",
-        "rays that are none: NaN, infinite, without direction",
-        bad_rays,
-        "Every comparison with NaN is false, so the usual test reports a miss, the pixel shows the background, and "
-        "nobody hears of it. Such a ray is refused here, in words.",
-    ),
-    Case(
-        "J6",
-        "lengths near the smallest that there are",
-        subnormal,
-        "Squares of lengths below 1e-162 are 0, and the quadratic is left with nothing. The answer must be right, or "
-        "the scene refused; the worst is a wrong number without a word.",
-    ),
-    Case(
-        "J7",
-        "two surfaces at the same distance: the first in the file is met",
-        ties,
-        "With no rule the winner is whatever the search happens to meet first, which may change when any object is "
-        "added elsewhere. A picture should not flicker for that.",
-    ),
-)

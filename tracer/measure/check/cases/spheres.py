@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from decimal import Decimal
 
 from tracer.measure.check import textbook
-from tracer.measure.check.case import DIGITS, Case, Reading, U, decimal, root
+from tracer.measure.check.case import DIGITS, Reading, U, case, decimal, root
 from tracer.measure.check.exact_optics import dot, point
 from tracer.measure.check.scenes import MATTE, ball, glass, path, world
 
@@ -37,7 +37,13 @@ def reading(
     return Reading(setting, exact, float(row["t"]), U * abs(float(exact)), 4.0, usual)
 
 
+@case("A1", "a unit sphere seen from far away, near its edge")
 def far() -> Iterator[Reading]:
+    """The textbook takes b^2 - 4ac, two numbers of the size of the squared distance, to find a difference of the
+    size of the squared radius. At D = 1e7 they have sixteen digits before the one that counts: the hit lies visibly
+    off the sphere. At D = 1e8 the difference is all rounding: the edge frays, and rays miss the sphere. Measured
+    from the point of the ray nearest to the centre nothing large is left to cancel.
+    """
     w = textbook.unit((0.3, -0.5, 0.81))
     aim = [0.9 * x for x in textbook.unit(textbook.cross(w, (1.0, 0.0, 0.0)))]
     scene = world(ball((0, 0, 0), 1.0, MATTE))
@@ -57,12 +63,22 @@ def far() -> Iterator[Reading]:
         )
 
 
+@case("A2", "a ray that starts just above a unit sphere")
 def near() -> Iterator[Reading]:
+    """The near root is -b - sqrt(b^2 - 4ac), two numbers near 1 whose difference is as small as the height, down to
+    1e-15; each carries an error of 1e-16. A smallest distance of 1e-4 hides that: it throws the hits nearer than
+    this away, and the ray goes through to the far side.
+    """
     for k in (10, 20, 30, 40, 50):
         yield reading(f"2^-{k} above it", (0, 0, 1 + 2.0**-k), (0.6, 0, -0.8))
 
 
+@case("A3", "a ground that is a sphere of radius 1e3 to 1e15")
 def ground() -> Iterator[Reading]:
+    """The centre is R below, so b^2 and 4ac are of size R^2, and the height of the eye is what is left when they
+    cancel. The error grows with R, but for a few round numbers that happen to come out: at R = 1e9 seven digits of
+    the distance are good, at 1e15 hardly one. The floor of the scene then shows rings, or is not there.
+    """
     chance = random.Random(3)
     for radius in (1e3, 1e6, 6.371e6, 1e9, 1e12, 1e15):
         yield reading(f"R = {radius:g}", (0, 0, 1), (0.6, 0, -0.8), (0, 0, -radius), radius)
@@ -77,12 +93,22 @@ def ground() -> Iterator[Reading]:
     yield reading("R = 1e12, from the side", (0.3, 0.2, 1.1), (0.6, 0, -0.8), (0, 0, -1e12), 1e12)
 
 
+@case("A6", "the way out of a sphere just below its top")
 def grazing() -> Iterator[Reading]:
+    """With y = 1 - 2^-k the root is that of 1 - y^2, which is about 2^(1-k); the textbook rounds y^2 to 1e-16
+    first, which can leave four digits of the difference at k = 40. Taken as (1 - y)(1 + y) it loses nothing. And a
+    smallest distance of 1e-4 throws the way out itself away: the ray never leaves the sphere.
+    """
     for k in (10, 20, 30, 40, 50):
         yield reading(f"2^-{k} below the top", (0, 1 - 2.0**-k, 0), (1, 0, 0), inside=True)
 
 
+@case("A7", "directions of any length, 1e-170 to 1e170")
 def lengths() -> Iterator[Reading]:
+    """a = d.d is the square of the length: of 1e-170 it is 0, of 1e170 infinite, and the quadratic is none any
+    more. A length of 1e100 makes the distance 4e-100 in units of d, which a smallest distance of 1e-4 takes for
+    nothing. Scaled by a power of two first, every direction keeps all its digits.
+    """
     scene = world(ball((0, 0, 0), 1.0, MATTE))
     for s in (1e-170, 1e-100, 1e100, 1e170):
         got = float(path(scene, (0, 0, 5), (0, 0, -s)).nodes[0]["t"])
@@ -90,76 +116,25 @@ def lengths() -> Iterator[Reading]:
         yield Reading(f"|d| = {s:g}", 4, got, 4 * U, 4.0, usual)
 
 
+@case("A8", "half a metre above the Earth, in metres")
 def earth() -> Iterator[Reading]:
+    """The squared radius is 4e13, and the hit is half a metre away: rounding of the squares alone is 0.004. The
+    textbook's distance has nine good digits here, and a tracer in single precision has none: it finds the other
+    side of the Earth.
+    """
     for name, aim in (("down", (0, 0, -1)), ("slanting", (0.6, 0, -0.8)), ("flat", (0.9995, 0, -0.0316))):
         yield reading(name, (0, 0, 6.371e6 + 0.5), aim, radius=6.371e6)
 
 
+@case("A9", "a tiny glass ball at distance 1: how thick it is")
 def tiny() -> Iterator[Reading]:
+    """c = f.f - r^2 is 1 for every r below 1e-8: the radius is gone before the discriminant is taken. Both roots
+    are then 1: the ball has no thickness, and rays that pass it by a few radii hit it too. Our ray starts on the
+    sphere and looks for the chord from there, -2 f.d, in which only the radius counts.
+    """
     for radius in (1e-3, 1e-5, 1e-6, 1e-9, 1e-12, 1e-100, 1e-150):
         rows = path(world(ball((0, 0, 0), radius, glass(1.0))), (0, 0, 1), (0, 0, -1), depth=1).nodes
         enters = textbook.sphere((0, 0, 1), (0, 0, -1), (0, 0, 0), radius)
         usual = textbook.sphere((0, 0, 1), (0, 0, -1), (0, 0, 0), radius, enters) - enters
         got = float(rows["t"][1]) if len(rows) > 1 else math.nan
         yield Reading(f"r = {radius:g}", 2 * decimal(radius), got, 2 * U * radius, 4.0, usual)
-
-
-CASES = (
-    Case(
-        "A1",
-        "a unit sphere seen from far away, near its edge",
-        far,
-        "The textbook takes b^2 - 4ac, two numbers of the size of the squared distance, to find a difference of the "
-        "size of the squared radius. At D = 1e7 they have sixteen digits before the one that counts: the hit lies "
-        "visibly off the sphere. At D = 1e8 the difference is all rounding: the edge frays, and rays miss the sphere. "
-        "Measured from the point of the ray nearest to the centre nothing large is left to cancel.",
-    ),
-    Case(
-        "A2",
-        "a ray that starts just above a unit sphere",
-        near,
-        "The near root is -b - sqrt(b^2 - 4ac), two numbers near 1 whose difference is as small as the height, down to "
-        "1e-15; each carries an error of 1e-16. A smallest distance of 1e-4 hides that: it throws the hits nearer than "
-        "this away, and the ray goes through to the far side.",
-    ),
-    Case(
-        "A3",
-        "a ground that is a sphere of radius 1e3 to 1e15",
-        ground,
-        "The centre is R below, so b^2 and 4ac are of size R^2, and the height of the eye is what is left when they "
-        "cancel. The error grows with R, but for a few round numbers that happen to come out: at R = 1e9 seven digits "
-        "of the distance are good, at 1e15 hardly one. The floor of the scene then shows rings, or is not there.",
-    ),
-    Case(
-        "A6",
-        "the way out of a sphere just below its top",
-        grazing,
-        "With y = 1 - 2^-k the root is that of 1 - y^2, which is about 2^(1-k); the textbook rounds y^2 to 1e-16 "
-        "first, which can leave four digits of the difference at k = 40. Taken as (1 - y)(1 + y) it loses nothing. And "
-        "a smallest distance of 1e-4 throws the way out itself away: the ray never leaves the sphere.",
-    ),
-    Case(
-        "A7",
-        "directions of any length, 1e-170 to 1e170",
-        lengths,
-        "a = d.d is the square of the length: of 1e-170 it is 0, of 1e170 infinite, and the quadratic is none any "
-        "more. A length of 1e100 makes the distance 4e-100 in units of d, which a smallest distance of 1e-4 takes for "
-        "nothing. Scaled by a power of two first, every direction keeps all its digits.",
-    ),
-    Case(
-        "A8",
-        "half a metre above the Earth, in metres",
-        earth,
-        "The squared radius is 4e13, and the hit is half a metre away: rounding of the squares alone is 0.004. "
-        "The textbook's distance has nine good digits here, and a tracer in single precision has none: it finds the "
-        "other side of the Earth.",
-    ),
-    Case(
-        "A9",
-        "a tiny glass ball at distance 1: how thick it is",
-        tiny,
-        "c = f.f - r^2 is 1 for every r below 1e-8: the radius is gone before the discriminant is taken. Both roots "
-        "are then 1: the ball has no thickness, and rays that pass it by a few radii hit it too. Our ray starts on the "
-        "sphere and looks for the chord from there, -2 f.d, in which only the radius counts.",
-    ),
-)

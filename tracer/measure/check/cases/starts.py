@@ -8,7 +8,7 @@ from decimal import Decimal
 
 from tracer.formulas.vector import Vector
 from tracer.measure.check import textbook
-from tracer.measure.check.case import DIGITS, Case, Reading, U, decimal, exactly, root
+from tracer.measure.check.case import DIGITS, Reading, U, case, decimal, exactly, root
 from tracer.measure.check.scenes import DARK, MATTE, MIRROR, ball, glass, path, plane, world
 from tracer.scene import Light, Material, Object
 from tracer.shapes.polygon import Polygon
@@ -28,7 +28,12 @@ def second_way(tree: RayTree, radius: float, inner: float) -> Decimal:
     return along - root(decimal(inner) ** 2 - beside**2) if c > 0 else Decimal("NaN")
 
 
+@case("C1", "glass over an opaque core, a gap of 1e-3 to 1e-15")
 def coat() -> Iterator[Reading]:
+    """A ray that has just entered the glass must not meet the surface it starts on, so the textbook throws away all
+    hits nearer than 1e-4. From a gap of 4e-5 on it throws the core away with them: the ray goes through the opaque
+    ball to its far side, 2 units on. Nothing is thrown away where the start is known by its name.
+    """
     for gap in (1e-3, 4e-5, 1e-6, 1e-9, 1e-12, 1e-15):
         radius = 1.0 + gap
         scene = world(ball(CENTER, radius, glass(1.5), "coat"), ball(CENTER, 1.0, DARK, "core"))
@@ -52,7 +57,12 @@ def leaning(size: float) -> tuple[Vector, ...]:
     )
 
 
+@case("C2", "a square in the light, from 1e-7 to 1e16 across")
 def lit_at_any_size() -> Iterator[Reading]:
+    """A smallest distance of 1e-4 fits scenes of size 1. At 1e-7 it throws the whole scene away; at 1e13 rounding
+    puts hits 1e-3 under the square, which then throws a shadow on itself in dots, the so-called acne. No number is
+    right for all sizes, so none is used.
+    """
     chance = random.Random(5)
     for size in (1e-7, 1.0, 1e4, 1e7, 1e13, 1e16):
         corners = leaning(size)
@@ -76,7 +86,11 @@ def lit_at_any_size() -> Iterator[Reading]:
         yield exactly(f"s = {size:g}: of 40 points lit", 40, lit, usual)
 
 
+@case("C4", "a thin clear layer above the ground")
 def thin_layer() -> Iterator[Reading]:
+    """From the last clear plane the ground is 7e-5 away or less, and the textbook takes everything below 1e-4 for
+    the plane it starts on. The ground is not met at all, and what lies behind it is seen.
+    """
     for gap in (7e-5, 7e-7, 7e-10, 7e-13):
         low = -1.0 - gap
         scene = world(
@@ -91,7 +105,12 @@ def thin_layer() -> Iterator[Reading]:
             yield Reading(f"g = {gap:g}: to the {name}", exact, got, U, 4.0, usual if k == 2 else None)
 
 
+@case("C5", "a mirror ball of any size, anywhere: it never meets itself")
 def never_again() -> Iterator[Reading]:
+    """The hit is rounded to the digits of its coordinates: 1e8 from the origin these are 1e-8. The reflected ray
+    then starts inside its ball as often as outside, and with no smallest distance (the count shown) many meet it
+    again. A smallest distance of 1e-4 hides that, and balls of radius 1e-4 with it.
+    """
     chance = random.Random(6)
     again = usual = count = 0
     for _ in range(100):
@@ -111,7 +130,11 @@ def never_again() -> Iterator[Reading]:
     yield exactly(f"{count} rays: meet their own ball", 0, again, usual)
 
 
+@case("C7", "a sheet just above the floor throws its shadow")
 def thin_shadow() -> Iterator[Reading]:
+    """The shadow ray starts on the floor, and the sheet is 1e-5 away. With a smallest distance of 1e-4 the ray
+    passes through it, and the floor under the sheet is lit: shadows come loose from things that stand on the floor.
+    """
     lamp, corners = (0.0, 5.0, 0.0), ((-1.0, 1e-5, -1.0), (-1.0, 1e-5, 1.0), (1.0, 1e-5, 1.0), (1.0, 1e-5, -1.0))
     for gap in (1e-3, 1e-5, 1e-9, 1e-15):
         corners = tuple((x, gap, z) for x, _, z in corners)
@@ -132,7 +155,12 @@ def thin_shadow() -> Iterator[Reading]:
         )
 
 
+@case("C9", "a ray that grazes the floor on its way to a wall")
 def relay() -> Iterator[Reading]:
+    """The other usual way is to start the next ray 1e-4 above the floor, along its normal. This ray comes down 1e-4
+    over a kilometre and goes up as much: the wall is met at twice the height, wrong by 100 %. The start must be
+    where the hit is.
+    """
     scene = world(plane((0, 0, 0), (0, 1, 0), GROUND, "floor"), plane((1000, 0, 0), (-1, 0, 0), DARK, "wall"))
     tree = path(scene, (-1000, 1e-4, 0), textbook.unit((1, -1e-7, 0)), depth=1)
     (x, y, _), (dx, dy, _) = (tree.nodes[0][field].tolist() for field in ("origin", "direction"))
@@ -145,54 +173,3 @@ def relay() -> Iterator[Reading]:
     start = textbook.offset(hit, (0, 1, 0), up)
     usual = textbook.at(start, up, textbook.plane(start, up, (1000, 0, 0), (-1, 0, 0)))[1]
     yield Reading("height on the wall", wall, float(tree.nodes[1]["point"][1]), U * float(wall), 4.0, usual)
-
-
-CASES = (
-    Case(
-        "C1",
-        "glass over an opaque core, a gap of 1e-3 to 1e-15",
-        coat,
-        "A ray that has just entered the glass must not meet the surface it starts on, so the textbook throws away all "
-        "hits nearer than 1e-4. From a gap of 4e-5 on it throws the core away with them: the ray goes through the "
-        "opaque ball to its far side, 2 units on. Nothing is thrown away where the start is known by its name.",
-    ),
-    Case(
-        "C2",
-        "a square in the light, from 1e-7 to 1e16 across",
-        lit_at_any_size,
-        "A smallest distance of 1e-4 fits scenes of size 1. At 1e-7 it throws the whole scene away; at 1e13 rounding "
-        "puts hits 1e-3 under the square, which then throws a shadow on itself in dots, the so-called acne. No number "
-        "is right for all sizes, so none is used.",
-    ),
-    Case(
-        "C4",
-        "a thin clear layer above the ground",
-        thin_layer,
-        "From the last clear plane the ground is 7e-5 away or less, and the textbook takes everything below 1e-4 for "
-        "the plane it starts on. The ground is not met at all, and what lies behind it is seen.",
-    ),
-    Case(
-        "C5",
-        "a mirror ball of any size, anywhere: it never meets itself",
-        never_again,
-        "The hit is rounded to the digits of its coordinates: 1e8 from the origin these are 1e-8. The reflected ray "
-        "then starts inside its ball as often as outside, and with no smallest distance (the count shown) many meet it "
-        "again. A smallest distance of 1e-4 hides that, and balls of radius 1e-4 with it.",
-    ),
-    Case(
-        "C7",
-        "a sheet just above the floor throws its shadow",
-        thin_shadow,
-        "The shadow ray starts on the floor, and the sheet is 1e-5 away. With a smallest distance of 1e-4 the ray "
-        "passes through it, and the floor under the sheet is lit: shadows come loose from things that stand on the "
-        "floor.",
-    ),
-    Case(
-        "C9",
-        "a ray that grazes the floor on its way to a wall",
-        relay,
-        "The other usual way is to start the next ray 1e-4 above the floor, along its normal. This ray comes down 1e-4 "
-        "over a kilometre and goes up as much: the wall is met at twice the height, wrong by 100 %. The start must "
-        "be where the hit is.",
-    ),
-)
