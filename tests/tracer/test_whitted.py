@@ -1,0 +1,44 @@
+"""The lecture's recursion on one page against the kernel, pixel by pixel."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import tracer
+from tests.conftest import LESSONS
+from tracer import whitted
+from tracer.choices import MODELS
+from tracer.formulas.camera import pixel_direction
+
+# Per component: 3 levels, each with a direction and a factor that are good to 16 units (tests/tracer/kernel/
+# test_against_exact.py), at slopes of up to 8 of the light over the angle.
+ROUNDINGS = 3 * 16 * 8 * 2.0**-53
+# An epsilon must fail where the scene is not much larger: `scale` is, as a whole, smaller than it, and so is the gap
+# between the panes.
+FAILS = ("scale", "panes")
+
+
+def differences(world: tracer.World, model: str) -> np.ndarray:
+    """On a grid of pixels, the largest difference of a component, relative to the brightest."""
+    world = tracer.prepare(replace(world.scene, tracing=replace(world.scene.tracing, model=model)))
+    view = world.view()
+    found = []
+    for y in range(7, view.height, 71):
+        for x in range(5, view.width, 71):
+            tree = tracer.trace(world, (x, y), depth=3)
+            medium = float(np.nan_to_num(tree.nodes["n1"][0], nan=1.0))  # of the eye: it may be under water
+            color = whitted.radiance(world, view.eye, pixel_direction(view, x + 0.5, y + 0.5), 3, medium)
+            found.append(np.abs(color - tree.radiance).max() / max(tree.radiance.max(), 1e-300))
+    return np.array(found)
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("name", LESSONS)
+def test_the_page_and_the_kernel_trace_the_same_colours(name: str, model: str, worlds: dict[str, tracer.World]) -> None:
+    off = differences(worlds[name], model)
+    assert len(off) > 80
+    if name in FAILS:
+        assert (off > 1e-3).mean() > 0.02
+    else:
+        assert off.max() <= ROUNDINGS
