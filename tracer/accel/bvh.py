@@ -6,15 +6,16 @@ in two by the surface area heuristic (`sah`), and the parts again, until there a
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from tracer.accel.rows import BLOCK, BLOCK_CHILD, CHILD_KINDS, NODE, NODE_CHILD, SURFACE_CHILD, BlockRow, NodeRow
+from tracer.accel.rows import BLOCK_CHILD, CHILD_KINDS, NODE, NODE_CHILD, SURFACE_CHILD, NodeRow
 from tracer.accel.sah import BuildSpace, add_surface, clear_part, next_part, split_part
 from tracer.compile.jit import inlined, kernel
-from tracer.compile.rows import Rows, as_rows
+from tracer.compile.rows import Numbers, Rows, as_rows
 from tracer.compile.simd import WIDTH
+from tracer.shapes.surface_row import BLOCK, BlockRow
 
 MAX_UNBOXED = 3  # so few surfaces are tested one by one, without a hierarchy: measured by `python -m benchmarks flat`
 
@@ -61,14 +62,14 @@ def build(bounds: np.ndarray, triangles: np.ndarray | None = None, which: np.nda
 
 @kernel
 def build_nodes(
-    boxes: Any,
-    centers: Any,
-    is_other: Any,
-    corners: Any,
+    boxes: Numbers,
+    centers: Numbers,
+    is_other: Numbers,
+    corners: Numbers,
     unit: float,
     nodes: Rows[NodeRow],
     blocks: Rows[BlockRow],
-    order: Any,
+    order: Numbers,
     space: BuildSpace,
 ) -> None:
     """Fill `nodes` and `blocks`, and sort `order`, the ids of the surfaces, so that each part is a range of it."""
@@ -112,7 +113,7 @@ def build_nodes(
 
 
 @inlined
-def fill_block(block: BlockRow, corners: Any, unit: float, order: Any, first: int, count: int) -> None:
+def fill_block(block: BlockRow, corners: Numbers, unit: float, order: Numbers, first: int, count: int) -> None:
     """Store `count` triangles in a block. The first fills the unused lanes, too, which the mask of the block leaves
     out.
     """

@@ -6,7 +6,7 @@ Hierarchies", IRT 2007).
 """
 
 import math
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -82,7 +82,7 @@ def grow_box(box: Numbers, other: Numbers) -> None:
 
 
 @inlined
-def add_surface(this: PartRow, boxes: Any, centers: Any, is_other: Any, s: int) -> None:
+def add_surface(this: PartRow, boxes: Numbers, centers: Numbers, is_other: Numbers, s: int) -> None:
     """Add surface s to a part."""
     grow_box(this.box, boxes[s])
     grow_box(this.centers, centers[s])
@@ -130,7 +130,14 @@ def next_part(parts: Rows[PartRow], count: int) -> int:
 
 @inlined
 def split_part(
-    boxes: Any, centers: Any, is_other: Any, order: Any, level: int, this: PartRow, second: PartRow, space: BuildSpace
+    boxes: Numbers,
+    centers: Numbers,
+    is_other: Numbers,
+    order: Numbers,
+    level: int,
+    this: PartRow,
+    second: PartRow,
+    space: BuildSpace,
 ) -> None:
     """Split the part `this`: its second half becomes `second`.
 
@@ -172,7 +179,7 @@ def bin_of(center: float, start: float, rate: float, count: int) -> int:
 
 @inlined
 def fill_bins(
-    boxes: Any, centers: Any, is_other: Any, order: Any, this: PartRow, count: int, space: BuildSpace
+    boxes: Numbers, centers: Numbers, is_other: Numbers, order: Numbers, this: PartRow, count: int, space: BuildSpace
 ) -> None:
     """Sort a part's surfaces into equal bins along each axis, by the centres of their boxes."""
     bins, rates = space.bins, space.rates

@@ -7,7 +7,7 @@ ray hits a box if the last of the planes by which it enters comes before the fir
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
-from tracer.accel.rows import BLOCK_CHILD, CHILD_KINDS, NODE_CHILD, BlockRow, NodeRow, StackRow
+from tracer.accel.rows import BLOCK_CHILD, CHILD_KINDS, NODE_CHILD, NodeRow, StackRow
 from tracer.compile.intrinsics import as_unsigned, prefetch
 from tracer.compile.jit import compiled, inlined
 from tracer.compile.rows import Numbers, Rows
@@ -24,7 +24,7 @@ from tracer.compile.simd import (
 from tracer.formulas.double_double import U
 from tracer.formulas.vector import Vector, scale
 from tracer.rays import Ray
-from tracer.shapes.surface_row import ShapeArrays
+from tracer.shapes.surface_row import BlockRow, ShapeArrays
 from tracer.shapes.triangle import candidate_mask
 
 STOP = -1.0  # a search limit that ends the search

@@ -124,6 +124,7 @@ class _AddressModel(models.PrimitiveModel):
 
 
 register_model(BundleType)(_AddressModel)
+register_model(FunctionTableType)(models.OpaqueModel)  # reference counting asks for it, though it holds nothing
 
 
 @typeof_impl.register(Bundle)

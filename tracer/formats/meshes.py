@@ -27,6 +27,8 @@ MOST_FACES = 4_000_000
 CLAY = Material(name="clay", color=(0.8, 0.78, 0.74), ambient=0.15, diffuse=0.8)
 AMBIENT = 0.15
 
+UNKNOWN_NORMALS = "this trimesh does not tell whether the file has vertex normals, so its faces are flat"
+
 
 class MeshError(ValueError):
     """A mesh file that cannot be used; the text is one line with what was found and what is allowed."""
@@ -107,7 +109,12 @@ def _geometry(path: Path, mesh: Any, place: np.ndarray) -> Geometry:
     if bad.any():
         raise MeshError(f"mesh {path.name}: vertex {int(bad.argmax())} must be three finite numbers")
     normals = None
-    if "vertex_normals" in mesh._cache.cache:  # asked for by name, trimesh would make them up
+    try:
+        # A private part of trimesh, in which it keeps what a file said. Its public `vertex_normals` makes up normals.
+        has_normals = "vertex_normals" in mesh._cache.cache
+    except AttributeError:
+        return Geometry(vertices, faces, note=UNKNOWN_NORMALS)
+    if has_normals:
         normals = np.array(mesh.vertex_normals, np.float64) @ np.linalg.pinv(place[:3, :3])
         size = np.sqrt((normals * normals).sum(axis=1, keepdims=True))
         usable = np.isfinite(size) & (size > 0.0)

@@ -8,9 +8,10 @@ Entering a solid sets its bit and leaving clears it, whatever it was before. So 
 twice, the second time changes nothing; and where the medium does not change, there is no interface.
 """
 
-from typing import Any
+from typing import Protocol
 
 from tracer.compile.jit import inlined
+from tracer.compile.rows import Numbers
 
 VACUUM = 1.0  # index of refraction of empty space
 
@@ -36,12 +37,13 @@ WORD = 32  # solids in a word of the mask: half of its bits, so that no shift re
 
 
 @inlined
-def contains(solids: Any, rank: int) -> bool:
+def contains(solids: Numbers, rank: int) -> bool:
+    """Whether the bit of a solid is set."""
     return (solids[rank >> 5] >> (rank & 31)) & 1 != 0
 
 
 @inlined
-def set_inside(solids: Any, rank: int, inside: bool) -> None:
+def set_inside(solids: Numbers, rank: int, inside: bool) -> None:
     """Set or clear the bit of a solid."""
     bit = 1 << (rank & 31)
     if inside:
@@ -51,7 +53,7 @@ def set_inside(solids: Any, rank: int, inside: bool) -> None:
 
 
 @inlined
-def medium(solids: Any) -> int:
+def medium(solids: Numbers) -> int:
     """Rank of the solid that fills the space, -1 for empty space."""
     for k in range(len(solids)):
         word = solids[k]
@@ -64,6 +66,14 @@ def medium(solids: Any) -> int:
     return -1
 
 
+class MediaArrays(Protocol):
+    """What `index_of` reads of the world."""
+
+    @property
+    def indices(self) -> Numbers: ...
+
+
 @inlined
-def index_of(world: Any, rank: int) -> float:
+def index_of(world: MediaArrays, rank: int) -> float:
+    """Index of refraction of the solid of a rank, or of empty space."""
     return world.indices[rank] if rank >= 0 else VACUUM

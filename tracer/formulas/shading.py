@@ -6,22 +6,43 @@ colour, L a light's colour, S the share of it that its shadow ray lets through.
 """
 
 import math
-from typing import Any
+from typing import Protocol
 
 import numpy as np
 
 from tracer.compile.jit import inlined
+from tracer.compile.rows import Bool, Float, Float3
 from tracer.formulas.vector import Vector, add, dot, multiply, negate, scale, subtract, vector
 
 
+class Material(Protocol):
+    """The numbers of a material that its local light depends on: ka, kd, ks, p, C."""
+
+    ambient: Float
+    diffuse: Float
+    specular: Float
+    shininess: Float
+    color: Float3
+    checker_color: Float3
+    checker_size: Float  # 0: no checker
+
+
+class Tiling(Protocol):
+    """The axes of a surface's checker."""
+
+    tiled: Bool  # the checker is one of squares along u and v
+    u: Float3
+    v: Float3
+
+
 @inlined
-def ambient(material: Any, color: Vector, world_ambient: Vector) -> Vector:
+def ambient(material: Material, color: Vector, world_ambient: Vector) -> Vector:
     """A ka C."""
     return scale(material.ambient, multiply(world_ambient, color))
 
 
 @inlined
-def phong(material: Any, color: Vector, light: Vector, n: Vector, to_light: Vector, v: Vector) -> Vector:
+def phong(material: Material, color: Vector, light: Vector, n: Vector, to_light: Vector, v: Vector) -> Vector:
     """L (kd C (N.L) + ks (R.V)^p): the share of one unshadowed light. `to_light` is a unit vector with N.L > 0, `v` the
     ray.
     """
@@ -36,7 +57,7 @@ def phong(material: Any, color: Vector, light: Vector, n: Vector, to_light: Vect
 
 
 @inlined
-def surface_color(material: Any, surface: Any, point: Vector) -> Vector:
+def surface_color(material: Material, surface: Tiling, point: Vector) -> Vector:
     """C: the material's colour, or its checker's colour where the cell indices add up to an odd number.
 
     On planes, polygons and discs (`surface.tiled`) the cells are squares along the surface's own two axes, elsewhere

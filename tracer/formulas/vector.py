@@ -7,18 +7,18 @@ into the mirrored tree, bit for bit.
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from tracer.compile.jit import inlined
+from tracer.compile.rows import Numbers
 
 Vector = tuple[float, float, float]
 VectorLike = Sequence[float] | np.ndarray  # three numbers, as users pass them
 
 
 @inlined
-def vector(row: Any) -> Vector:
+def vector(row: VectorLike) -> Vector:
     """The three numbers of an array row, a list or a tuple, as a vector."""
     return (row[0], row[1], row[2])
 
@@ -29,7 +29,7 @@ def as_floats(a: VectorLike) -> Vector:
 
 
 @inlined
-def store(row: Any, a: Vector) -> None:
+def store(row: Numbers, a: Vector) -> None:
     """Write a vector into an array row."""
     row[0] = a[0]
     row[1] = a[1]

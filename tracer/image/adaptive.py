@@ -134,7 +134,7 @@ def update_statistics(
 
 
 @kernel
-def add_contrast(sums: Numbers, counts: Any, power: float, pooled: Numbers) -> None:
+def add_contrast(sums: Numbers, counts: Numbers, power: float, pooled: Numbers) -> None:
     """Pool in half the mean squared difference from the eight neighbours: their variance, if all were alike."""
     height, width = counts.shape
     for y in range(height):
@@ -148,7 +148,7 @@ def add_contrast(sums: Numbers, counts: Any, power: float, pooled: Numbers) -> N
 
 
 @kernel
-def rank_gains(counts: Any, pooled: Numbers, power: float, most: int, ranks: Numbers, spent: Numbers) -> None:
+def rank_gains(counts: Numbers, pooled: Numbers, power: float, most: int, ranks: Numbers, spent: Numbers) -> None:
     """Rank each pixel by its gain per sample, 0 for none. `spent` counts the samples that double the pixels of a rank.
 
     The gain is the squared error, the pixel's own and its neighbours', over N.

@@ -2,10 +2,10 @@
 
 from typing import NamedTuple
 
-from tracer.accel.rows import BlockRow, NodeRow
+from tracer.accel.rows import NodeRow
 from tracer.compile.rows import Bool, Float, Float3, Int32, Numbers, Row, Rows, dtype_of
 from tracer.kernel.formulas import Formulas
-from tracer.shapes.surface_row import SurfaceRow
+from tracer.shapes.surface_row import BlockRow, SurfaceRow
 
 
 class ObjectRow(Row):

@@ -6,7 +6,6 @@ transparent surfaces block it, too.
 """
 
 import math
-from typing import Any
 
 import numpy as np
 
@@ -110,7 +109,7 @@ def add_crossings(world: Arrays, s: int, ray: Ray, end: float, crossed: Rows[Cro
 
 
 @compiled
-def filter_sorted(world: Arrays, crossed: Any, count: int) -> tuple[float, int]:
+def filter_sorted(world: Arrays, crossed: Rows[CrossingRow], count: int) -> tuple[float, int]:
     """(product of `transmit`, first surface) over the stored crossings, nearest first.
 
     Surfaces of one object at the same distance count once: a ray through the edge of two faces crosses once.

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tracer.accel.bvh import MAX_UNBOXED, build
-from tracer.accel.rows import BlockRow, NodeRow
+from tracer.accel.rows import NodeRow
 from tracer.compile.bundle import bundle
 from tracer.compile.rows import as_rows
 from tracer.formulas.camera import View
@@ -17,9 +17,10 @@ from tracer.kernel.left_out import Need, needs
 from tracer.kernel.packing import pack_lights, pack_materials, pack_objects, pack_surfaces
 from tracer.scene import Material, Scene, SceneError
 from tracer.scene.cameras import scene_view
-from tracer.scene.notes import hidden_notes, open_notes
+from tracer.scene.notes import hidden_notes, mesh_notes, open_notes
 from tracer.scene.scene import middle_and_radius
 from tracer.shapes.planar import PLANE_ERROR
+from tracer.shapes.surface_row import BlockRow
 
 MAX_EYES = 64  # points whose solids are cached
 
@@ -46,7 +47,8 @@ class World:
         """What an author hardly intends, though it is no fault; a line each."""
         objects, closed = self.scene.objects, self.arrays.objects["closed"]
         solids = [objects[k] for k in self.solids]
-        return hidden_notes(solids) + open_notes([objects[k] for k in self.solids if not closed[k]])
+        opened = [objects[k] for k in self.solids if not closed[k]]
+        return hidden_notes(solids) + open_notes(opened) + mesh_notes(objects)
 
     def __repr__(self) -> str:
         scene = self.scene

@@ -2,10 +2,12 @@
 
 import itertools
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from tracer.scene.scene import Object
+from tracer.shapes.mesh import Mesh
 
 
 def hidden_notes(ranked: list[Object]) -> list[str]:
@@ -29,6 +31,12 @@ def hidden_notes(ranked: list[Object]) -> list[str]:
                 notes.append(f'"{_name(inner)}" lies inside "{_name(outer)}" and never shows: raise its priority')
                 break
     return notes
+
+
+def mesh_notes(objects: Sequence[Object]) -> list[str]:
+    """What the readers of mesh files noted, a line for each file."""
+    meshes = [item.shape for item in objects if isinstance(item.shape, Mesh)]
+    return list(dict.fromkeys(f"{mesh.file}: {mesh.geometry.note}" for mesh in meshes if mesh.geometry.note))
 
 
 def open_notes(opened: list[Object]) -> list[str]:

@@ -7,7 +7,7 @@ the ray's origin decides.
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -34,7 +34,7 @@ class Box(Shape):
     def example(cls) -> "Box":
         return cls((-1.0, -0.5, -0.75), (1.0, 0.5, 0.75))
 
-    def pack(self, rows: Any) -> None:
+    def pack(self, rows: np.ndarray) -> None:
         rows["a"] = self.min
         rows["b"] = self.max
 

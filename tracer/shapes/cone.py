@@ -17,7 +17,7 @@ cosine:
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -54,7 +54,7 @@ class Cone(Shape):
         narrow, wide = self.ends()
         return subtract(wide, narrow)
 
-    def pack(self, rows: Any) -> None:
+    def pack(self, rows: np.ndarray) -> None:
         height = math.hypot(*self.axis())
         growth = abs(self.base_radius - self.apex_radius)
         side = math.hypot(height, growth)

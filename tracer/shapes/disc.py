@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -33,7 +33,7 @@ class Disc(Shape):
     def example(cls) -> "Disc":
         return cls((0.0, 0.0, 0.0), (1.0, 2.0, 2.0), 1.0)
 
-    def pack(self, rows: Any) -> None:
+    def pack(self, rows: np.ndarray) -> None:
         rows["a"] = self.center
         rows["b"] = (self.radius, 0.0, 0.0)
         pack_normal(rows, dd_vector(rescale(self.normal)))

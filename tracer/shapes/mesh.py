@@ -5,7 +5,7 @@ The author names the file and its placement: the mesh is scaled, then rotated ab
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -26,6 +26,7 @@ class Geometry:
     vertices: np.ndarray  # (n, 3)
     faces: np.ndarray  # (m, 3) indices of vertices, counter-clockwise seen from outside
     normals: np.ndarray | None = None  # (n, 3) vertex normals, if the file has them
+    note: str = ""  # what a user should know about how the file was read
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,7 +55,7 @@ class Mesh(Shape):
         """The vertices (n, 3), after placement."""
         return self.scale * self.geometry.vertices @ rotation_matrix(self.rotate).T + self.translate
 
-    def pack(self, rows: Any) -> None:
+    def pack(self, rows: np.ndarray) -> None:
         pack_triangles(rows, self.placed())
 
     def smooth(self) -> np.ndarray | None:

@@ -9,7 +9,6 @@ it must not. The corners decide: a ray that leaves face A starts on that side of
 
 import math
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
@@ -235,7 +234,7 @@ def unit_normal(corners: np.ndarray) -> np.ndarray:
     return area / (math.hypot(*area) or 1.0)
 
 
-def pack_normal(rows: Any, area: DDVector) -> None:
+def pack_normal(rows: np.ndarray, area: DDVector) -> None:
     """Fill in `normal` and `normal_low` from normals of any length above 0. The components may be arrays."""
     _, exponent = np.frexp(np.max(np.abs([high for high, _ in area]), axis=0))  # no square may underflow
     scaled = [(np.ldexp(high, -exponent), np.ldexp(low, -exponent)) for high, low in area]

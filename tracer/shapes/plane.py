@@ -5,7 +5,7 @@ Packed as in `planar`.
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -37,7 +37,7 @@ class Plane(Shape):
     def example(cls) -> "Plane":
         return cls((0.0, 0.0, 0.0), (0.0, 1.0, 0.0))
 
-    def pack(self, rows: Any) -> None:
+    def pack(self, rows: np.ndarray) -> None:
         rows["a"] = self.point
         pack_normal(rows, dd_vector(rescale(self.normal)))
         rows["r"] = np.abs(self.point).sum()

@@ -8,7 +8,7 @@ ray's sheared frame (`tracer.rays`), in which an edge that two faces share has t
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -39,7 +39,7 @@ class Polygon(Shape):
         corners = ((-1, -1), (1, -1), (1, 0), (0, 0), (0, 1), (-1, 1))
         return cls(tuple((float(x), float(y), 0.0) for x, y in corners))
 
-    def pack(self, rows: Any) -> None:
+    def pack(self, rows: np.ndarray) -> None:
         rows["a"] = self.vertices[0]
         pack_normal(rows, newell_normal(self.outline()))
         rows["r"] = np.abs(self.vertices[0]).sum()

@@ -1,7 +1,7 @@
 """The base class of all shapes: what a shape says of itself, with defaults. `sphere.py` is the model to follow."""
 
 from abc import ABC, abstractmethod
-from typing import Any, ClassVar, Self
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -25,7 +25,7 @@ class Shape(ABC):
         """A shape about the origin, about 2 across: tests and documentation use it."""
 
     @abstractmethod
-    def pack(self, rows: Any) -> None:
+    def pack(self, rows: np.ndarray) -> None:
         """Fill its rows of `SURFACE`, one for each box that `bounds` gives."""
 
     @abstractmethod

@@ -9,7 +9,7 @@ first form cannot decide, the whole quadratic is solved in double-double.
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -66,7 +66,7 @@ class Sphere(Shape):
     def example(cls) -> "Sphere":
         return cls((0.0, 0.0, 0.0), 1.0)
 
-    def pack(self, rows: Any) -> None:
+    def pack(self, rows: np.ndarray) -> None:
         rows["a"] = self.center
         rows["r"] = self.radius
         rows["count"] = SPHERE_COUNT

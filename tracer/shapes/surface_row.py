@@ -1,8 +1,11 @@
-"""The row that a surface becomes for kernels. Shapes fill it in; each shape's file says how under "Packed as"."""
+"""Rows for kernels: of surfaces, which shapes fill in as their files say under "Packed as", and of triangle blocks."""
 
-from typing import Any, Protocol
+from typing import Annotated, Any, Protocol
 
-from tracer.compile.rows import Float, Float3, Int32, Numbers, Row, Rows, dtype_of
+import numpy as np
+
+from tracer.compile.rows import Float, Float3, Int32, Int64, Numbers, Row, Rows, dtype_of
+from tracer.compile.simd import WIDTH
 
 
 class SurfaceRow(Row):
@@ -22,7 +25,19 @@ class SurfaceRow(Row):
     smooth: Int32  # index into `ShapeArrays.smooth`, -1 for a face without vertex normals
 
 
-SURFACE = dtype_of(SurfaceRow)
+class BlockRow(Row):
+    """Eight triangles, rounded to float32. They only tell which triangles a ray may hit."""
+
+    corners: Annotated[Numbers, np.float32, (9, WIDTH)]  # x, y, z of the first corners, of the second, of the third
+    surface: Annotated[Numbers, np.int32, WIDTH]
+    lanes: Int64  # bit mask of the lanes in use
+    anchor: Float3  # the origin of `corners`
+    reach: Float  # the largest |x| + |y| + |z| of a corner
+    edge: Float  # the longest |x| + |y| + |z| of an edge
+    rounding: Float  # bound on the rounding error of `corners`
+
+
+SURFACE, BLOCK = dtype_of(SurfaceRow), dtype_of(BlockRow)
 
 
 class ShapeArrays(Protocol):

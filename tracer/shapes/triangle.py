@@ -20,7 +20,7 @@ from tracer.rays import Ray, sheared
 from tracer.shapes import planar
 from tracer.shapes.planar import PLANE_ERROR, is_near_edge, may_cross, outline_slack, pack_normal, unit_normal
 from tracer.shapes.shape import Shape
-from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
+from tracer.shapes.surface_row import BlockRow, ShapeArrays, SurfaceRow
 from tracer.shapes.tessellation import flat
 
 
@@ -35,7 +35,7 @@ class Triangle(Shape):
     def example(cls) -> "Triangle":
         return cls(((-1.0, -0.5, 0.0), (1.0, -0.5, 0.25), (0.0, 1.0, 0.0)))
 
-    def pack(self, rows: Any) -> None:
+    def pack(self, rows: np.ndarray) -> None:
         pack_triangles(rows, np.array(self.vertices)[None])
 
     def bounds(self) -> np.ndarray:
@@ -54,7 +54,7 @@ class Triangle(Shape):
         return flat(np.array(self.vertices)[None])
 
 
-def pack_triangles(rows: Any, corners: np.ndarray) -> None:
+def pack_triangles(rows: np.ndarray, corners: np.ndarray) -> None:
     """Fill one row for each of the triangles (n, 3, 3), all of which must have an area."""
     rows["a"], rows["b"], rows["c"] = corners[:, 0], corners[:, 1], corners[:, 2]
     a, b, c = (tuple(corners[:, k].T) for k in range(3))
@@ -87,7 +87,7 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, c
 
 
 @inlined
-def candidate_mask(block: Any, ray: Ray, inverse_unit: float) -> int:
+def candidate_mask(block: BlockRow, ray: Ray, inverse_unit: float) -> int:
     """Bit mask of the triangles of a BVH block (`tracer.accel.bvh`) that the ray may hit: eight are tested at once.
 
     Contains every triangle that `intersect` finds: the slack covers the rounding of the block's corners to float32, and

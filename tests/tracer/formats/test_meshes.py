@@ -4,12 +4,14 @@ import json
 import struct
 import tracemalloc
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import tracer
 from tests.scenes import world_of
+from tracer.formats import meshes
 from tracer.scene import Light, Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
 
@@ -155,6 +157,15 @@ def test_vertex_normals_are_kept(tmp_path: Path) -> None:
     found = smooth.smooth()
     assert found is not None
     assert found[0] == pytest.approx(np.array([[0, 0, 1], [0.6, 0, 0.8], [0, 0.6, 0.8]]), rel=2.0**-52, abs=0.0)
+
+
+def test_a_trimesh_without_its_private_part_is_noted() -> None:
+    """Then nobody can tell whether the file has normals: the faces are flat, and the world says so."""
+    bare = SimpleNamespace(vertices=np.eye(3), faces=np.array([[0, 1, 2]]))
+    geometry = meshes._geometry(Path("face.obj"), bare, np.eye(4))
+    assert geometry.normals is None
+    (note,) = world_of(Object(Mesh(geometry, "face.obj"), Material("matte"))).notes
+    assert note == "face.obj: this trimesh does not tell whether the file has vertex normals, so its faces are flat"
 
 
 def test_no_light_comes_through_a_face_that_its_vertex_normals_turn_towards_it() -> None:

@@ -90,7 +90,7 @@ def gap() -> Iterator[Reading]:
 def two_panes() -> Iterator[Reading]:
     """A gap below the smallest distance of 1e-4 is jumped over, so the tracer counts three faces and believes to be
     in glass when it is in air. A ray at 30 degrees then leaves at 19.5 degrees, one at 45 degrees at 28.1: as if
-    the air below were glass. (Shown is by how much the direction's coordinates are off, at most.)
+    the air below were glass. (Shown is by how much the direction's coordinates are off, at most).
     """
     for degrees in (30, 45):
         s, c = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))

@@ -3,26 +3,66 @@
 import math
 import random
 from decimal import localcontext
+from functools import cache
 
 import pytest
 from mpmath import mp, mpf
 
-from tracer.measure.check.case import DIGITS, Case, Reading, exactly, off, run
-from tracer.measure.check.cases import faces, gaps, limbs, needless, sameness, spheres, starts
-
-CASES = [case for group in (spheres, limbs, gaps, faces, starts, sameness, needless) for case in group.CASES]
+from tracer.measure.check.case import DIGITS, Case, Reading, Result, exactly, off, run
+from tracer.measure.check.cases import spheres
+from tracer.measure.check.check import CASES
 
 # Where the textbook is to be seen failing. What is not here is a case of structure, or one where it does well.
 FAILS = ("A1", "A2", "A3", "A6", "A7", "A8", "A9", "A4", "A5", "A10", "A11")
 FAILS += ("B1", "B3", "B6", "B7", "B8", "B10", "C1", "C2", "C3", "C4", "C5", "C7", "C9", "J4")
 
+# Where the textbook's way loses at least this much, as a relative error (absolute about 0).
+LOST = {
+    "D3": 0.5,
+    "D4": 0.5,
+    "D5": 0.1,
+    "E1": 1e-5,
+    "E2": 1e-2,
+    "E3": 1e-5,
+    "E4": 1e-3,
+    "E5": 1e-5,
+    "E8": 1e-4,
+    "F1": 1e-4,
+    "F2": 1e-3,
+    "F3": 0.9,
+    "F4": 0.5,
+    "F6": 1e-3,
+    "F7": 0.9,
+    "G3": 1e-6,
+    "G7": 1e-6,
+    "G11": 1e-6,
+    "G13": 1e-6,
+    "H1": 0.1,
+    "H2": 0.5,
+    "H3": 0.1,
+    "H5": 0.1,
+    "I7": 1e-6,
+}
+
+
+@cache
+def result(case: Case) -> Result:
+    return run(case)
+
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.id)
 def test_case_comes_out(case: Case) -> None:
-    result = run(case)
-    assert result.ok, [reading for reading in result.readings if not reading.ok]
-    assert len(case.title) <= 70
+    assert result(case).ok, [reading for reading in result(case).readings if not reading.ok]
+    assert len(case.title) <= 90
     assert case.wrong.endswith(".")
+
+
+@pytest.mark.parametrize("case", [case for case in CASES if case.id in LOST], ids=lambda case: case.id)
+def test_textbook_loses_what_is_claimed(case: Case) -> None:
+    errors = [(r.textbook_error, r.error * r.unit) for r in result(case).readings if r.textbook_error is not None]
+    lost, ours = max(errors)
+    assert lost >= LOST[case.id]
+    assert ours < lost
 
 
 def test_ids_are_unique() -> None:
@@ -32,7 +72,7 @@ def test_ids_are_unique() -> None:
 
 @pytest.mark.parametrize("case", [case for case in CASES if case.id in FAILS], ids=lambda case: case.id)
 def test_textbook_fails_visibly_where_we_do_not(case: Case) -> None:
-    readings = [one for one in run(case).readings if one.textbook is not None]
+    readings = [one for one in result(case).readings if one.textbook is not None]
     ours = [off(one.got, one.exact) / (size(one) or 1.0) for one in readings]
     assert max(one.textbook_error or 0.0 for one in readings) > max(1e-12, 1000.0 * max(ours, default=0.0))
 

@@ -1,0 +1,83 @@
+"""Options of every command: what is printed parses to the same options, on random options."""
+
+from dataclasses import fields, replace
+
+import pytest
+from hypothesis import given, settings, strategies as st
+
+from viewer.base import values
+from viewer.base.options import spelling, words
+from viewer.base.values import Value
+from viewer.cli.main import COMMANDS, Command, parse
+from viewer.figures.catalogue import FORMATS
+
+NUMBER = st.floats(allow_nan=False, allow_infinity=False)
+WORD = st.text("abcdefghij-_./ öπ'\"$", min_size=1).filter(lambda text: not text.startswith("-"))
+
+# Values of each kind of option. One that is missing here fails the test.
+STRATEGIES: dict[Value, st.SearchStrategy] = {
+    values.TEXT: WORD,
+    values.FILE: WORD.map(values.FILE.read),
+    values.PIXEL: st.tuples(st.integers(-99, 9999), st.integers(-99, 9999)),
+    values.SIZE: st.tuples(st.integers(1, 9999), st.integers(1, 9999)),
+    values.RAY: st.tuples(*[NUMBER] * 6),
+    values.RAY_NAME: st.sampled_from(("4", "T4", "TIR12", "E", "r7")),
+    values.ORBIT: st.tuples(NUMBER, st.floats(-90, 90), st.floats(1e-9, 1e9)),
+    values.DEPTHS: st.tuples(st.integers(0, 9), st.integers(0, 9)).map(lambda ab: range(min(ab), max(ab) + 1)),
+    values.WEIGHT: st.floats(0, 1e300),
+    values.POSITIVE: st.floats(1e-300, 1e300),
+    values.SHARE: st.floats(0, 1),
+    values.PIXELS: st.integers(16, values.MAX_PIXELS),
+    values.POINTS: st.floats(8, 48),
+}
+
+
+def strategy(value: Value) -> st.SearchStrategy:
+    """Values of one kind: of the table, one of some names, some of them, or whole numbers."""
+    if value in STRATEGIES:
+        return STRATEGIES[value]
+    names = value.metavar.split("|")
+    if len(names) > 1:
+        return st.sampled_from(names)
+    if value.metavar == "A,B":
+        return st.lists(st.sampled_from(tuple(FORMATS)), min_size=1, unique=True).map(tuple)
+    return st.integers(1, 10**9)
+
+
+@st.composite
+def options(draw: st.DrawFn, kind: type) -> object:
+    """Random options, at most one of each group."""
+    chosen, taken = {}, set()
+    for item in fields(kind):
+        how = spelling(item)
+        must = how.is_required or (how.is_positional and how.nargs in ("", "+"))
+        if how.group in taken or not (must or draw(st.booleans())):
+            continue
+        taken |= {how.group} - {""}
+        if how.value is None:
+            chosen[item.name] = True
+        else:
+            many = how.nargs in ("+", "*")
+            one = strategy(how.value)
+            chosen[item.name] = draw(st.lists(one, min_size=1, max_size=3).map(tuple) if many else one)
+    return kind(**chosen)
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.name)
+@settings(max_examples=150, deadline=None)
+@given(data=st.data())
+def test_printed_options_parse_to_the_same(command: Command, data: st.DataObject) -> None:
+    given_options = data.draw(options(command.options))
+    assert parse([command.name, *words(given_options)]) == (command, given_options)
+
+
+def test_defaults_are_not_printed_and_fields_can_be_left_out() -> None:
+    (export,) = (command for command in COMMANDS if command.name == "export")
+    own = export.options(scene="drop", output="out/")
+    assert words(own) == ["drop", "--output", "out/"]
+    assert words(replace(own, swatches=True, fold=0.25), leave_out=("output",)) == [
+        "drop",
+        "--swatches",
+        "--fold",
+        "0.25",
+    ]
