@@ -1,1 +1,1 @@
-"""Shared by all rooms of the viewer: theme, files, pictures, progress, interruption, wording, the orbiting eye."""
+"""Parts that all rooms of the viewer use: theme, files, pictures, progress, options, wording, the orbit camera."""

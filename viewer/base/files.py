@@ -1,4 +1,4 @@
-"""Files are written beside and renamed: an interrupted run leaves the old file or none, never half a file."""
+"""Files are written under another name and renamed: an interrupted run leaves the old file or none, never a part."""
 
 import contextlib
 import os
@@ -9,7 +9,7 @@ from typing import Any
 
 
 class Unusable(Exception):
-    """Input or arguments that cannot be used: one line a fault, for people."""
+    """Input or arguments that cannot be used: one line for each fault, for people."""
 
     def __init__(self, *faults: str) -> None:
         super().__init__("\n".join(faults))
@@ -17,7 +17,7 @@ class Unusable(Exception):
 
 
 def collect(*checks: Callable[[], Any]) -> list[Any]:
-    """What each gives; Unusable with all their faults where any has one."""
+    """Call all checks, and return their results. Raises Unusable with the faults of all of them."""
     given, faults = [], []
     for check in checks:
         try:
@@ -30,7 +30,7 @@ def collect(*checks: Callable[[], Any]) -> list[Any]:
 
 
 def write_atomically(path: Path, content: bytes) -> None:
-    """Put a file in place as a whole. Unusable where the folder cannot be written."""
+    """Write a file as a whole. Raises Unusable if the folder is not writable."""
     try:
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
         try:
@@ -47,7 +47,7 @@ def write_atomically(path: Path, content: bytes) -> None:
 
 
 def check_writable(path: Path) -> None:
-    """Unusable now rather than after the work is done."""
+    """Raise Unusable if the file cannot be written: before the work instead of after it."""
     if path.is_dir():
         raise Unusable(f"{path}: must be a file, got a folder")
     if not path.parent.is_dir():
@@ -57,7 +57,7 @@ def check_writable(path: Path) -> None:
 
 
 def check_folder(path: Path) -> None:
-    """Unusable where files cannot go into this folder, which may be still to be made."""
+    """Raise Unusable if files cannot be written into this folder, which need not exist yet."""
     if path.exists() and not path.is_dir():
         raise Unusable(f"{path}: must be a folder, got a file")
     if not path.exists():

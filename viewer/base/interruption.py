@@ -1,6 +1,6 @@
-"""Ctrl-C and SIGTERM as an exception, so that whatever is half done is cleaned up on the way out.
+"""Ctrl-C and SIGTERM as an exception, so that half-done work is cleaned up.
 
-The second one, should the way out take too long, ends the process where it stands.
+A second signal ends the process at once.
 """
 
 import contextlib
@@ -18,12 +18,14 @@ class Interrupted(KeyboardInterrupt):
 
     def __init__(self, number: int) -> None:
         super().__init__(signal.Signals(number).name)
-        self.status = 128 + number  # as shells have it
+        self.status = 128 + number  # the exit status that shells report for a signal
 
 
 @contextlib.contextmanager
 def interruptible() -> Iterator[None]:
-    """While this lasts either signal raises Interrupted; one that is ignored from outside (nohup) stays so."""
+    """Within this context, either signal raises Interrupted. A signal that is ignored from outside (nohup) stays
+    ignored.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return

@@ -1,7 +1,7 @@
-"""The eye that looks at the 3D scene: it turns about a target, goes nearer and farther, and slides sideways.
+"""The camera of the 3D view: it orbits around a target, moves nearer and farther, and slides sideways.
 
-All in a frame of its own, in which the scene's middle is the origin and its radius 1 (`Frame`): the same numbers suit
-a scene of light years and one of nanometres, and 32-bit floats have the digits to draw either.
+It works in a frame of its own (`Frame`), whose origin is the centre of the scene and whose unit is the scene's
+radius. So the same numbers suit a scene of light years and one of nanometres, and float32 is enough to draw either.
 """
 
 import math
@@ -16,25 +16,25 @@ from tracer.formulas.vector import rescale, unit
 from tracer.kernel.world import World
 from tracer.scene.scene import middle_and_radius
 
-ENDLESS = 3.0  # times the camera's way to what it looks at: what has such a radius is part of the surroundings
+ENDLESS = 3.0  # times the distance from camera to `look_at`: a larger radius makes a surface part of the surroundings
 FOV = math.radians(35)
 CLOSEST, FARTHEST = 0.02, 60.0  # distance to the target
 STEEPEST = math.radians(89)
-MARGIN = 0.04  # of the picture, that stays free about what is taken in
-AZIMUTH, ELEVATION, DISTANCE = 38.0, 22.0, 2.6  # of a view that nobody has chosen: degrees, radii of the scene
-NEAR_SHARE = 1 / 400  # of the distance: the near plane
+MARGIN = 0.04  # share of the picture that `take_in` leaves free around the points
+AZIMUTH, ELEVATION, DISTANCE = 38.0, 22.0, 2.6  # the default view: degrees, and radii of the scene
+NEAR_SHARE = 1 / 400  # the near plane, relative to the distance
 
 
 @dataclass(frozen=True)
 class Frame:
-    """Where the scene's middle is and how large it is."""
+    """The scene's centre and radius."""
 
     middle: np.ndarray
     radius: float
 
     @staticmethod
     def of(world: World) -> "Frame":
-        """The frame of a world: its bounded surfaces, or what the camera looks at where there are none."""
+        """The frame of a world: of its bounded surfaces, or of the point that the camera looks at if there are none."""
         view = world.view()
         if not len(world.bounds):
             return Frame(np.add(view.eye, view.forward), 1.0)
@@ -47,9 +47,9 @@ class Frame:
 
 
 def _in_proportion(world: World) -> np.ndarray:
-    """The boxes (n, 2, 3) of what a scene is about: not those far larger than the camera's way to what it looks at.
+    """The boxes (n, 2, 3) of the scene without those that are far larger than the distance from camera to `look_at`.
 
-    A floor without an end in sight, or the Earth, would leave nothing else to be seen.
+    A huge floor, or the Earth, would leave nothing else to be seen.
     """
     camera, boxes = world.scene.camera, world.bounds
     if camera.position is None or camera.look_at is None:
@@ -61,7 +61,7 @@ def _in_proportion(world: World) -> np.ndarray:
 
 @dataclass
 class Orbit:
-    """Angles in radians; `target` and `distance` in the frame. `north`: azimuth 0, `up`: the axis it turns about."""
+    """Angles in radians; `target` and `distance` in the frame. `up` is the axis of the orbit, `north` is azimuth 0."""
 
     azimuth: float = 0.0
     elevation: float = 0.0
@@ -72,7 +72,7 @@ class Orbit:
 
     @staticmethod
     def beside(view: View, up: tuple, azimuth: float, elevation: float, distance: float) -> "Orbit":
-        """An eye turned away from the scene's own camera by these angles (degrees)."""
+        """A camera at these angles (degrees) from the scene's camera, around the origin of the frame."""
         axis = np.array(unit(rescale(up)))
         back = -np.array(view.forward)
         north = back - (back @ axis) * axis
@@ -83,7 +83,7 @@ class Orbit:
 
     @staticmethod
     def of_camera(view: View, up: tuple, eye: np.ndarray) -> "Orbit":
-        """The scene's own camera, its eye in the frame."""
+        """The scene's own camera. `eye` is its position in the frame."""
         orbit = Orbit.beside(view, up, 0.0, 0.0, 1.0)
         forward = np.array(view.forward)
         orbit.elevation = math.asin(float(np.clip(-forward @ orbit.up, -1.0, 1.0)))
@@ -92,7 +92,7 @@ class Orbit:
         return orbit
 
     def take_in(self, points: np.ndarray) -> None:
-        """Step back until all these points of the frame (n, 3) are in a picture of 3:2."""
+        """Move back until all these points (n, 3) of the frame are in a picture of 3:2."""
         for _ in range(60):
             places, depths = project(points, self.matrix(1.5), (1.0, 1.0))
             if (depths > 0.0).all() and (np.abs(places - 0.5) <= 0.5 - MARGIN).all():
@@ -112,18 +112,18 @@ class Orbit:
 
     @property
     def axes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Right and up of the picture."""
+        """Unit vectors to the right and up in the picture."""
         right = np.cross(self.up, self.outward)
         right /= np.linalg.norm(right)
         return right, np.cross(self.outward, right)
 
     def turn(self, dx: float, dy: float) -> None:
-        """By radians: the scene follows the hand."""
+        """Turn by these angles in radians, so that the scene follows the mouse."""
         self.azimuth -= dx
         self.elevation = min(STEEPEST, max(-STEEPEST, self.elevation + dy))
 
     def slide(self, dx: float, dy: float) -> None:
-        """By shares of the picture's height: the point under the hand stays under it."""
+        """Slide by these shares of the picture's height, so that the point under the mouse stays there."""
         right, up = self.axes
         step = 2.0 * math.tan(FOV / 2) * self.distance
         self.target = self.target - step * dx * right + step * dy * up
@@ -132,7 +132,7 @@ class Orbit:
         self.distance = min(FARTHEST, max(CLOSEST, self.distance * 0.88**steps))
 
     def matrix(self, aspect: float) -> np.ndarray:
-        """World (in the frame) to clip coordinates, (4, 4), for columns."""
+        """The matrix (4, 4) from the frame to clip coordinates, for column vectors. `aspect` is width over height."""
         right, up = self.axes
         back = self.outward
         eye = self.eye
@@ -150,7 +150,9 @@ class Orbit:
 
 
 class ViewAngles(Protocol):
-    """A view that an author chose: degrees, distance in radii of the scene, target in the world or its middle."""
+    """A view that an author chose: angles in degrees, distance in radii of the scene, target in the world (None: its
+    centre).
+    """
 
     @property
     def azimuth(self) -> float: ...
@@ -165,7 +167,9 @@ class ViewAngles(Protocol):
 def orbit_beside(
     world: World, frame: Frame, azimuth: float, elevation: float, distance: float, target: Sequence[float] | None
 ) -> Orbit:
-    """An eye at these angles (degrees) from the scene's camera. `target` is a point of the world."""
+    """A camera at these angles (degrees) from the scene's camera. `target` is a point of the world, None for its
+    centre.
+    """
     orbit = Orbit.beside(world.view(), world.scene.camera.up, azimuth, elevation, distance)
     if target:
         orbit.target = frame.inside(tuple(target))
@@ -184,7 +188,7 @@ def initial_orbit(world: World, frame: Frame, view: ViewAngles | None) -> Orbit:
 
 
 def project(points: np.ndarray, matrix: np.ndarray, size: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """(places, depths): points (n, 3) of the frame in pixels from the picture's top left; depth <= 0 behind the eye."""
+    """(places, depths): points (n, 3) of the frame in pixels from the top left; depth <= 0 is behind the camera."""
     clip = np.c_[points, np.ones(len(points))] @ matrix.T
     depth = clip[:, 3]
     safe = np.where(np.abs(depth) < 1e-12, 1e-12, depth)

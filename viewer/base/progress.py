@@ -1,7 +1,7 @@
-"""How far something is that takes over a second: one line on a terminal, kept up to date; in a log a few lines.
+"""The progress of work that takes more than a second: one line on a terminal that is updated, a few lines in a log.
 
-A thread of its own writes, so that whoever works only notes a number, and time goes by on the screen even where what is
-waited for (a compiler, a mesh library) says nothing.
+A thread of its own writes the line. So a worker only stores a number, and the time counts on even while a compiler
+or a library that reports nothing is at work.
 """
 
 import sys
@@ -9,22 +9,22 @@ import threading
 import time
 from typing import TextIO
 
-SHORT = 1.0  # seconds for which nothing is said on a terminal
-LONG = 5.0  # and elsewhere: in a log, a line is there to stay
-TICK = 0.2  # seconds between looks
+SHORT = 1.0  # seconds before anything is shown on a terminal
+LONG = 5.0  # the same elsewhere: a line in a log stays
+TICK = 0.2  # seconds between updates
 STEP = 10  # percent between lines in a log
 CLEAR = "\r\x1b[K"
 
 
 class Progress:
-    """While its context lasts: what is being done, the share of it that is, and the time left."""
+    """A context that shows what is being done, the share that is done, and the time left."""
 
     def __init__(self, doing: str, at_once: bool = False) -> None:
         self.terminal = sys.stderr.isatty()
         self.patience = 0.0 if at_once else SHORT if self.terminal else LONG
         self.writing = threading.Lock()
         self.over = threading.Event()
-        self.shown = False  # a line that can be cleared
+        self.shown = False  # whether there is a line to be cleared
         self.say(doing)
         self.thread = threading.Thread(target=self._run, daemon=True)
 
@@ -38,25 +38,25 @@ class Progress:
         self._clear()
 
     def say(self, doing: str) -> None:
-        """Now something else begins, of which no share is known."""
+        """Something else begins. Its share is not known yet."""
         self.doing = doing
         self.began = self.told = time.perf_counter()
         self.share = 0.0
-        self.logged = -1  # percent, of the last line in a log
+        self.logged = -1  # percent in the last line of a log
 
     def __call__(self, share: float) -> None:
-        """So much is done."""
+        """Set the share that is done."""
         self.told = time.perf_counter()
         self.share = share
 
     def put(self, line: str, stream: TextIO | None = None) -> None:
-        """A line that stays, on stderr where nothing else is said."""
+        """Write a line that stays, to stderr by default."""
         with self.writing:
             self._clear()
             print(line, file=stream or sys.stderr, flush=True)
 
     def line(self, now: float) -> str:
-        """`render glass-ball 43 %, 12 s left`; without a share the time it has taken."""
+        """For example `render glass-ball 43 %, 12 s left`; the time so far if no share is known."""
         share = self.share
         if share == 0.0:
             passed = now - self.began
@@ -74,7 +74,7 @@ class Progress:
                 return
 
     def show(self, now: float) -> None:
-        """On a terminal in place of the line before; in a log where another tenth is done."""
+        """Update the line on a terminal; in a log, write a line after every tenth."""
         if self.terminal:
             self._write(CLEAR + self.line(now))
             self.shown = True
@@ -95,7 +95,7 @@ class Progress:
 
 
 def duration(seconds: float) -> str:
-    """In the largest unit of which there are some."""
+    """A time in seconds, minutes or hours."""
     if seconds < 99.5:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 99.5 * 60 else f"{seconds / 3600:.0f} h"

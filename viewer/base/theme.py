@@ -1,8 +1,8 @@
 """Every colour, width and size that is drawn, with its reason.
 
-Four hues, not eight: the kinds of ray differ by dash and arrow as well, so that nothing hangs on colour alone. Both
-palettes keep at least 28 units of CIE76 distance between any two kinds, also as seen with deutan, protan or tritan
-vision (simulated after Machado et al. 2009), and a contrast of 4.7 to the ground they are drawn on (WCAG asks 3).
+There are four hues, and the kinds of rays also differ by dash and arrow, so that nothing depends on colour alone. In
+both palettes, any two kinds are at least 28 units of CIE76 apart, also as seen with deutan, protan or tritan vision
+(simulated after Machado et al. 2009), and have a contrast of at least 4.7 to the background (WCAG asks for 3).
 """
 
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ def faded(color: Color, opacity: float) -> Color:
 
 
 class Arrow(Enum):
-    """What stands on a ray to say where it goes, and of which kind it is."""
+    """The arrow on a ray, which shows its direction and kind."""
 
     NONE = 0
     FILLED = 1
@@ -38,19 +38,19 @@ class Arrow(Enum):
 
 @dataclass(frozen=True)
 class RayStyle:
-    """How one kind of ray is drawn, in the window as in figures."""
+    """How one kind of ray is drawn, in the window and in figures."""
 
     label: str  # in the legend
-    letter: str  # at the ray: R, T, L as Whitted's figure has them
-    dark: str  # colour on a dark ground
-    light: str  # colour on a light ground
+    letter: str  # at the ray: R, T, L as in Whitted's figure
+    dark: str  # colour on a dark background
+    light: str  # colour on a light background
     width: float  # pixels
     dash: tuple[float, float]  # pixels on and off; (0, 0): solid
     arrow: Arrow
 
 
-# The camera ray is thickest: the eye finds the start first. Shadow rays are dashed, for nothing travels along them
-# that is followed further; a blocked one has the shorter dash and ends in a cross.
+# The camera ray is thickest, so that the eye finds the start first. Shadow rays are dashed, since no light is followed
+# along them. A blocked one has shorter dashes and ends in a cross.
 STYLES = {
     "camera": RayStyle("camera ray", "E", "#FFFFFF", "#000000", 3.0, (0, 0), Arrow.FILLED),
     "reflection": RayStyle("reflected", "R", "#56B4E9", "#0072B2", 2.4, (0, 0), Arrow.OPEN),
@@ -61,28 +61,28 @@ STYLES = {
 BLOCKED_DASH = (4.0, 5.0)
 FILTERED_DASH = (12.0, 4.0)
 
-HALO = 1.6  # pixels of ground colour on either side of a ray, so that it reads on any picture
+HALO = 1.6  # pixels of background colour on either side of a ray, so that it reads on any picture
 HIDDEN = 0.30  # opacity of what is behind or inside an opaque object
-DIMMED = 0.4  # opacity of what does not belong to the selected ray: dimmed, never hidden
+DIMMED = 0.4  # opacity of rays that are not on the path of the selected one
 ARROW = 11.0  # pixels
-ARROW_AT = 0.58  # of the ray's length: an arrow at the end would hide in the surface
-ESCAPE = 0.9  # of the scene's radius: how far a ray that leaves the scene is drawn
+ARROW_AT = 0.58  # of the ray's length: at the end, an arrow would be hidden by the surface
+ESCAPE = 0.9  # of the scene's radius: length of a ray that leaves the scene
 NORMAL = 0.16  # of the scene's radius: length of a normal
 NORMAL_WIDTH = 1.5
 FRAME_WIDTH = 1.2  # the camera's frustum
-EDGE_WIDTH = 1.0  # edges of cut glass: less than any ray
+EDGE_WIDTH = 1.0  # edges of cut glass: thinner than any ray
 EDGE_OPACITY = 0.5
 
-# Curves in a plot, one after the other: they differ by marker, too.
+# Colours of curves in a plot, in turn. Curves also differ by marker.
 CURVES = (("#F2C14E", "#B0127B"), ("#56B4E9", "#0072B2"), ("#7FD6A2", "#11723F"), ("#FF8A80", "#B35C00"),
           ("#C7A6F0", "#5B3A9C"), ("#ECEFF3", "#14181D"), ("#B8C94A", "#7A6A00"), ("#5FD0C8", "#007A75"))  # fmt: skip
 
-# Numbers as colours, from little to much: each stop is lighter than the one before, in grey as well.
+# The scale of `colormap`. Each stop is lighter than the one before, also in grey.
 MAP = (rgb("#0B1026"), rgb("#2F2A7A"), rgb("#8C2F7F"), rgb("#DD5A4F"), rgb("#F7A93B"), rgb("#FCF3B8"))
 
-FONT_SIZE = 16.0  # pixels at 1280x720; 18 is what a back row reads, 16 what four panels leave room for
+FONT_SIZE = 16.0  # pixels at 1280x720: 18 is readable in the back row, 16 leaves room for four panels
 SMALL = 0.9  # of the font's size, for labels in figures
-LECTURE_ZOOM = 1.35  # what the lecture mode multiplies sizes by
+LECTURE_ZOOM = 1.35  # factor of all sizes in lecture mode
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ class Theme:
     raised: Color  # buttons, tabs, table heads
     hover: Color
     text: Color
-    muted: Color  # text that is no answer: units, hints
+    muted: Color  # units and hints
     accent: Color  # what is selected or switched on
     on_accent: Color
     fault: Color
@@ -101,7 +101,7 @@ class Theme:
     haze: Color  # bottom of the 3D view
     border: Color
     dark: bool
-    mono: bool = False  # black alone: kinds of ray differ by letter, dash and arrow
+    mono: bool = False  # black only: kinds of rays differ by letter, dash and arrow
 
     def ray(self, kind: str) -> Color:
         if self.mono:
@@ -111,7 +111,7 @@ class Theme:
 
     @property
     def normal(self) -> Color:
-        """Normals are no rays: a green that no kind of ray has, thin, with a short bar at the foot."""
+        """Normals are not rays: a green that no kind of ray has, thin, with a short bar at the foot."""
         if self.mono:
             return self.text
         return rgb("#7FD6A2") if self.dark else rgb("#11723F")
@@ -125,7 +125,7 @@ class Theme:
 
 
 def curve_color(theme: Theme, k: int) -> Color:
-    """Of the k-th curve in a plot."""
+    """The colour of the k-th curve in a plot."""
     dark, light = CURVES[k % len(CURVES)]
     return rgb(dark if theme.dark else light)
 

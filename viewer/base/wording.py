@@ -1,4 +1,4 @@
-"""Numbers as people read them, in panels and labels: a true minus sign, a dash for what is absent."""
+"""Numbers as people read them, in panels and labels: with a true minus sign, and a dash for an absent value."""
 
 import math
 from collections.abc import Sequence
@@ -7,11 +7,11 @@ import numpy as np
 
 from tracer.tree.digits import degree_decimals, significant_digits
 
-NO_DIGITS = "no digit left"  # of a number that is all rounding error
+NO_DIGITS = "no digit left"  # for a number that is all rounding error
 
 
 def format_number(x: float, digits: int = 5, error: float = 0.0) -> str:
-    """A number for people, with no digit that its error has made; a dash for what is absent."""
+    """A number with at most `digits` digits, and none that `error` makes uncertain; a dash for NaN."""
     if math.isnan(x):
         return "–"
     sure = digits if x == 0.0 else min(digits, significant_digits(abs(x), error))
@@ -19,7 +19,7 @@ def format_number(x: float, digits: int = 5, error: float = 0.0) -> str:
 
 
 def format_angle(radians: float, error: float = 0.0) -> str:
-    """In degrees, with no more decimals than are sure."""
+    """An angle in degrees, with no decimals that `error` makes uncertain."""
     if math.isnan(radians):
         return "–"
     decimals = min(2, degree_decimals(error))
@@ -27,7 +27,9 @@ def format_angle(radians: float, error: float = 0.0) -> str:
 
 
 def format_point(xyz: Sequence[float] | np.ndarray, error: float = 0.0) -> str:
-    """A point or a direction: five digits of its largest coordinate, or as many as are sure, in a scene of any size."""
+    """A point or a direction: five digits of its largest coordinate, or as many as `error` leaves, in a scene of any
+    size.
+    """
     size = max(abs(float(x)) for x in xyz)
     if math.isnan(size):
         return "–"
@@ -52,16 +54,16 @@ def format_rgb(xyz: Sequence[float] | np.ndarray, decimals: int = 4) -> str:
 
 
 def _fixed(x: float, decimals: int) -> str:
-    """So many decimals; what they show as nothing has no sign."""
+    """A number with a fixed number of decimals. A zero has no sign."""
     text = f"{x:.{decimals}f}"
     return text.lstrip("-") if float(text) == 0.0 else text.replace("-", "−")
 
 
 def format_weight(rgb: np.ndarray) -> str:
-    """One number where the three are equal."""
+    """One number if the three are equal, otherwise all of them."""
     return format_number(float(rgb[0])) if rgb[0] == rgb[1] == rgb[2] else format_rgb(rgb, 4)
 
 
 def format_pair(first: str, second: str) -> str:
-    """`first → second`, or the first alone where there is no second."""
+    """`first → second`, or only the first if there is no second."""
     return f"{first} → {second}" if second != "–" else first

@@ -1,1 +1,1 @@
-"""What is said of a ray, as sections of formulas and numbers, for panels and figures to lay out."""
+"""The explanation of a ray: sections of formulas and numbers, which panels and figures lay out."""

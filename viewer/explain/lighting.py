@@ -1,4 +1,4 @@
-"""The light that reaches a hit straight from the lights: the local term, with its own numbers put in."""
+"""The local term at a hit, the light that comes straight from the lights, with its numbers put in."""
 
 import numpy as np
 
@@ -41,7 +41,7 @@ def local_light(tree: RayTree, world: World, i: int) -> Section:
 
 
 def one_light(tree: RayTree, world: World, i: int, j: int) -> Section:
-    """Light j's share at hit i."""
+    """The share of light j at hit i."""
     row = tree.nodes[i]
     light = world.scene.lights[j]
     child = next(c for c in tree.children[i] if tree.nodes["light"][c] == j)
@@ -68,7 +68,7 @@ def _numbers(material: Material) -> tuple[float, float, float, float]:
 
 
 def _cosines(tree: RayTree, i: int, child: int) -> tuple[float, float]:
-    """N·L and R·V at hit i, for the light that its shadow ray goes to."""
+    """N·L and R·V at hit i, for the light of a shadow ray."""
     row = tree.nodes[i]
     n, to_light = np.array(row["normal"]), tree.nodes["direction"][child]
     n_l = float(n @ to_light)

@@ -1,7 +1,7 @@
-"""What the picked ray does and why, in the lecture's formulas with its own numbers put in.
+"""What a ray does and why, in the lecture's formulas with its numbers put in.
 
-Sections of lines, for panels to lay out and tests to read: nothing here draws. Every number is taken from the node
-table or worked out again from it by the formulas of `tracer.formulas.optics`.
+Nothing here draws. Each number comes from the node table, or is computed from it by the formulas of
+`tracer.formulas.optics`.
 """
 
 import math
@@ -26,7 +26,7 @@ KIND_NAMES = {
 
 
 def headline(tree: RayTree, i: int) -> tuple[str, str]:
-    """(which ray, what becomes of it) in a few words."""
+    """(which ray it is, what becomes of it), in a few words."""
     row = tree.nodes[i]
     name = KIND_NAMES[tree.kind(i)]
     if row["kind"] == SHADOW:
@@ -35,7 +35,7 @@ def headline(tree: RayTree, i: int) -> tuple[str, str]:
     met = tree.object_name(i)
     fate = f"meets {met}" if met else "meets nothing"
     if met and tree.digits(i) == 0:
-        fate = f"{fate}, or so it seems: rounding has left no digit of where"
+        fate = f"{fate}, but rounding has left no correct digit of the point"
     why = END_REASONS[tree.end(i)]
     return f"{name} {i}", f"{fate}; {why}" if why else fate
 
@@ -50,7 +50,7 @@ def _shadow_fate(tree: RayTree, i: int) -> str:
 
 
 def ray_numbers(tree: RayTree, i: int) -> Section:
-    """The row itself."""
+    """The numbers of row i."""
     row = tree.nodes[i]
     section = Section("Numbers")
     shadow = row["kind"] == SHADOW
@@ -78,7 +78,7 @@ def ray_numbers(tree: RayTree, i: int) -> Section:
 
 
 def explain_ray(tree: RayTree, world: World, i: int) -> list[Section]:
-    """All there is to say about row i, the most telling first."""
+    """All sections about row i, the most important first."""
     row = tree.nodes[i]
     if row["kind"] == SHADOW:
         parent = int(row["parent"])
@@ -89,7 +89,7 @@ def explain_ray(tree: RayTree, world: World, i: int) -> list[Section]:
 
 
 def _sum(tree: RayTree, i: int) -> Section:
-    """What the ray sends up, as the sum it is."""
+    """The ray's radiance, written as a sum."""
     row = tree.nodes[i]
     section = Section("What it sends up", "I = local + Σ factor × child")
     if tree.end(i) == "background":

@@ -1,6 +1,6 @@
-"""Where the rays go that a hit sends out, in the lecture's formulas with its own numbers put in.
+"""The rays that a hit sends out, in the lecture's formulas with its numbers put in.
 
-Every number is taken from the node table or worked out again from it by the formulas of `tracer.formulas.optics`.
+Each number comes from the node table, or is computed from it by the formulas of `tracer.formulas.optics`.
 """
 
 import math
@@ -16,12 +16,12 @@ from viewer.explain.sections import Section
 
 
 def direction_error(tree: RayTree, i: int) -> float:
-    """How far rounding may have turned the directions at hit i: the ray's own and those it sends on."""
+    """A bound on the rounding error of the directions at hit i: of the ray's own and of those it sends out."""
     return float(max(tree.nodes["turn"][k] for k in (i, *tree.children[i])))
 
 
 def scattering_sections(tree: RayTree, i: int) -> list[Section]:
-    """Where the rays go that hit i sends out, and what they are worth."""
+    """The directions and factors of the rays that hit i sends out."""
     row = tree.nodes[i]
     material = tree.scene.objects[row["object"]].material
     sections = []
@@ -114,7 +114,7 @@ def _fresnel(tree: RayTree, i: int, material: Material) -> Section:
 
 
 def _share(a: float, b: float) -> float:
-    """(a - b) / (a + b), and 0 where the difference is no more than the rounding of a and b, as at Brewster's angle."""
+    """(a - b) / (a + b); 0 if the difference is only rounding error, as at Brewster's angle."""
     return (a - b) / (a + b) if abs(a - b) > 4.0 * U * (a + b) else 0.0
 
 

@@ -1,4 +1,4 @@
-"""What is said of a ray: sections of lines, for panels and figures to lay out and tests to read."""
+"""Sections of lines: the form in which an explanation is passed to panels, figures and tests."""
 
 from dataclasses import dataclass, field
 

@@ -1,1 +1,1 @@
-"""The ray tree for other programs: one small writer a format, all from the same record."""
+"""Figures of ray trees: marks on a canvas, laid out here and written to files in several formats."""

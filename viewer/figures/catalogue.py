@@ -51,7 +51,7 @@ class FormatKind:
     letters: str = ""  # function of (letter): whether the format can show it. Empty: it can show every letter
 
     def write(self, pages: Sequence[Figure], width: int) -> bytes:
-        """The file of these pages; one page if the format has no more. `width` in pixels counts in PNG only."""
+        """The file of these pages. A format without pages takes the first. `width` in pixels counts in PNG only."""
         function = resolve_name(self.figures)
         content = pages if self.many_pages else pages[0]
         return function(content, width) if self.has_width else function(content)

@@ -95,7 +95,7 @@ def make(
 
 
 def command_line(options: ExportOptions, format_name: str) -> str:
-    """The command that makes the same figure again, but for where it is written."""
+    """The command that makes the same figure again, without its output."""
     width = options.width if format_name == "png" else None
     same = replace(options, format=(format_name,), width=width)
     return shlex.join(["raytree", "export", *words(same, leave_out=("output",))])
@@ -130,9 +130,9 @@ def style_of(options: ExportOptions, steps: Sequence[Step]) -> FigureStyle:
 
 
 def orbit_of(numbers: tuple[float, ...] | None, world: World, view: ViewAngles | None) -> Orbit:
-    """Where the scene is seen from: the numbers of --view, or the view that the window begins with.
+    """The camera of the scene: the numbers of --view, or the view that the window begins with.
 
-    The latter steps back to show the camera as well, if that takes at most the factor FARTHER.
+    The latter moves back to show the scene's camera as well, if that takes at most the factor FARTHER.
     """
     frame = Frame.of(world)
     if numbers is None:

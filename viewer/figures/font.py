@@ -1,8 +1,8 @@
-"""How wide text is. Figures are laid out for DejaVu Sans, which they carry; where a program puts another font in its
-place, that is narrower in all but a few cases, so nothing comes to overlap.
+"""The widths of texts. Figures are laid out for DejaVu Sans, whose file they carry. If another program replaces the
+font, its letters are narrower in nearly all cases, so that nothing overlaps.
 
-The file holds of DejaVu Sans 2.37 the letters of Latin, Greek, Cyrillic, Armenian and Georgian, and the signs of
-formulas; other letters are for the program that shows a figure to find.
+The file has the Latin, Greek, Cyrillic, Armenian and Georgian letters of DejaVu Sans 2.37, and the signs of
+formulas. Other letters are left to the program that shows the figure.
 """
 
 import unicodedata
@@ -13,12 +13,12 @@ FONT = Path(__file__).parent.parent / "fonts" / "DejaVuSans-figures.ttf"
 FAMILY = "DejaVu Sans"
 FALLBACK = ("Verdana", "Helvetica", "Arial", "sans-serif")
 
-# Of the font's size: from the baseline to a capital's top, to an ascender's, to a descender's.
+# Distances from the baseline, relative to the font's size: to the top of a capital, an ascender, a descender.
 CAPITAL, ASCENT, DESCENT = 0.729, 0.78, 0.24
-BASELINE = 0.5 * CAPITAL  # below the middle of a line of text
-ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}  # which share of a text's width stands left of its place
+BASELINE = 0.5 * CAPITAL  # from the middle of a line of text down to its baseline
+ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}  # the share of a text's width that is left of its place
 
-_UNITS = 2048  # the font's own: widths come out exact
+_UNITS = 2048  # units per em of the font: widths are exact
 
 
 @cache
@@ -30,7 +30,7 @@ def _font():
 
 @cache
 def letters() -> frozenset[int]:
-    """What the font has, as code points."""
+    """The code points that the font has."""
     from fontTools.ttLib import TTFont
 
     with TTFont(FONT, lazy=True) as font:
@@ -48,7 +48,7 @@ def boxed(content: str) -> str:
 
 @cache
 def text_width(content: str, size: float) -> float:
-    """In points. Letters of East Asia, which the font lacks, are as wide as they are high."""
+    """The width of a text in points. East Asian letters, which the font lacks, are as wide as they are high."""
     wide = sum(unicodedata.east_asian_width(letter) in "WF" for letter in content)
     if wide:
         content = "".join(letter for letter in content if unicodedata.east_asian_width(letter) not in "WF")
@@ -56,7 +56,7 @@ def text_width(content: str, size: float) -> float:
 
 
 def fitted(content: str, wide: float, size: float) -> str:
-    """The text, cut so that it is no wider than that."""
+    """The text, cut to fit the width."""
     if text_width(content, size) <= wide:
         return content
     while content and text_width(f"{content}…", size) > wide:
@@ -65,7 +65,7 @@ def fitted(content: str, wide: float, size: float) -> str:
 
 
 def text_box(at: tuple[float, float], content: str, size: float, anchor: str) -> tuple[float, float, float, float]:
-    """(left, top, right, bottom) of a line of text whose middle, left or right end stands at `at`."""
+    """(left, top, right, bottom) of a line of text. `at` is its left end, middle or right end, as `anchor` says."""
     width = text_width(content, size)
     left = at[0] - ANCHORS[anchor] * width
     baseline = at[1] + BASELINE * size

@@ -1,7 +1,7 @@
-"""What figures call things: the same words and numbers in all of them.
+"""Names and numbers in figures, the same in all of them.
 
-A ray has its letter and its row's number, R3, in the tree, in the scene and at its hit: R reflected, T transmitted,
-L to a light, as in Whitted's figure (CACM 23(6), 1980); E from the eye.
+A ray has a letter and the number of its row, like R3: R for reflected, T for transmitted, L for to a light, as in
+Whitted's figure (CACM 23(6), 1980), and E for the ray from the eye.
 """
 
 from tracer.kernel.nodes import SHADOW
@@ -9,7 +9,7 @@ from tracer.tree.raytree import RayTree
 from viewer.base.theme import STYLES
 from viewer.base.wording import format_number
 
-# Under a leaf, in as few words as a slide has room for.
+# Texts under a leaf, short enough for a slide.
 ENDS = {
     "surface": "opaque",
     "background": "",
@@ -27,7 +27,7 @@ def ray_label(tree: RayTree, i: int) -> str:
 
 
 def factor_label(tree: RayTree, i: int) -> str:
-    """What the parent multiplies this ray by: the largest of the three where they differ."""
+    """The factor of a ray: the largest component if they differ."""
     return f"× {format_number(float(tree.nodes['factor'][i].max()), 3)}"
 
 
@@ -40,7 +40,7 @@ def end_label(tree: RayTree, i: int) -> str:
 
 
 def ray_title(tree: RayTree, i: int) -> str:
-    """A sentence on one ray, for who points at it."""
+    """A sentence about a ray, shown when the mouse points at it."""
     row = tree.nodes[i]
     style = STYLES[tree.kind(i)]
     if row["kind"] == SHADOW:

@@ -1,4 +1,6 @@
-"""What lines and signs mean, where a figure leaves room: rays together, lights together, near a corner."""
+"""The legend of lines and signs. It stands near a corner where the figure leaves room, in a block for rays and one for
+lights.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,9 +11,9 @@ from viewer.figures.font import text_width
 from viewer.figures.layout.free_space import FreeSpace
 from viewer.figures.marks import Line, Mark, Point, Rectangle, Stroke, Text
 
-LINE = 1.3  # from line to line, in sizes of the text
-SAMPLE = 2.4  # the width of what is explained, with the gap to its words
-CLEAR = 0.5  # about a block, in sizes of the text
+LINE = 1.3  # from line to line, in text sizes
+SAMPLE = 2.4  # width of a sample with its gap, in text sizes
+CLEAR = 0.5  # free space around a block, in text sizes
 
 RAYS = ("top left", "bottom left", "top right", "bottom right")
 LIGHTS = ("top right", "bottom right", "top left", "bottom left")
@@ -19,7 +21,7 @@ LIGHTS = ("top right", "bottom right", "top left", "bottom left")
 
 @dataclass(frozen=True)
 class Entry:
-    what: str  # a kind of ray, what becomes of a ray to a light, or "lights": words alone
+    what: str  # a kind of ray, the end of a shadow ray, or "lights": words only
     words: str
 
     def width(self, size: float) -> float:
@@ -31,9 +33,9 @@ class Entry:
 
 
 def legend(entries: Sequence[Entry], marks: Sequence[Mark], where: Rectangle, size: float, theme: Theme) -> list[Mark]:
-    """Block by block or, where a block has no room as a whole, line by line; where nothing stands of these marks.
+    """Place the legend where there are no marks: block by block, or line by line if there is no room for a block.
 
-    What has no room at all is left out.
+    A line without room is left out.
     """
     vacant = FreeSpace(where, marks)
     found: list[Mark] = []

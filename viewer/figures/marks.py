@@ -1,7 +1,7 @@
-"""What a figure is made of: a list of marks on a canvas. Layouts make marks, writers turn them into a file.
+"""The marks that figures consist of. Layouts make marks, writers write them to a file.
 
-Lengths are points (1/72 inch) from the canvas's top left corner, y downwards. The canvas is a slide of 16:9: text of 18
-points is 18 points where the figure fills the slide.
+Lengths are points (1/72 inch) from the canvas's top left corner, y downwards. The canvas is a slide of 16:9, so a
+text of 18 points is 18 points high if the figure fills the slide.
 """
 
 from collections.abc import Iterator
@@ -21,7 +21,10 @@ Piece = tuple[Point, Point]
 
 
 def clip_shares(piece: Piece, box: Rectangle) -> tuple[float, float] | None:
-    """From which share to which a stretch is within a rectangle (Liang & Barsky, ACM Trans. Graph. 3(1), 1984)."""
+    """The part of a line segment inside a rectangle, from share to share of its length; None if it is outside.
+
+    Liang & Barsky, ACM Trans. Graph. 3(1), 1984.
+    """
     (x0, y0), (x1, y1) = piece
     enters, leaves = 0.0, 1.0
     for a, b, low, high in ((x0, x1, box[0], box[2]), (y0, y1, box[1], box[3])):
@@ -46,14 +49,16 @@ class Stroke:
     dash: tuple[float, float] = (0.0, 0.0)  # on and off; (0, 0): solid
 
     def times(self, share: float) -> "Stroke":
-        """So many times as thick."""
+        """The stroke `share` times as thick."""
         on, off = self.dash
         return Stroke(self.color, share * self.width, (share * on, share * off))
 
 
 @dataclass(frozen=True)
 class Mark:
-    """`name` tells what it stands for, like `ray-3`: marks of one name belong together; `title` says it to people."""
+    """`name` says what the mark stands for, like `ray-3`; marks with the same name belong together. `title` is for
+    people.
+    """
 
     name: str
     title: str = field(default="", kw_only=True)
@@ -61,7 +66,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Box(Mark):
-    """A rectangle about `center`; the text in it names it as `inside`."""
+    """A rectangle around `center`. The text in it has its name as `inside`."""
 
     center: Point
     size: tuple[float, float]
@@ -80,7 +85,7 @@ class Disc(Mark):
 
 @dataclass(frozen=True)
 class Shape(Mark):
-    """An outline through these corners; one that is not closed is a curve and has no fill."""
+    """An outline through these corners. If it is not closed, it is a curve without a fill."""
 
     corners: tuple[Point, ...]
     fill: Color | None
@@ -91,16 +96,16 @@ class Shape(Mark):
 
 @dataclass(frozen=True)
 class Line(Mark):
-    """From one point to another, broken where its label stands (`hole`: left, top, right, bottom).
+    """A line between two points, interrupted by its label (`hole`: left, top, right, bottom).
 
-    Where it leaves and reaches a box, `leaves` and `reaches` are the names of their marks.
+    If it leaves or reaches a box, `leaves` and `reaches` are the names of these marks.
     """
 
     start: Point
     end: Point
     stroke: Stroke
     arrow: Arrow = Arrow.NONE
-    arrow_at: float = 0.5  # where the arrow's tip stands, of the line's length
+    arrow_at: float = 0.5  # place of the arrow's tip, relative to the line's length
     leaves: str = ""
     reaches: str = ""
     hole: Rectangle | None = None
@@ -109,7 +114,7 @@ class Line(Mark):
         return point_along((self.start, self.end), share)
 
     def pieces(self) -> list[Piece]:
-        """What is drawn of it."""
+        """The drawn parts of the line."""
         if self.hole is None:
             return [(self.start, self.end)]
         inside = clip_shares((self.start, self.end), self.hole)
@@ -121,22 +126,22 @@ class Line(Mark):
 
 @dataclass(frozen=True)
 class Text(Mark):
-    """One line of text: its middle stands at `at`, or its left or right end."""
+    """One line of text. `at` is its middle, or its left or right end."""
 
     at: Point
     content: str
     size: float
     color: Color
     anchor: str = "middle"  # start, middle, end
-    inside: str = ""  # the box whose text it is
-    on_line: bool = False  # it stands on a line, which is broken there
+    inside: str = ""  # the box that the text stands in
+    on_line: bool = False  # it interrupts the line that it stands on
 
     def box(self) -> Rectangle:
         return text_box(self.at, self.content, self.size, self.anchor)
 
 
 def with_line_width(mark: Mark, share: float) -> Mark:
-    """The mark with its lines so many times as thick."""
+    """The mark with its lines `share` times as thick."""
     stroke = getattr(mark, "stroke", None)
     return replace(mark, stroke=stroke.times(share)) if stroke else mark  # type: ignore[call-arg]
 
@@ -146,16 +151,16 @@ class Figure:
     """One page."""
 
     title: str
-    description: str  # for who cannot see it
-    command: str  # that makes it again
+    description: str  # for readers who cannot see the figure
+    command: str  # that makes the figure again
     marks: tuple[Mark, ...]
-    paper: Color  # what it is made to lie on
-    ground: bool = False  # whether it brings that along; else it is transparent
+    paper: Color  # the background that it is made for
+    ground: bool = False  # whether it has that background; otherwise it is transparent
     width: float = WIDTH
     height: float = HEIGHT
 
     def groups(self) -> Iterator[tuple[str, str, list[Mark]]]:
-        """(name, title, marks) of marks of one name that follow each other."""
+        """(name, title, marks) for each run of marks with the same name."""
         for name, marks in groupby(self.marks, key=lambda mark: mark.name):
             group = list(marks)
             yield name, next((mark.title for mark in group if mark.title), ""), group

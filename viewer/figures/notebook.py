@@ -1,4 +1,6 @@
-"""What a notebook shows of a tree. `tracer` knows no viewer: it asks who has announced a drawer (pyproject.toml)."""
+"""The figure that a notebook shows for a tree. `tracer` finds it through an entry point (pyproject.toml), since it does
+not import the viewer.
+"""
 
 from tracer.tree.raytree import RayTree
 from viewer.figures.pages import pages

@@ -1,4 +1,4 @@
-"""From a ray tree to the lines that show it, in the 3D view as in the pick that finds a line under the mouse."""
+"""The lines that show a ray tree, in the 3D view and for finding the line under the mouse."""
 
 import math
 from collections.abc import Set
@@ -14,19 +14,21 @@ from viewer.base.theme import BLOCKED_DASH, ESCAPE, FILTERED_DASH, STYLES
 
 @dataclass(frozen=True)
 class RayLine:
-    """One row of the tree as a line, its ends in the frame."""
+    """One row of the tree as a line. Its ends are in the frame."""
 
     row: int
     kind: str
     start: np.ndarray
     end: np.ndarray
     dash: tuple[float, float]
-    escapes: bool  # it leaves the scene and is drawn for a while only
+    escapes: bool  # it leaves the scene, and is drawn for a short length only
     blocked: bool
 
 
 def ray_lines(tree: RayTree, rows: int, frame: Frame, kinds: Set[str]) -> list[RayLine]:
-    """Lines of the first `rows` rows, of those kinds only; a shadow ray that its own surface blocks has no length."""
+    """The lines of the first `rows` rows, of these kinds. A shadow ray that its own surface blocks has no length, and
+    no line.
+    """
     nodes = tree.nodes[:rows]
     starts = frame.inside(nodes["origin"])
     points = frame.inside(nodes["point"])
@@ -52,7 +54,7 @@ def ray_lines(tree: RayTree, rows: int, frame: Frame, kinds: Set[str]) -> list[R
 
 
 def _escape(start: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """Where a ray that hits nothing is drawn to: past the edge of the scene's ball, if it goes through it."""
+    """The end of the line of a ray that hits nothing: beyond the sphere around the scene, if the ray crosses it."""
     b = float(start @ direction)
     root = b * b - (float(start @ start) - 1.0)
     leaving = -b + math.sqrt(root) if root > 0.0 else 0.0
@@ -60,7 +62,7 @@ def _escape(start: np.ndarray, direction: np.ndarray) -> np.ndarray:
 
 
 def relatives(tree: RayTree, row: int) -> set[int]:
-    """A ray, those it came from, and all that came from it: what stays bright while it is selected."""
+    """A ray with its ancestors and descendants, which stay bright while it is selected."""
     kept = set()
     i = row
     while i >= 0:
@@ -77,9 +79,9 @@ def relatives(tree: RayTree, row: int) -> set[int]:
 def nearest_row(
     lines: list[RayLine], places: np.ndarray, depths: np.ndarray, mouse: tuple[float, float], reach: float
 ) -> int | None:
-    """The row of the line nearest to the mouse, at most `reach` away; of several, the one nearest to the eye.
+    """The row of the line nearest to the mouse, at most `reach` away; None if there is none.
 
-    `places` (n, 2, 2) are the lines' ends on the screen, `depths` (n, 2) how far before the eye they are.
+    `places` (n, 2, 2) are the lines' ends on the screen, `depths` (n, 2) their distances from the camera.
     """
     best = None
     for line, (a, b), (za, zb) in zip(lines, places, depths, strict=True):
@@ -90,7 +92,7 @@ def nearest_row(
         t = min(1.0, max(0.0, float((np.array(mouse) - a) @ along) / size)) if size > 0.0 else 0.0
         away = float(np.hypot(*(a + t * along - mouse)))
         if away <= reach:
-            # Nearer than three pixels is a hit on either line: then the one in front counts.
+            # Within three pixels, both lines count as hit, and the one in front is chosen.
             key = (round(away / 3.0), za + t * (zb - za))
             if best is None or key < best[0]:
                 best = (key, line.row)

@@ -1,4 +1,4 @@
-"""Small signs that figures share: the eye, a light that is reached, a light that is not, the end of a stub."""
+"""Small signs that figures share: the eye, ends of shadow rays, the bar of total internal reflection."""
 
 import math
 
@@ -19,7 +19,7 @@ def eye(at: Point, size: float, theme: Theme) -> list[Mark]:
 
 
 def sun(name: str, at: Point, size: float, color: Color, ring: Color | None = None) -> list[Mark]:
-    """A light: a disc with eight rays; within a ring where it is seen through glass."""
+    """A light that is reached: a disc with eight rays, with a ring if the light comes through glass."""
     marks: list[Mark] = [Disc(name, at, 0.2 * size, color, None)]
     for k in range(8):
         dx, dy = math.cos(k * math.pi / 4), math.sin(k * math.pi / 4)
@@ -32,7 +32,7 @@ def sun(name: str, at: Point, size: float, color: Color, ring: Color | None = No
 
 
 def cross(name: str, at: Point, size: float, color: Color) -> list[Mark]:
-    """A light that is not reached: something stands in the way."""
+    """A light that is not reached."""
     r = 0.26 * size
     x, y = at
     return [
@@ -42,12 +42,12 @@ def cross(name: str, at: Point, size: float, color: Color) -> list[Mark]:
 
 
 def bar(name: str, at: Point, size: float, color: Color) -> list[Mark]:
-    """Nothing goes on here."""
+    """A ray that does not exist."""
     return [Line(name, (at[0] - 0.36 * size, at[1]), (at[0] + 0.36 * size, at[1]), Stroke(color, 3.0))]
 
 
 def light_end(end: str, name: str, at: Point, size: float, theme: Theme) -> list[Mark]:
-    """What becomes of a ray to a light: lit, filtered, blocked, or away where the surface looks the other way."""
+    """The end of a shadow ray: lit, filtered, blocked, or away if the surface faces away from the light."""
     color = theme.ray("shadow")
     match end:
         case "away":

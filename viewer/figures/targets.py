@@ -24,7 +24,9 @@ class Target:
 
 
 def target_of(options: ExportOptions) -> Target:
-    """The target that the options name. Unusable if output and format contradict each other, or cannot be written."""
+    """The target that the options name. Raises Unusable if output and format contradict each other or cannot be
+    written.
+    """
     path = Path(options.output)
     is_folder = path.is_dir() or options.output.endswith(("/", "\\"))
     formats = options.format

@@ -1,1 +1,1 @@
-"""Lessons: reading `lesson.md`."""
+"""Reading lessons."""

@@ -1,13 +1,13 @@
-"""Lessons: a folder each under `lessons/`, written without touching Python.
+"""Lessons: one folder each in `lessons/`, written without Python.
 
-`lesson.md` begins with its data between two lines `+++` (TOML), then says in Markdown what there is to see:
+`lesson.md` begins with its data in TOML, between two lines `+++`. Below, Markdown says what there is to see:
 
     +++
     title = "Mirror balls"
     scene = "scene.toml"
-    pixel = [400, 300]      # which it opens with
+    pixel = [400, 300]      # picked when the lesson is opened
     depth = 3
-    [view]                  # of the 3D scene, optional: degrees about and above the scene, distance in scene sizes
+    [view]                  # of the 3D scene, optional: angles in degrees, distance in radii of the scene
     azimuth = 35
     elevation = 20
     distance = 2.5
@@ -30,12 +30,12 @@ MARK = "+++"
 
 @dataclass(frozen=True)
 class LessonView:
-    """From where the 3D scene is seen at first."""
+    """The first view of the 3D scene."""
 
-    azimuth: float = field(default=AZIMUTH, metadata=fields.number())  # degrees from the camera's own side
+    azimuth: float = field(default=AZIMUTH, metadata=fields.number())  # degrees from the side of the scene's camera
     elevation: float = field(default=ELEVATION, metadata=fields.number(above=-90, below=90))  # degrees
     distance: float = field(default=DISTANCE, metadata=fields.number(above=0))  # in radii of the scene
-    target: tuple[float, float, float] | None = field(default=None, metadata=fields.point())  # None: its middle
+    target: tuple[float, float, float] | None = field(default=None, metadata=fields.point())  # None: its centre
 
 
 @dataclass(frozen=True)
@@ -54,14 +54,14 @@ def folder() -> Path:
 
 
 def names() -> list[str]:
-    """All lessons, in the order in which they are taught: the folder's ORDER file, then the others by name."""
+    """All lessons in teaching order: those in the file ORDER first, then the others by name."""
     found = {path.parent.name for path in folder().glob("*/lesson.md")}
     order = (folder() / "ORDER").read_text("utf-8").split()
     return [name for name in order if name in found] + sorted(found - set(order))
 
 
 def read(name: str) -> Lesson:
-    """One lesson by name. Unusable: every fault of its file, one line each."""
+    """Read one lesson by name. Raises Unusable with all faults of its file."""
     path = folder() / name / "lesson.md"
     if not path.is_file():
         raise Unusable(f'no lesson "{name}"{fields.nearest(name, names())} (known: {", ".join(names())})')
@@ -69,7 +69,7 @@ def read(name: str) -> Lesson:
 
 
 def read_file(path: Path) -> Lesson:
-    """A lesson that need not be one of ours."""
+    """Read a lesson from any file."""
     text = path.read_text("utf-8")
     if text.count(f"{MARK}\n") < 2 or not text.startswith(MARK):
         raise Unusable(f"{path}: a lesson begins with its data between two lines {MARK}")

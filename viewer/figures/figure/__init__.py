@@ -1,1 +1,1 @@
-"""The figures: each a function to marks."""
+"""The figures: one file each."""

@@ -1,8 +1,8 @@
-"""One hit in its plane of incidence: the normal, the ray that comes, those that go on, all angles true, and the
-lecture's formulas with this hit's numbers beside them.
+"""One hit in its plane of incidence: the normal, the incoming ray, the rays sent out, true angles, and the lecture's
+formulas with this hit's numbers.
 
-The normal stands upright, on the side that the ray comes from, and the ray comes from the left: as on the slide. Lights
-seldom lie in that plane: each is drawn at its true angle from the normal, turned into the plane about it.
+As on the slide, the normal points up, on the side of the incoming ray, which comes from the left. A light rarely
+lies in this plane: it is drawn at its true angle from the normal, rotated into the plane.
 """
 
 import math
@@ -27,21 +27,21 @@ from viewer.figures.steps import Step
 from viewer.figures.subject import FigureStyle, Pages, Subject
 
 CENTER = (262.0, 292.0)  # the hit
-REACH = 195.0  # how far rays are drawn
-LIGHT_REACHES = (118.0, 150.0, 90.0, REACH + 28.0, 60.0)  # how far rays to lights are, the first that is free
-IN_PLANE = math.radians(1.0)  # a light that leaves the plane by less lies in it
+REACH = 195.0  # length of rays
+LIGHT_REACHES = (118.0, 150.0, 90.0, REACH + 28.0, 60.0)  # lengths of rays to lights; the first that fits is used
+IN_PLANE = math.radians(1.0)  # a light that is out of the plane by less counts as in it
 LEFT, RIGHT = 12.0, 512.0  # of the media
 TOP, BOTTOM = 12.0, HEIGHT - 12.0
-WORDS = 536.0  # where the formulas begin
-ARC = 62.0  # the radius of an angle's arc
-LINE = 1.28  # from line to line of the formulas, in sizes of the text
+WORDS = 536.0  # left end of the formulas
+ARC = 62.0  # radius of an angle's arc
+LINE = 1.28  # from line to line of the formulas, in text sizes
 LARGEST = 20.0  # points
-BETWEEN = 0.5  # between two sections of them, in lines, where there is room
-LOCAL = "A ka C + Σ S L (kd C N·L + ks (R·V)ᵖ)"  # the shorter: here it has half a slide
+BETWEEN = 0.5  # between two sections, in lines, if there is room
+LOCAL = "A ka C + Σ S L (kd C N·L + ks (R·V)ᵖ)"  # a short form, for half a slide
 VECTORS = ("v", "n", "r", "t")
-TINTS = (0.06, 0.16)  # of the medium of lower and of higher index
+TINTS = (0.06, 0.16)  # of the medium with the lower and with the higher index
 
-FormulaLine = tuple[str, str, Color]  # name, value, the name's colour
+FormulaLine = tuple[str, str, Color]  # name, value, colour of the name
 
 
 def pages(subject: Subject, style: FigureStyle) -> Pages:
@@ -53,12 +53,12 @@ def pages(subject: Subject, style: FigureStyle) -> Pages:
 
 
 def hit_marks(step: Step, node: int, size: float, theme: Theme, world: World | None = None) -> list[Mark]:
-    """`node` is the row of a ray that meets a surface (`node_of`). `world` tells its light's numbers."""
+    """The marks of a hit. `node` is its row (`hit_row`). Without a `world`, the local term has no numbers."""
     return _Drawing(step, node, size, theme, world).marks
 
 
 def hit_row(tree: RayTree, asked: str | None) -> int:
-    """The row of a hit asked for as 4 or T4, the first if none is; ValueError in words for people."""
+    """The row of a hit that was asked for as 4 or T4; without a request, the first. ValueError, in words for people."""
     hits = [i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW and tree.object_name(i)]
     if not hits:
         raise ValueError("--figure hit: the ray meets no surface")
@@ -82,7 +82,7 @@ class _Drawing:
         self.lights = [child for child in below if self.tree.nodes["kind"][child] == SHADOW]
         self.going_on = [child for child in below if child not in self.lights]
         self.theta1, self.theta2 = float(self.row["theta1"]), float(self.row["theta2"])
-        # Whether a light leaves the plane, and is turned into it.
+        # Whether a light is out of the plane, and rotated into it.
         self.turned = any(self._turn_to_light(child)[1] > IN_PLANE for child in self.lights)
         self.marks: list[Mark] = []
         self._media()
@@ -92,7 +92,7 @@ class _Drawing:
         self._formulas()
 
     def _at(self, turn: float, length: float = REACH) -> Point:
-        """So far from the hit, `turn` clockwise from the normal."""
+        """The point at a distance from the hit, in the direction `turn` clockwise from the normal."""
         return (CENTER[0] + length * math.sin(turn), CENTER[1] - length * math.cos(turn))
 
     def _media(self) -> None:
@@ -163,7 +163,7 @@ class _Drawing:
         self.marks.append(Line(f"ray-{i}", start, end, stroke, style.arrow, 0.6, title=ray_title(self.tree, i)))
 
     def _no_ray(self) -> None:
-        """Nothing is refracted, in no direction: a cross below the surface."""
+        """Total internal reflection: a cross below the surface."""
         color = self.theme.ray("refraction")
         at = (CENTER[0] + 1.2 * self.size, CENTER[1] + 1.1 * self.size)
         self.marks += signs.cross("bar", at, self.size, color)
@@ -172,7 +172,7 @@ class _Drawing:
         self.marks.append(Text("bar", beside, NO_RAY, self.size, color, "start", title=title))
 
     def _lights(self) -> None:
-        """Dashed, at their true angles from the normal, on the side of the normal on which they are."""
+        """Rays to lights, dashed, at their true angles from the normal."""
         names = LabelPlacer((LEFT, TOP, RIGHT, BOTTOM), self.size, self.theme)
         names.taken += [mark.box() for mark in self.marks if isinstance(mark, Text)]
         names.ways += [(mark.name, piece) for mark in self.marks if isinstance(mark, Line) for piece in mark.pieces()]
@@ -197,7 +197,7 @@ class _Drawing:
             self.marks += names.label(name, words, [Spot(end)], color, most=0)
 
     def _light_end(self, turn: float, names: LabelPlacer) -> Point:
-        """As far out as suits best: not where something stands, and not upon a ray: then beyond it."""
+        """The end of a ray to a light: where there are no marks, and beyond a ray that it would lie on."""
         rays = [mark for mark in self.marks if isinstance(mark, Line)]
         ends = [self._at(turn, reach) for reach in LIGHT_REACHES]
         half = 0.6 * self.size
@@ -208,7 +208,7 @@ class _Drawing:
         return ends[0]
 
     def _turn_to_light(self, child: int) -> tuple[float, float]:
-        """(angle from the normal, towards where the ray goes on positive; by how much it leaves the plane)."""
+        """(angle from the normal, positive to the right; angle out of the plane)."""
         v, n = np.array(self.row["direction"]), np.array(self.row["normal"])
         to_light = np.array(self.tree.nodes["direction"][child])
         along = v - float(v @ n) * n  # to the right in the figure
@@ -220,7 +220,7 @@ class _Drawing:
         return math.copysign(math.atan2(beside, up), right), out
 
     def _arc(self, name: str, begin: float, end: float, kind: str) -> None:
-        """From one direction to another, in steps of at most two degrees."""
+        """An arc between two directions, in steps of at most two degrees."""
         steps = max(1, math.ceil(abs(end - begin) / math.radians(2.0)))
         corners = tuple(self._at(begin + (end - begin) * k / steps, ARC) for k in range(steps + 1))
         self.marks.append(Shape(f"angle-{name}", corners, None, Stroke(self.theme.ray(kind), 1.8), closed=False))
@@ -231,7 +231,7 @@ class _Drawing:
     # --- formulas -----------------------------------------------------------------------------------------------------
 
     def _formulas(self) -> None:
-        """As many sections as there is room for: first without the vectors, then of the local light the sum alone."""
+        """As many sections as fit: first the vectors are left out, then all of the local light but its sum."""
         sections = scattering_sections(self.tree, self.node) if self.going_on else []
         if self.world:
             sections.append(self._local(self.world))
@@ -263,7 +263,7 @@ class _Drawing:
         return section
 
     def _lines(self, section: Section, vectors: bool) -> list[FormulaLine]:
-        """What of a section has room on the right: name and value in a line, or in two."""
+        """The lines of a section: name and value in one line, or in two."""
         theme, wide = self.theme, WIDTH - 12.0 - WORDS
         found = [(section.formula, "", theme.accent)]
         for line in section.lines:

@@ -1,7 +1,7 @@
-"""The scene with a pixel's rays over it, seen from beside: what opaque things hide of a ray is drawn faintly.
+"""The scene with a pixel's rays over it. The part of a ray that is behind opaque objects is drawn faintly.
 
-The eye is the 3D view's own. Objects are flat areas with their outlines, a shade darker where they turn away; rays and
-their labels are those of the tree figure.
+The camera is that of the 3D view. Objects are flat areas with outlines, a shade darker where they turn away from the
+camera. Rays and labels are those of the tree figure.
 """
 
 import math
@@ -40,19 +40,19 @@ from viewer.figures.visible.outlines import Area
 from viewer.figures.visible.scene_view import SceneView
 from viewer.figures.visible.scenery import Part
 
-PALE = 0.45  # how much of the paper's colour things take, so that rays stand out
-SHADE = 0.09  # opacity of what makes a turned-away surface darker
+PALE = 0.45  # share of the background's colour in an object's colour, so that rays stand out
+SHADE = 0.09  # opacity of the shade
 GLASS = 0.13  # opacity of glass
 OUTLINE, CREASE = 1.3, 0.8  # widths
-FAINT = 0.3  # opacity of what is hidden of a ray
-SLIM = 0.7  # of a shadow ray's width: there are many, and they are not what the figure is about
-SPOTS = (0.4, 0.5, 0.3, 0.6, 0.7, 0.2, 0.8, 0.1, 0.9)  # of what is seen of a ray, where it may be named
-ROOMY = 2.2  # times its name's size, at least, a ray that has its name upon it; shorter ones have it beside
-LABELS = 24  # rays that are named, the heaviest
-FIRST = 12  # of them, that are named even where names must cross other rays; rays to lights never do
+FAINT = 0.3  # opacity of the hidden part of a ray
+SLIM = 0.7  # of a ray's width, for shadow rays: there are many, and the figure is not about them
+SPOTS = (0.4, 0.5, 0.3, 0.6, 0.7, 0.2, 0.8, 0.1, 0.9)  # places for a name, as shares of the visible part of a ray
+ROOMY = 2.2  # a ray this many times longer than its name has its name on it, a shorter one beside it
+LABELS = 24  # rays that are named: the heaviest
+FIRST = 12  # of these, rays whose names may cross other rays
 
 
-Named = tuple[frozenset[int], list[Mark]]  # the rays with which a name comes (none: it is always there), and its marks
+Named = tuple[frozenset[int], list[Mark]]  # the rays that a name comes with (empty: it is always there), and its marks
 
 
 def pages(subject: Subject, style: FigureStyle, where: Rectangle = (0.0, 0.0, WIDTH, HEIGHT)) -> Pages:
@@ -61,7 +61,7 @@ def pages(subject: Subject, style: FigureStyle, where: Rectangle = (0.0, 0.0, WI
 
 
 def view_pages(view: SceneView, steps: Sequence[Step], size: float, theme: Theme) -> Pages:
-    """A page a step. Names are placed for the last, the fullest, and come with what they name: none ever moves."""
+    """One page for each step. Names are placed for the last, the fullest step, and keep their places."""
     drawings = [_Drawing(view, step, size, theme) for step in steps]
     names = drawings[-1].named()
     return [
@@ -83,7 +83,7 @@ class _Drawing:
             self._thing(part, GLASS)
         lines = ray_lines(self.tree, len(self.tree), view.frame, frozenset(KINDS))
         self.lines = [line for line in lines if line.row in step.rows]
-        for line in sorted(self.lines, key=lambda line: -line.row):  # the first rays over the later ones
+        for line in sorted(self.lines, key=lambda line: -line.row):  # the first rays lie over the later ones
             self._ray(line)
         self.lights = self._lights()
         self._eye()
@@ -142,13 +142,13 @@ class _Drawing:
                 self.marks.append(Line(name, *_last(head, 2.0), Stroke(color, stroke.width), style.arrow, 1.0))
                 self.names.take(head[1], 0.9 * self.size)
         met = self._on_canvas(line, 0.999, 1.0)
-        if met and line.kind != "shadow":  # what it meets there is to be seen
+        if met and line.kind != "shadow":  # the end of a shadow ray has a sign of its own
             self.names.take(met[1], 0.5 * self.size)
         if met and line.blocked:
             self.marks += signs.cross(name, met[1], self.size, color)
 
     def _arrow_at(self, line: RayLine) -> float:
-        """Where its arrow stands, of its length: as always or, if that is outside, in the middle of what is seen."""
+        """The place of a ray's arrow: the usual one, or the middle of the visible part."""
         shares = np.linspace(0.0, 1.0, 101)
         places, depths = self.view.at(line.start + shares[:, None] * (line.end - line.start))
         left, top, right, bottom = self.view.where
@@ -159,7 +159,7 @@ class _Drawing:
         return float(np.median(shares[inside]))
 
     def _on_canvas(self, line: RayLine, begin: float, end: float) -> Piece | None:
-        """A stretch of a ray where it is before the eye and within the figure; None where it is not."""
+        """The part of a segment that is in front of the camera and inside the figure; None if there is none."""
         ends = np.array([line.start + share * (line.end - line.start) for share in (begin, end)])
         places, depths = self.view.at(ends)
         near = 1e-3  # of the scene's radius
@@ -176,7 +176,7 @@ class _Drawing:
     # --- signs and labels ---------------------------------------------------------------------------------------------
 
     def _place(self, point: np.ndarray) -> Point | None:
-        """Of a point of the frame on the canvas, if it is well within."""
+        """A point of the frame on the canvas; None if it is not well inside."""
         places, depths = self.view.at(point[None])
         x, y = places[0].tolist()
         left, top, right, bottom = self.view.where
@@ -185,7 +185,7 @@ class _Drawing:
         return (x, y) if depths[0] > 0.0 and inside else None
 
     def _lights(self) -> dict[int, Point]:
-        """Where lights are, of those within the picture."""
+        """The places of the lights in the picture."""
         found = {}
         for j, light in enumerate(self.scene.lights):
             at = self._place(self.view.frame.inside(light.position)) if light.position else None
@@ -202,7 +202,7 @@ class _Drawing:
             self.names.take(at, 1.6 * self.size)
 
     def named(self) -> list[Named]:
-        """Names of lights, of rays, the heaviest first, then of what these meet."""
+        """Names of lights, then of rays, the heaviest first, then of the objects that these meet."""
         found: list[Named] = []
         for j, at in self.lights.items():
             name = self.scene.light_name(j)
@@ -224,7 +224,7 @@ class _Drawing:
             rows = frozenset(line.row for line in rays if nodes["object"][line.row] == part.number)
             if rows:
                 name = self.scene.object_name(part.number)
-                upon = _wide(part) > 1.1 * text_width(name, self.size)  # else the name would hide the thing
+                upon = _wide(part) > 1.1 * text_width(name, self.size)  # otherwise the name would hide the object
                 spots = [Spot(at, upon=True) for at in part.spots if upon]
                 if not upon or not self.names.fits(name, spots):
                     spots = [Spot(at) for at in part.spots[:3]]
@@ -233,13 +233,13 @@ class _Drawing:
         return found
 
     def _along(self, name: str, label: str, piece: Piece) -> list[Spot]:
-        """Upon a ray where it is long enough, else beside it."""
+        """A name on a ray that is long enough, otherwise beside it."""
         upon = math.dist(*piece) > ROOMY * max(self.size, text_width(label, self.size))
         places = [point_along(piece, share) for share in SPOTS]
         return [Spot(at, upon=True, spare=name) for at in places if upon] + [Spot(at) for at in places]
 
     def _ways_out(self, shadows: Sequence[RayLine]) -> list[Named]:
-        """Where rays to a light leave the picture: which light they go to."""
+        """The names of lights outside the picture, where rays to them leave it."""
         found: list[Named] = []
         left, top, right, bottom = self.view.where
         for j in sorted(set(range(len(self.scene.lights))) - self.lights.keys()):
@@ -267,7 +267,7 @@ def _wide(part: Part) -> float:
 
 
 def surface_look(material: Material, theme: Theme) -> Color:
-    """A thing's own colour, paler: what its light would be, or grey where it only mirrors."""
+    """An object's own colour, paler. A grey for one that only reflects."""
     strength = min(1.0, material.ambient + material.diffuse)
     color = np.array(material.color) * strength + 0.55 * min(1.0, material.reflect)
     encoded = np.array(display_color(color)[:3])
@@ -283,7 +283,7 @@ def _between(a: Color, b: Color) -> Color:
 
 
 def _last(piece: Piece, length: float) -> Piece:
-    """The end of a stretch, so long."""
+    """The last `length` of a segment."""
     (x0, y0), (x1, y1) = piece
     share = min(1.0, length / max(1e-9, math.dist(*piece)))
     return (x1 - share * (x1 - x0), y1 - share * (y1 - y0)), (x1, y1)

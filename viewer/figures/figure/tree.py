@@ -1,7 +1,8 @@
-"""The ray tree as a figure: Whitted's own (CACM 23(6), 1980).
+"""The ray tree, as in Whitted's figure (CACM 23(6), 1980).
 
-The eye on top, reflected rays left, refracted ones right, dashed stubs to the lights; on each edge what the parent
-multiplies by, in each box what was met. With the eye at the left reflected rays go up, refracted ones down.
+The eye is at the top, reflected rays go left and refracted ones right, and dashed stubs lead to the lights. An edge
+has the ray's factor, a box the object that was hit. With the eye at the left, reflected rays go up and refracted
+ones down.
 """
 
 from collections.abc import Sequence
@@ -34,7 +35,7 @@ from viewer.figures.marks import HEIGHT, WIDTH, Box, Disc, Line, Mark, Point, Re
 from viewer.figures.steps import Step
 from viewer.figures.subject import FigureStyle, Pages, Subject
 
-MOST_LIGHTS = 4  # whose names the legend has room for
+MOST_LIGHTS = 4  # with more lights than this, the legend does not name them
 LIGHT_ENDS = {
     "lit": "to a light",
     "filtered": "through glass",
@@ -58,7 +59,9 @@ def tree_style(style: FigureStyle, where: tuple[float, float] = WHERE) -> TreeSt
 
 
 def plan_pages(plan: TreePlan, steps: Sequence[Step], theme: Theme) -> Pages:
-    """A page a step: of the plan's rows those that are there. What signs mean stands where no page has anything."""
+    """One page for each step, with those rows of the plan that the step has. The legend stands where there are no
+    marks.
+    """
     drawn = [_Drawing(plan, step, theme).marks for step in steps]
     left, right = plan.style.where
     margin = MARGIN * plan.size
@@ -92,7 +95,7 @@ class _Drawing:
     # --- rays ---------------------------------------------------------------------------------------------------------
 
     def _leave(self, i: int) -> tuple[Point, str]:
-        """Where the edge to hit i begins, and the mark it leaves."""
+        """The start of the edge to hit i, and the mark that it leaves."""
         parent = int(self.tree.nodes["parent"][i])
         if parent < 0:
             x, y = self.plan.places.eye
@@ -103,7 +106,7 @@ class _Drawing:
         return (x - side if to_left else x + side, y), f"hit-{parent}"
 
     def _reach(self, i: int, height: float) -> Point:
-        """Where the edge to the box at i, so high, ends."""
+        """The end of the edge to the box of height `height` at i."""
         x, y = self.plan.at[i]
         return (x - 0.5 * self.plan.box[0], y) if self.sideways else (x, y - 0.5 * height)
 
@@ -129,7 +132,9 @@ class _Drawing:
         self.marks += [line, label]
 
     def _edge_label(self, i: int, start: Point, end: Point, color: Color) -> Text:
-        """Above its box: there an edge from above is broken. The first ray is straight, and has its label beside it."""
+        """The factor, above the box where it interrupts the edge. The first ray is straight, and has its label beside
+        it.
+        """
         name, content = f"ray-{i}", edge_label(self.tree, i)
         x, y = self.plan.at[i]
         if i and self.sideways:
@@ -141,7 +146,7 @@ class _Drawing:
         return Text(name, (x + 0.5 * self.size, y - self.plan.top), content, self.size, color, "start")
 
     def _stub(self, i: int) -> None:
-        """To a light: what becomes of the ray stands at its end."""
+        """A stub to a light. The sign at its end says what becomes of the ray."""
         name, tree = f"ray-{i}", self.tree
         parent = int(tree.nodes["parent"][i])
         x, y = self.plan.at[parent]
@@ -169,12 +174,12 @@ class _Drawing:
         self.marks.append(Text(name, text, label, self.size, color, "start"))
 
     def _side_by_side(self, at: Point, label: str) -> tuple[Point, Point]:
-        """(middle of the sign, left end of its label), together in the middle of a stub's place."""
+        """(centre of the sign, left end of its label): side by side, centred on the stub's place."""
         left = at[0] - 0.5 * (SIGN * self.size + text_width(label, self.size))
         return (left + 0.45 * self.size, at[1]), (left + SIGN * self.size, at[1])
 
     def _bar(self, i: int) -> None:
-        """The refracted ray that total internal reflection does not let out."""
+        """The refracted ray that does not exist because of total internal reflection."""
         at = self.plan.places.bars.get(i)
         if at is None or not any(c in self.step.rows for c in self.tree.children[i] if self.tree.kind(c) == "tir"):
             return
@@ -213,13 +218,13 @@ class _Drawing:
         self._note(i)
 
     def _note(self, i: int) -> None:
-        """Under a leaf: why nothing follows. Where something does follow, the end is that branch's own."""
+        """Why no ray follows from a leaf."""
         words = end_label(self.tree, i)
         if words and all(self.tree.nodes["kind"][c] == SHADOW for c in self.tree.children[i]):
             self.marks.append(Text(f"hit-{i}", self._under(i), words, self.size, self.theme.muted))
 
     def _under(self, i: int) -> Point:
-        """The middle of the first line under a box and the stubs that hang there."""
+        """The middle of the first line under a box and its stubs."""
         x, y = self.plan.at[i]
         stubs = i in self.plan.places.bars or any(c in self.plan.rows for c in self._shadows(i))
         bare = 0.5 * self.plan.box[1] + BARE_NOTE * self.size
@@ -237,7 +242,7 @@ class _Drawing:
         self.marks.append(Line(f"fold-{row}", start, reach, stroke, leaves=leaves, reaches=f"fold-{row}"))
 
     def _fold(self, fold: Fold) -> None:
-        """Two lines: how many rays, how much of the weight; in a box of their own, or under the hit."""
+        """A folded branch: how many rays, and how much of the weight; in a box of its own, or under the hit."""
         name = f"fold-{fold.row}"
         many, share = fold.words(self.step.rows, self.plan.inside)
         if fold.under is not None:
@@ -255,7 +260,7 @@ class _Drawing:
 
 
 def _entries(plan: TreePlan) -> list[Entry]:
-    """What of the signs the figure needs words for: those that its deepest step has."""
+    """The signs that the legend explains: those of the deepest step."""
     tree = plan.tree
     kinds = {tree.kind(i) for i in plan.rows}
     entries = [Entry(kind, STYLES[kind].label) for kind in ("reflection", "refraction", "tir") if kind in kinds]
@@ -263,13 +268,13 @@ def _entries(plan: TreePlan) -> list[Entry]:
     ends = {"away" if tree.faces_away(i) else tree.end(i) or "" for i in shadows}
     entries += [Entry(end, words) for end, words in LIGHT_ENDS.items() if end in ends]
     lights = [tree.scene.light_name(j) for j in range(len(tree.scene.lights))]
-    if ends and len(lights) <= MOST_LIGHTS:  # each hit has a stub for each, in this order
+    if ends and len(lights) <= MOST_LIGHTS:  # each hit has a stub for each light, in this order
         entries.append(Entry("lights", f"L: {', '.join(lights)}"))
     return entries
 
 
 def swatch(tree: RayTree, i: int, theme: Theme) -> Color:
-    """What ray i sends up, as a picture shows it; a grey of the same light where there is no colour."""
+    """The radiance of ray i as a colour; in black and white, a grey of the same luminance."""
     light = tree.nodes["radiance"][i]
     if theme.mono:
         light = np.full(3, light @ LUMINANCE)

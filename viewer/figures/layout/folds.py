@@ -1,4 +1,4 @@
-"""Branches of a tree that are not drawn ray by ray: each says how many rays it stands for, and their weight."""
+"""Branches of a tree that are folded: one sign says how many rays it stands for, and their weight."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -10,9 +10,9 @@ from viewer.base.wording import format_number
 
 @dataclass(frozen=True)
 class Fold:
-    """A branch, or two of one hit, in one box, which stands where the heavier one's first hit would.
+    """One branch of a hit, or both. Its box stands where the first hit of the heavier branch would.
 
-    Below the last level there is no room for one: what it says then hangs `under` the hit.
+    Below the last level there is no room for a box: there the text hangs `under` the hit.
     """
 
     row: int
@@ -21,22 +21,23 @@ class Fold:
     under: int | None = None
 
     def words(self, rows: Iterable[int], inside: dict[int, int]) -> tuple[str, str]:
-        """(how many rays, their share of the weight), as far as these rows go."""
+        """(number of rays, their share of the weight), of those that are in `rows`."""
         count = sum(inside.get(i) == self.row for i in rows)
         return (f"+{count} ray{'s' if count > 1 else ''}", f"{percent(self.weight)} %")
 
 
 def percent(share: float) -> str:
-    """Two digits, or what stands before the point."""
+    """A percentage with two significant digits."""
     return f"{100.0 * share:.0f}" if share >= 0.0995 else format_number(100.0 * share, 2)
 
 
 def fold_branches(
     tree: RayTree, kept: set[int], last: int, lights: bool
 ) -> tuple[set[int], dict[int, Fold], dict[int, int]]:
-    """(rows drawn each for itself, folds, folded row -> its fold): of a hit's branches that are not kept, one fold.
+    """(rows drawn as themselves, folds, fold of each folded row). The branches of a hit that are not kept make one
+    fold.
 
-    `last` is the level below which there are no boxes; `lights`: whether rays to lights are drawn.
+    There are no boxes below the level `last`. `lights`: whether shadow rays are drawn.
     """
     nodes = tree.nodes
     weights = nodes["weight"].max(axis=1)
@@ -50,7 +51,7 @@ def fold_branches(
             under = i if nodes["depth"][i] >= last else None
             folds[row] = Fold(row, roots, float(sum(weights[c] for c in roots)), under)
             inside |= dict.fromkeys(roots, row)
-    for i in range(len(tree)):  # a parent stands before its children
+    for i in range(len(tree)):  # parents come before their children
         parent = int(nodes["parent"][i])
         if parent in inside and i not in inside:
             inside[i] = inside[parent]

@@ -1,4 +1,4 @@
-"""Where on a canvas nothing stands yet: a grid of cells that are taken, and sums over it that tell any rectangle."""
+"""Free space on a canvas: a grid of cells that are taken, with prefix sums that give the count of any rectangle."""
 
 import math
 from collections.abc import Iterable
@@ -8,11 +8,11 @@ import numpy as np
 from viewer.figures.marks import Box, Disc, Line, Mark, Point, Rectangle, Shape, Text
 
 CELL = 4.0  # points
-RANK = 90.0  # points nearer a corner must be to be preferred to the corner before it
+RANK = 90.0  # a corner is preferred to the one before it if it is nearer by this many points
 
 
 class FreeSpace:
-    """A cell that anything touches is taken as a whole."""
+    """A cell counts as taken if a mark touches it."""
 
     def __init__(self, where: Rectangle, marks: Iterable[Mark] = ()) -> None:
         self.where = where
@@ -34,7 +34,7 @@ class FreeSpace:
                 self.take((min(across), min(down), max(across), max(down)))
             case Line():
                 steps = max(1, math.ceil(math.dist(mark.start, mark.end) / CELL))
-                for k in range(steps):  # short stretches: what they span is hardly more than themselves
+                for k in range(steps):  # in short pieces, whose bounding boxes are hardly larger than themselves
                     (x0, y0), (x1, y1) = mark.at(k / steps), mark.at((k + 1) / steps)
                     self.take((min(x0, x1) - 2.0, min(y0, y1) - 2.0, max(x0, x1) + 2.0, max(y0, y1) + 2.0))
 
@@ -46,7 +46,7 @@ class FreeSpace:
             self.taken[max(0, first_row) : last_row + 1, max(0, first_column) : last_column + 1] = True
 
     def place(self, size: tuple[float, float], corners: Iterable[str]) -> Point | None:
-        """The left top of a free rectangle of that size, as near as can be to one of these corners, like "top left"."""
+        """The top left of a free rectangle of this size, as near as possible to one of the corners, like "top left"."""
         wide, high = (math.ceil(length / CELL) for length in size)
         rows, columns = self.taken.shape
         if wide > columns or high > rows:

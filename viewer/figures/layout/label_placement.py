@@ -1,4 +1,4 @@
-"""Where names go in a figure of the scene: beside what they name, not over one another, over as few rays as can be."""
+"""Placement of names in the figure of the scene: beside their object, over no other name, and over few rays."""
 
 import math
 import sys
@@ -9,16 +9,16 @@ from viewer.base.theme import Color, Theme, faded
 from viewer.figures.font import text_box
 from viewer.figures.marks import Disc, Line, Mark, Piece, Point, Rectangle, Shape, Stroke, Text, clip_shares
 
-BACKING, SOLID = 0.7, 0.9  # opacity of the paper behind a label, and where a line runs behind it
-RINGS = (0.75, 1.3, 2.0, 2.9, 3.8)  # how far from its spot a name may stand, in sizes of the text
-LED = 2.0  # from there on a thin line leads to it
+BACKING, SOLID = 0.7, 0.9  # opacity of the background behind a label, and if a line runs behind it
+RINGS = (0.75, 1.3, 2.0, 2.9, 3.8)  # distances of a name from its spot, in text sizes
+LED = 2.0  # from this distance on, a thin line leads to the spot
 APART = 0.2  # between two names side by side
-TURNS = 12  # directions in which
+TURNS = 12  # number of directions
 
 
 @dataclass(frozen=True)
 class Spot:
-    """Where a name may stand: beside a point, `upon` it, its middle there; `spare` is a line that it may cover."""
+    """A place for a name: beside a point, or centred `upon` it. `spare` is a line that it may cover."""
 
     at: Point
     upon: bool = False
@@ -26,12 +26,12 @@ class Spot:
 
 
 class LabelPlacer:
-    """What is taken already, and what had better stay free."""
+    """The areas that are taken, and lines that should stay free."""
 
     def __init__(self, where: Rectangle, size: float, theme: Theme) -> None:
         self.where, self.size, self.theme = where, size, theme
         self.taken: list[Rectangle] = []  # by names and signs
-        self.ways: list[tuple[str, Piece]] = []  # of rays, by the names of their marks
+        self.ways: list[tuple[str, Piece]] = []  # of rays, with the names of their marks
 
     def take(self, at: Point, wide: float) -> None:
         x, y = at
@@ -40,9 +40,11 @@ class LabelPlacer:
     def label(
         self, name: str, content: str, spots: Sequence[Spot], color: Color, most: int = sys.maxsize, lead: bool = False
     ) -> list[Mark]:
-        """At one of these spots, the earlier the better; nothing where there is no room at any but over `most` rays.
+        """Place a label at the best of these spots, the earlier the better; not at all if each covers more than `most`
+        rays.
 
-        Where it stands so far off that it could be another's, a thin line leads to its spot; with `lead` in any case.
+        If it is so far away that it could belong to another object, a thin line leads to its spot; with `lead`,
+        always.
         """
         best, ring = None, 0.0
         for order, spot in enumerate(spots):
@@ -65,7 +67,7 @@ class LabelPlacer:
         return [*(self._leader(name, box, spot.at) if (lead or ring >= LED) and not spot.upon else []), paper, text]
 
     def fits(self, content: str, spots: Sequence[Spot]) -> bool:
-        """Whether there is room at any of these spots."""
+        """Whether there is room at one of these spots."""
         boxes = (text_box(at, content, self.size, anchor) for spot in spots for _, at, anchor in self._around(spot))
         return any(self.free(box) for box in boxes)
 
@@ -73,7 +75,7 @@ class LabelPlacer:
         return _within(box, self.where) and not any(_overlap(box, other) for other in self.taken)
 
     def _leader(self, name: str, box: Rectangle, to: Point) -> list[Mark]:
-        """From the nearest point of a name's box."""
+        """A line from the nearest point of a name's box."""
         left, top, right, bottom = box
         start = (min(max(to[0], left), right), min(max(to[1], top), bottom))
         ink = self.theme.text
@@ -81,7 +83,7 @@ class LabelPlacer:
         return [line, Disc(f"{name}-label", to, 0.11 * self.size, ink, None)]
 
     def _around(self, spot: Spot) -> list[tuple[tuple[float, int], Point, str]]:
-        """(how good, where, which end of the text stands there), the nearest first."""
+        """(rank, position, anchor of the text), the nearest first."""
         if spot.upon:
             return [((0.0, 0), spot.at, "middle")]
         found = []

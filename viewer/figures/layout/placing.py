@@ -1,7 +1,8 @@
-"""A tree's boxes on its part of the canvas, growing down from an eye on top or to the right from an eye at the left.
+"""Positions of a tree's boxes on its part of the canvas: downwards from an eye at the top, or to the right from one at
+the left.
 
-Either way what stands side by side never comes closer than its size, and edges run where nothing else stands: down
-from a box's sides, past the stubs that hang under it; or from its right side through the free column to the next level.
+Boxes and labels never overlap. Edges run through free space: from a box's sides down past its stubs, or from its
+right side through the free column to the next level.
 """
 
 from collections.abc import Collection
@@ -13,24 +14,24 @@ from viewer.figures.layout.sizes import BOX, LINE, MARGIN, NOTE, STUB, Sizes
 from viewer.figures.layout.tidy_tree import Layout, Spacing, tidy_layout
 from viewer.figures.marks import HEIGHT, Point
 
-# In sizes of the text.
-GAP = 0.7  # between two boxes side by side, at least
-GAP_BELOW = 0.3  # between two boxes one below the other with all that hangs on them, at least
-SPREAD = 1.6  # how much farther apart they stand where there is room
-EYE = 0.75  # from the upper rim to the eye
-EYE_WIDE = 0.95  # from the left rim to the eye, and from there to where the first ray begins
+# All in text sizes.
+GAP = 0.7  # least distance between two boxes side by side
+GAP_BELOW = 0.3  # least distance between two boxes one below the other, with all that hangs below them
+SPREAD = 1.6  # how much farther apart they stand if there is room
+EYE = 0.75  # from the top to the eye
+EYE_WIDE = 0.95  # from the left to the eye, and from the eye to the start of the first ray
 FIRST = 4.8  # from the eye down to the first hit
-FIRST_RIGHT = 3.4  # from the eye to the first hit's box
-CLEAR = 6.3  # from level to level, at least, where a leaf's note may hang beside what is on the next level
-PITCH, TALLEST = 4.85, 8.0  # from level to level down, at least and at most
-CORRIDOR, WIDEST = 2.4, 6.0  # between the boxes of two levels side by side, at least and at most
+FIRST_RIGHT = 3.4  # from the eye to the box of the first hit
+CLEAR = 6.3  # least distance of levels if a leaf's note may hang beside a box of the next level
+PITCH, TALLEST = 4.85, 8.0  # least and largest distance of levels, downwards
+CORRIDOR, WIDEST = 2.4, 6.0  # least and largest distance between the boxes of two levels, sideways
 
 EYES = ("top", "left")
 
 
 @dataclass(frozen=True)
 class Places:
-    """Middles of boxes and of signs at stubs' ends; where total internal reflection ends the refracted ray; the eye."""
+    """Centres of boxes and of the signs at the ends of stubs; ends of the bars of total internal reflection; the eye."""
 
     at: dict[int, Point]
     bars: dict[int, Point]
@@ -39,7 +40,7 @@ class Places:
 
 @dataclass(frozen=True)
 class LayoutTask:
-    """What is to be placed: these rows and boxes of folds, with text of that size between that left and right."""
+    """What to place: these rows and boxes of folds, with a text size, between a left and a right end."""
 
     tree: RayTree
     rows: Collection[int]
@@ -51,12 +52,12 @@ class LayoutTask:
 
     @property
     def levels(self) -> int:
-        """Below the first."""
+        """The number of levels below the first."""
         return max(int(self.tree.nodes["depth"][i]) for i in (*self.rows, *self.folds))
 
 
 def levels_down(size: float, hung: bool) -> int:
-    """How many levels there may be below the first, at most; `hung`: with folds under the last."""
+    """The largest possible number of levels below the first. `hung`: with folds under the last."""
     return int(_room_below(size, hung) / (PITCH * size))
 
 
@@ -65,17 +66,17 @@ def levels_right(sizes: Sizes, size: float, where: tuple[float, float]) -> int:
 
 
 def _first(size: float) -> float:
-    """How far down the first hit stands."""
+    """The vertical position of the first hit."""
     return (MARGIN + EYE + FIRST) * size
 
 
 def _room_below(size: float, hung: bool) -> float:
-    """From the first hit to the last level's."""
+    """The room between the first hit and the lowest possible one."""
     return HEIGHT - _first(size) - (0.5 * BOX + STUB + NOTE + LINE * hung + 0.5 + MARGIN) * size
 
 
 def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
-    """None where it does not fit."""
+    """The positions; None if they do not fit."""
     tree, size, sizes, where = task.tree, task.size, task.sizes, task.where
     margin, gap = MARGIN * size, GAP * size
     unit = sizes.column + gap
@@ -100,7 +101,7 @@ def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
     }
 
     def hanging(parent: int, x: float) -> Point:
-        """A stub keeps its distance from its hit, however far apart hits are."""
+        """A stub keeps its distance from its hit."""
         x0, y0 = at[parent]
         return (x0 + (x - laid.places[parent].x) * unit, y0 + 0.5 * sizes.box + STUB * size)
 
@@ -110,12 +111,12 @@ def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
 
 
 def _room_right(sizes: Sizes, size: float, where: tuple[float, float]) -> float:
-    """From the first hit to the last level's."""
+    """The room between the first hit and the rightmost possible one."""
     return where[1] - where[0] - (2.0 * MARGIN + EYE_WIDE + FIRST_RIGHT) * size - sizes.column
 
 
 def place_rightwards(task: LayoutTask, anyhow: bool) -> Places | None:
-    """None where it does not fit. Reflected rays go up, refracted ones down."""
+    """The positions; None if they do not fit. Reflected rays go up, refracted ones down."""
     tree, size, sizes, where = task.tree, task.size, task.sizes, task.where
     margin, kinds = MARGIN * size, tree.nodes["kind"]
     unit = sizes.up + sizes.down + GAP_BELOW * size
@@ -150,9 +151,9 @@ def place_rightwards(task: LayoutTask, anyhow: bool) -> Places | None:
 def _across(
     laid: Layout, extent: tuple[float, float], unit: float, rim: tuple[float, float]
 ) -> tuple[float, float] | None:
-    """(where the first hit stands, by how much all is spread) between two rims; None where there is no room.
+    """(position of the first hit, factor of all distances) between two ends; None if there is no room.
 
-    The first hit stands in the middle, where the tree leaves room for that.
+    The first hit stands in the middle if the tree allows it.
     """
     low = min(place.x for place in laid.places.values()) - extent[0]
     high = max(place.x for place in laid.places.values()) + extent[1]

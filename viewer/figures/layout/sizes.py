@@ -1,4 +1,4 @@
-"""How much room what stands in a tree figure takes: boxes of one size, wide enough for all that any of them holds."""
+"""Sizes in a tree figure. All boxes have one size, in which each text fits."""
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
@@ -10,14 +10,14 @@ from viewer.figures.labels import end_label, factor_label, hit_label, ray_label
 from viewer.figures.layout.folds import Fold
 from viewer.figures.marks import WIDTH
 
-# In sizes of the text.
+# All in text sizes.
 MARGIN = 0.6
 PADDING = 0.5  # on either side of a name in its box
-SWATCH = 1.5  # of a box, for the colour that is sent up
-BOX = 1.55  # its height
-FOLD = 2.7  # the height of a box for a folded branch, which has two lines
-SIGN = 0.95  # the width of a sign at a stub's end; its label follows
-SLOT = 0.4  # between two stubs' labels
+SWATCH = 1.5  # width of the radiance's colour in a box
+BOX = 1.55  # height of a box
+FOLD = 2.7  # height of a fold's box, which has two lines
+SIGN = 0.95  # width of the sign at a stub's end, before its label
+SLOT = 0.4  # between the labels of two stubs
 STUB = 1.1  # from a box to the sign at a stub's end
 NOTE = 1.2  # from there to the middle of a leaf's note
 BARE_NOTE = 0.8  # from a box without stubs to the middle of its note
@@ -25,26 +25,26 @@ LINE = 1.3  # from line to line
 EDGE_LABEL = 1.1  # from a box up to the middle of its ray's label
 ABOVE, BELOW = 0.42, 0.61  # from the middle of a line of text to its ascenders and descenders
 
-NO_RAY = "no T"  # what total internal reflection leaves of the refracted ray
-LONG, SHORT = 24, 14  # characters of a name, where there is room for it and where there is not; longer ones are cut
+NO_RAY = "no T"  # the refracted ray on total internal reflection
+LONG, SHORT = 24, 14  # characters of a name, with and without enough room; longer names are cut
 
 
 @dataclass(frozen=True)
 class TreeStyle:
-    """What is asked of a plan: `fold` is the weight below which branches are folded in any case."""
+    """The style of a plan. Branches whose weight is below `fold` are always folded."""
 
     size: float  # of the text, in points
-    swatches: bool = False  # in each box the colour that is sent up
+    swatches: bool = False  # each box has the colour of its radiance
     fold: float = 0.0
     where: tuple[float, float] = (0.0, WIDTH)  # left and right of its part of the canvas
     eye: str = "top"  # or left
-    lights: bool = True  # whether rays to lights are drawn
+    lights: bool = True  # whether shadow rays are drawn
     longest: int = LONG  # characters of a name
 
 
 @dataclass(frozen=True)
 class Sizes:
-    """In points: a box's width and height, a stub's place, and how far up and down of a box's middle things stand."""
+    """In points: width of a column and of a box, distance of stubs, and the extent above and below a box's middle."""
 
     column: float
     box: float
@@ -60,7 +60,7 @@ class Sizes:
         inside: dict[int, int],
         style: TreeStyle,
     ) -> "Sizes":
-        """Of all that stands in, over or under any box at any step, the deepest last."""
+        """The sizes for everything in, above and below any box, at any step. `trees` has the deepest last."""
         tree, size = trees[-1], style.size
         kinds = tree.nodes["kind"]
         names, loose, stubs, shares = [""], [""], [""], [""]
@@ -104,5 +104,5 @@ def name_in_box(tree: RayTree, i: int, longest: int) -> str:
 
 
 def edge_label(tree: RayTree, i: int) -> str:
-    """On the way to hit i: which ray, and what its parent multiplies it by."""
+    """The label of the ray to hit i: its kind and its factor."""
     return f"{ray_label(tree, i)} {factor_label(tree, i)}" if i else ray_label(tree, i)

@@ -1,8 +1,8 @@
-"""Where the nodes of a ray tree stand: the tidy tree of Reingold & Tilford, IEEE Trans. Softw. Eng. 7(2), 1981.
+"""Positions of the nodes of a ray tree: the tidy tree of Reingold & Tilford, IEEE Trans. Softw. Eng. 7(2), 1981.
 
-Reflected rays go to the left of their hit, refracted ones to the right, and the hit stands over their middle. Between
-them, half a level down, short stubs lead to the lights, as in Whitted's figure. Nothing of one level comes closer than
-its width; the same subtree looks the same wherever it stands.
+Reflected rays go to the left of their hit, refracted ones to the right, and the hit is centred above them. Between
+them, half a level down, are short stubs to the lights, as in Whitted's figure. Nodes of one level keep their
+distance, and equal subtrees look the same.
 """
 
 from dataclasses import dataclass
@@ -15,18 +15,18 @@ from tracer.tree.raytree import RayTree
 
 @dataclass(frozen=True)
 class Spacing:
-    """What a node and its stubs take, in node widths."""
+    """The room that a node and its stubs take, in node widths."""
 
-    left: float  # of a node's middle
+    left: float  # from a node's middle
     right: float
     stub_gap: float  # between two stubs
     stub_half: float
-    lean: float = 0.5  # how far to its side an only child stands
+    lean: float = 0.5  # how far an only child stands to its side
     edge: float = 0.2  # between a stub and the edges beside it
-    sides: bool = False  # rays leave at a node's sides, not from its middle, and what hangs on it is as wide as itself
-    passes: float = 0.5  # how far down to the next level it hangs: there its neighbours' edges must have parted from it
-    crowded: bool = False  # it hangs so far down that it must not come near what the next level has in its place
-    bars: bool = False  # whether total internal reflection has a stub for the ray that does not go on
+    sides: bool = False  # rays leave at a node's sides instead of its middle, and its stubs are as wide as itself
+    passes: float = 0.5  # how far down its stubs reach, in levels: there, edges of neighbours must have passed them
+    crowded: bool = False  # its stubs reach so far down that they must stay away from nodes of the next level
+    bars: bool = False  # whether total internal reflection has a stub for the refracted ray that does not exist
 
 
 NAMES_BESIDE = Spacing(left=0.32, right=0.92, stub_gap=0.32, stub_half=0.16)
@@ -34,7 +34,7 @@ NAMES_BESIDE = Spacing(left=0.32, right=0.92, stub_gap=0.32, stub_half=0.16)
 
 @dataclass(frozen=True)
 class Place:
-    """Where a node stands: x in node widths, y in levels (a stub to a light stands half a level below its hit)."""
+    """The position of a node: x in node widths, y in levels. A stub to a light is half a level below its hit."""
 
     x: float
     y: float
@@ -43,12 +43,13 @@ class Place:
 @dataclass(frozen=True)
 class Layout:
     places: dict[int, Place]
-    bars: dict[int, Place]  # by the row where light is thrown back totally: the end of its stub
+    # by row: the end of the stub that stands for the ray that total internal reflection leaves out
+    bars: dict[int, Place]
 
 
 @dataclass
 class _Subtree:
-    """Positions relative to its root, and how far it reaches left and right at each half level below the root."""
+    """Positions relative to its root, and its extent left and right at each half level below the root."""
 
     offsets: dict[int, float]
     bars: dict[int, float]
@@ -57,7 +58,7 @@ class _Subtree:
 
 
 def tidy_layout(tree: RayTree, rows: set[int], room: Spacing = NAMES_BESIDE) -> Layout:
-    """Places of these rows (with every row its parent must be there); the root at x = 0."""
+    """Positions of these rows, the root at x = 0. With each row, its parent must be among them."""
     subtrees: dict[int, _Subtree] = {}
     for i in sorted(rows, reverse=True):
         if tree.nodes["kind"][i] != SHADOW:
@@ -71,7 +72,7 @@ def tidy_layout(tree: RayTree, rows: set[int], room: Spacing = NAMES_BESIDE) -> 
 
 
 def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtree], room: Spacing) -> _Subtree:
-    """The subtree of row i from those of the rays it sends out, which are used up."""
+    """The subtree of row i, made of those of its children, which are used up."""
     kinds = tree.nodes["kind"]
     stubs = [child for child in children if kinds[child] == SHADOW]
     thrown_back = [child for child in children if kinds[child] not in (SHADOW, REFRACTION)]
@@ -98,7 +99,7 @@ def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtr
     for x in places:
         left[1], right[1] = min(left[1], x - room.stub_half), max(right[1], x + room.stub_half)
     if barred:
-        bars[i] = places.pop()  # where the refracted ray would be: on the right
+        bars[i] = places.pop()  # in the place of the refracted ray, on the right
     offsets |= dict(zip(stubs, places, strict=True))
     for child, shift in zip(rays, shifts, strict=True):
         sub = subtrees.pop(child)
@@ -119,7 +120,7 @@ def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtr
 
 
 def _apart(subtrees: list[_Subtree]) -> list[float]:
-    """Shifts that put subtrees side by side, each as far left as the outlines of those before it allow."""
+    """Shifts that put subtrees side by side, each as far left as the contours of those before it allow."""
     shifts: list[float] = []
     edge: list[float] = []
     for sub in subtrees:
@@ -133,7 +134,7 @@ def _apart(subtrees: list[_Subtree]) -> list[float]:
 
 
 def _stub_places(count: int, ray_left: bool, ray_right: bool, room: Spacing) -> list[float]:
-    """Where the stubs to the lights hang: in the middle, or on the side where no ray goes."""
+    """Positions of the stubs to the lights: in the middle, or on the side without a ray."""
     if ray_left != ray_right and not room.sides:
         sign = 1.0 if ray_left else -1.0
         return sorted(sign * (0.5 * room.edge + room.stub_gap * k) for k in range(count))
@@ -141,7 +142,7 @@ def _stub_places(count: int, ray_left: bool, ray_right: bool, room: Spacing) -> 
 
 
 def closed_under_parents(parents: np.ndarray, wanted: set[int]) -> set[int]:
-    """Rows whose every ancestor is wanted too: a branch that is switched off takes what hangs on it along."""
+    """The rows whose ancestors are all wanted: without a row, its whole branch is left out."""
     kept: set[int] = set()
     for i in sorted(wanted):
         if i == 0 or int(parents[i]) in kept:

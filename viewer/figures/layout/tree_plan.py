@@ -1,9 +1,9 @@
-"""Where everything of a tree figure stands: worked out once, for the deepest tree, so that its steps never jump.
+"""The layout of a tree figure, computed once for the deepest tree, so that nothing moves from step to step.
 
-Each hit is a box; boxes are all of one size, so the same subtree looks the same wherever it stands. Reflected rays
-leave at a box's left side, refracted ones at its right, stubs to the lights hang below it: nothing can cross them.
-With the eye at the left all rays leave at the right side, reflected ones upwards. Where a slide is too small for the
-whole tree, the lightest branches are folded into one box that says what is in it.
+Each hit is a box, and all boxes have one size, so that equal subtrees look the same. Reflected rays leave at a box's
+left side, refracted ones at its right, and stubs to the lights hang below: no lines cross. With the eye at the left,
+all rays leave at the right side, reflected ones upwards. If the tree does not fit, the lightest branches are folded
+into boxes that say what they stand for.
 """
 
 from collections.abc import Sequence
@@ -23,18 +23,18 @@ from viewer.figures.layout.placing import (
 from viewer.figures.layout.sizes import EDGE_LABEL, FOLD, SHORT, STUB, Sizes, TreeStyle, name_in_box
 from viewer.figures.marks import Point
 
-SMALLEST = 8.0  # points: of the text that may be asked for
-MORE = 40  # rays, heaviest first, for each of which room is looked for when the tree as a whole has none
+SMALLEST = 8.0  # points: the smallest text size
+MORE = 40  # if the whole tree does not fit, this many of the other rays are tried one by one, the heaviest first
 
 
 @dataclass(frozen=True)
 class TreePlan:
-    """Places in points. `rows` are drawn each for itself, `inside` says in which fold others are."""
+    """Positions in points. `rows` are drawn as themselves; `inside` gives the fold of the others."""
 
     tree: RayTree  # the deepest
     style: TreeStyle
     rows: frozenset[int]
-    folds: dict[int, Fold]  # by the row where they stand, or would
+    folds: dict[int, Fold]  # by the row in whose place they stand
     inside: dict[int, int]  # a folded row -> the row of its fold
     places: Places
     box: tuple[float, float]
@@ -45,12 +45,12 @@ class TreePlan:
 
     @property
     def at(self) -> dict[int, Point]:
-        """Middles of boxes, and of the signs at stubs' ends."""
+        """Centres of boxes, and of the signs at the ends of stubs."""
         return self.places.at
 
     @property
     def hang(self) -> float:
-        """From a box's middle to the signs under it."""
+        """From a box's middle down to the signs below it."""
         return 0.5 * self.box[1] + STUB * self.size
 
     @property
@@ -59,7 +59,7 @@ class TreePlan:
 
     @property
     def top(self) -> float:
-        """From a box's middle to the label of the ray that reaches it."""
+        """From a box's middle up to the label of its ray."""
         return 0.5 * self.box[1] + EDGE_LABEL * self.size
 
     def name(self, i: int) -> str:
@@ -67,7 +67,7 @@ class TreePlan:
 
 
 def plan_tree(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
-    """The plan for these steps of one tree, the deepest last; names are cut where that lets more rays in."""
+    """The plan for these steps of one tree, the deepest last. Names are cut if more rays fit then."""
     long = _plan(trees, style)
     if all(len(long.name(i)) <= SHORT for i in long.rows):
         return long
@@ -76,7 +76,7 @@ def plan_tree(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
 
 
 def fitting_size(trees: Sequence[RayTree], style: TreeStyle) -> float | None:
-    """The largest text, in whole points, with which all rays have room; None if not even the smallest does that."""
+    """The largest text size, in whole points, with which all rays fit; None if no size does."""
     rays = {i for i in range(len(trees[-1])) if trees[-1].nodes["kind"][i] != SHADOW}
     deepest = int(trees[-1].nodes["depth"].max())
     for size in range(int(style.size), int(SMALLEST) - 1, -1):
@@ -87,7 +87,7 @@ def fitting_size(trees: Sequence[RayTree], style: TreeStyle) -> float | None:
 
 
 def _plan(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
-    """With as many levels as there may be, or with one less where that shows more of the weight."""
+    """The plan with as many levels as possible, or with one less if that shows more of the weight."""
     last = _last_level(trees, style)
     weights = trees[-1].nodes["weight"].max(axis=1)
     hits = trees[-1].nodes["kind"] != SHADOW
@@ -105,17 +105,17 @@ def _plan_of(trees: Sequence[RayTree], style: TreeStyle, last: int) -> TreePlan:
     best = _try(trees, set(heaviest), style, last)
     if best is not None:
         low = high
-    while low + 1 < high:  # the most rays that fit: `low` do, `high` do not
+    while low + 1 < high:  # bisection for the most rays that fit: `low` do, `high` do not
         middle = (low + high) // 2
         found = _try(trees, set(heaviest[:middle]), style, last)
         if found is None:
             high = middle
         else:
             low, best = middle, found
-    if best is None:  # even the first hit alone is too large: it is drawn all the same
+    if best is None:  # even the first hit alone is too large: draw it all the same
         return _try(trees, {0}, style, 0, anyhow=True)  # type: ignore[return-value]
     kept = set(heaviest[:low])
-    # A branch of one ray takes no more room as itself than as a fold; and where one has no room, a lighter one may.
+    # A branch of one ray takes no more room as itself than as a fold. If one does not fit, a lighter one may.
     single = sorted(r for fold in best.folds.values() for r in fold.roots if not tree.children[r] and r in rays)
     parents = tree.nodes["parent"]
     for i in (*single, *heaviest[low : low + MORE]):
@@ -128,7 +128,7 @@ def _plan_of(trees: Sequence[RayTree], style: TreeStyle, last: int) -> TreePlan:
 
 
 def _last_level(trees: Sequence[RayTree], style: TreeStyle) -> int:
-    """Below which there are no boxes."""
+    """The level below which there are no boxes."""
     deepest = int(trees[-1].nodes["depth"].max())
     if style.eye == "left":
         return levels_right(Sizes.of(trees, range(len(trees[-1])), {}, {}, style), style.size, style.where)
@@ -139,7 +139,7 @@ def _last_level(trees: Sequence[RayTree], style: TreeStyle) -> int:
 def _try(
     trees: Sequence[RayTree], kept: set[int], style: TreeStyle, last: int, anyhow: bool = False
 ) -> TreePlan | None:
-    """The plan with these rays and all others folded; None where it does not fit onto the canvas."""
+    """The plan with these rays, and all others folded; None if it does not fit."""
     rows, folds, inside = fold_branches(trees[-1], kept, last, style.lights)
     sizes = Sizes.of(trees, rows, folds, inside, style)
     boxes = {row for row, fold in folds.items() if fold.under is None}

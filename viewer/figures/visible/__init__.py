@@ -1,1 +1,1 @@
-"""Visible surfaces of a scene as outlines, for the scene figure."""
+"""Visible surfaces of a scene as outlines, for the figure of the scene."""

@@ -1,6 +1,6 @@
-"""From a picture of what is true to outlines in points of the canvas: level lines of how much of each point is covered.
+"""Outlines of the true pixels of a picture, in points of the canvas: contour lines of the coverage of each point.
 
-Marching squares are contourpy's; the picture has FINE rays a point across and down.
+Marching squares are contourpy's. The picture has FINE pixels per point, in each direction.
 """
 
 import itertools
@@ -12,21 +12,22 @@ import numpy as np
 from viewer.figures.marks import Point, Rectangle
 from viewer.figures.visible.rings import sharpen_corners, simplify, straighten
 
-FINE = 2  # rays a point across and down: an outline is sure to a quarter of a point
-SMALL = 6.0  # square points: smaller spots are noise
-SQUARE, NEARBY = 3.0, 8  # points: what is finer is no square to be drawn; how far about it is looked for others
-COARSE, RING, MOST_SPOTS = 4, 12, 80  # points between places that may be named; places in a ring of them, in all
+FINE = 2  # pixels per point in each direction: an outline is accurate to a quarter of a point
+SMALL = 6.0  # square points: smaller areas are noise
+# points: finer checkers are not drawn as squares; the size of the window in which that is decided
+SQUARE, NEARBY = 3.0, 8
+COARSE, RING, MOST_SPOTS = 4, 12, 80  # points between spots for a name; spots in one ring; spots in all
 
 
 @dataclass(frozen=True)
 class Area:
-    """One connected spot of the picture, in points; with holes where something stands before it."""
+    """One connected area of the picture, in points, with holes."""
 
     outline: tuple[Point, ...]
     holes: tuple[tuple[Point, ...], ...]
 
     def covers(self, point: Point) -> bool:
-        """Whether a ray from there to the right meets its rings an odd number of times."""
+        """Whether a point is inside: whether a ray from there to the right crosses the rings an odd number of times."""
         x, y = point
         crossings = 0
         for ring in (self.outline, *self.holes):
@@ -36,14 +37,14 @@ class Area:
 
 
 def pixels_of_numbers(numbers: np.ndarray, count: int) -> list[np.ndarray]:
-    """Where in a picture each of the numbers 0 to count - 1 stands, as places in its flat order."""
+    """The flat indices of the pixels that have each of the numbers 0 to count - 1."""
     order = np.argsort(numbers, axis=None, kind="stable")
     ends = np.searchsorted(numbers.flat[order], np.arange(count + 1))
     return [order[a:b] for a, b in itertools.pairwise(ends)]
 
 
 def window_of(places: np.ndarray, shape: tuple[int, int], where: Rectangle) -> tuple[tuple[slice, slice], Rectangle]:
-    """(the part of a picture of that shape in which these places are, its rectangle on the canvas), with a free rim."""
+    """(the part of a picture that contains these pixels, its rectangle on the canvas), with a margin."""
     rows, columns = np.divmod(places, shape[1])
     grid = FINE * COARSE
     ends = []
@@ -62,12 +63,13 @@ def window_of(places: np.ndarray, shape: tuple[int, int], where: Rectangle) -> t
 
 
 def outline_areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
-    """The outlines of what is true, in points of the canvas."""
+    """The outlines of the true pixels, in points of the canvas."""
     if not mask.any():
         return ()
     height, width = (n // FINE for n in mask.shape)
     cover = mask.reshape(height, FINE, width, FINE).mean(axis=(1, 3))
-    # At the rim a spot goes on as it was, and ends outside. Nearly level edges are stairs, a ray high: smoothed.
+    # At the picture's border, areas continue a little and then end. Nearly level edges are stairs of one pixel: smooth
+    # them.
     cover = np.pad(cover, 2, mode="edge")
     cover = 0.25 * (cover[:-2] + 2.0 * cover[1:-1] + cover[2:])
     cover = np.pad(0.25 * (cover[:, :-2] + 2.0 * cover[:, 1:-1] + cover[:, 2:]), 1)
@@ -87,7 +89,7 @@ def outline_areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
 
 
 def is_too_fine(squares: np.ndarray, within: np.ndarray) -> np.ndarray:
-    """Where the squares of checkers are lower or narrower than SQUARE: by how often they begin and end nearby."""
+    """Where the squares of a checker are lower or narrower than SQUARE: by how many begin and end nearby."""
     dense = np.zeros(squares.shape, bool)
     for axis in (0, 1):
         turns = np.zeros(squares.shape, np.float32)
@@ -100,7 +102,7 @@ def is_too_fine(squares: np.ndarray, within: np.ndarray) -> np.ndarray:
 
 
 def _about(values: np.ndarray, half: int) -> np.ndarray:
-    """The sums over windows so far to either side and up and down, cut off at the rim."""
+    """Sums over windows of this half width around each pixel, cut at the border."""
     sums = np.pad(values.cumsum(axis=0, dtype=float).cumsum(axis=1), ((1, 0), (1, 0)))
     rows, columns = (np.arange(n) for n in values.shape)
     top, bottom = np.maximum(rows - half, 0), np.minimum(rows + half + 1, values.shape[0])
@@ -109,7 +111,7 @@ def _about(values: np.ndarray, half: int) -> np.ndarray:
 
 
 def label_spots(mask: np.ndarray, where: Rectangle) -> tuple[Point, ...]:
-    """Places all over what is true: its rim is taken off until nothing is left, and the last ones come first."""
+    """Spots well inside the true pixels. The border is eroded until nothing is left, and the last pixels come first."""
     found: list[Point] = []
     left = mask[:: FINE * COARSE, :: FINE * COARSE]
     while left.any():

@@ -1,21 +1,23 @@
-"""Closed outlines in fewer corners: what a picture's own grain has put into them is taken out.
+"""Closed outlines with fewer corners: removes the steps that come from the pixels of the picture.
 
-A ring is (n, 2) in points; its last corner is joined to its first.
+A ring is (n, 2) in points. Its last corner is joined to its first.
 """
 
 import math
 
 import numpy as np
 
-STRAIGHT = 0.2  # points: how far a simpler outline may be off
-LONG, LEVEL = 30.0, 0.5  # an edge so long is an edge of the thing: stairs so high are the picture's, not its own
-SIDE, CORNER = 20.0, 16.0  # two edges so long, joined by a way so short, meet in a corner that the picture has rounded
-ROUNDED = 1.0  # if the way keeps so close to them
+STRAIGHT = 0.2  # points: the largest deviation of a simpler outline
+LONG, LEVEL = 30.0, 0.5  # points: on an edge of this length, steps of this height come from pixels
+SIDE, CORNER = 20.0, 16.0  # points: two edges of this length, joined by a shorter way than this, meet in a corner
+ROUNDED = 1.0  # points: if that way is this near to the edges
 
 
 def simplify(ring: np.ndarray) -> np.ndarray:
-    """A closed outline with fewer corners, nowhere farther off than STRAIGHT, along long edges than LEVEL
-    (Ramer 1972; Douglas & Peucker 1973)."""
+    """A closed outline with fewer corners, with a deviation of at most STRAIGHT, and LEVEL along long edges.
+
+    Ramer 1972; Douglas & Peucker 1973.
+    """
     ring = ring[:-1] if len(ring) > 1 and (ring[0] == ring[-1]).all() else ring
     if len(ring) < 4:
         return ring
@@ -39,7 +41,7 @@ def simplify(ring: np.ndarray) -> np.ndarray:
 
 
 def straighten(ring: np.ndarray) -> np.ndarray:
-    """A closed outline without the corners that only bend a long edge, by no more than LEVEL."""
+    """A closed outline without the corners that bend a long edge by no more than LEVEL."""
     kept = [(float(x), float(y)) for x, y in ring]
     at = idle = 0
     while len(kept) > 3 and idle < len(kept):
@@ -55,9 +57,9 @@ def straighten(ring: np.ndarray) -> np.ndarray:
 
 
 def sharpen_corners(ring: np.ndarray, fine: np.ndarray) -> np.ndarray:
-    """A closed outline with its corners where the edges on both sides of them meet; `fine` is it before it was simpler.
+    """A closed outline with sharp corners, where its edges meet. `fine` is the outline before it was simplified.
 
-    An edge is the line that fits what is between its ends best: the ends themselves are rounded.
+    An edge is the line fitted to the points between its ends, since the ends themselves are rounded.
     """
     along = np.roll(ring, -1, axis=0) - ring
     lengths = np.hypot(*along.T)
@@ -80,7 +82,7 @@ def sharpen_corners(ring: np.ndarray, fine: np.ndarray) -> np.ndarray:
 
 
 def _fitted(points: np.ndarray, start: np.ndarray, along: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(a point, a direction) of the line that fits best to those of the points that lie along an edge, but its ends."""
+    """(a point, a direction) of the line fitted to the points along an edge, without its ends."""
     shares = (points - start) @ along / (along @ along)
     near = points[(shares > 0.1) & (shares < 0.9) & (_aside(points, start, along) <= 2.0 * LEVEL)]
     if len(near) < 4:
@@ -91,13 +93,13 @@ def _fitted(points: np.ndarray, start: np.ndarray, along: np.ndarray) -> tuple[n
 
 
 def _aside(points: np.ndarray, start: np.ndarray, along: np.ndarray) -> np.ndarray:
-    """How far points (n, 2) are from a line."""
+    """Distances of points (n, 2) from a line."""
     across = points - start
     return np.abs(across[:, 0] * along[1] - across[:, 1] * along[0]) / math.hypot(*along)
 
 
 def _meeting(a: np.ndarray, along: np.ndarray, b: np.ndarray, other: np.ndarray) -> np.ndarray | None:
-    """Where two lines meet, from points on them and their directions; None where they are almost one line."""
+    """The intersection of two lines, given by points and directions; None if they are nearly parallel."""
     cross = along[0] * other[1] - along[1] * other[0]
     if abs(cross) < 0.3 * math.hypot(*along) * math.hypot(*other):
         return None

@@ -1,6 +1,6 @@
-"""A scene from one eye within one part of the canvas: what is where, and what of a ray is seen.
+"""A scene as seen by one camera in one part of the canvas: which objects are visible, and which parts of rays.
 
-Worked out once for all steps of a figure. Whether a point of a ray is hidden, a ray of the tracer from the eye says.
+Computed once for all steps of a figure. Whether a point is hidden is decided by a ray of the tracer.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from viewer.figures.marks import Rectangle
 from viewer.figures.ray_lines import RayLine
 from viewer.figures.visible.scenery import occluder_world, orbit_camera, visible_parts
 
-PIECES = 24  # in which a ray is asked for whether it is seen; borders are then halved
+PIECES = 24  # a ray is tested at this many points; the limits between visible and hidden parts are then bisected
 HALVINGS = 7
 
 
@@ -28,7 +28,7 @@ class Stretch:
 
 
 class SceneView:
-    """A scene from one eye within one rectangle: worked out once for all steps of a figure."""
+    """A scene as seen by one camera in one rectangle."""
 
     def __init__(self, world: World, orbit: Orbit, where: Rectangle) -> None:
         self.world, self.where = world, where
@@ -46,7 +46,7 @@ class SceneView:
         return places + self.where[:2], depths
 
     def hidden(self, point: np.ndarray) -> bool:
-        """Whether something opaque stands between the eye and a point of the frame."""
+        """Whether an opaque object is between the camera and a point of the frame."""
         if self.blockers is None:
             return False
         eye = np.array(self.camera.position)
@@ -56,7 +56,7 @@ class SceneView:
         return bool(tree.nodes["t"][0] < far * (1.0 - 1e-6))
 
     def parts(self, line: RayLine) -> list[Stretch]:
-        """Where a ray is seen and where not. Shares are of its length in space."""
+        """The visible and hidden parts of a ray. Shares are of its length in space."""
         key = (*line.start, *line.end)
         if key not in self.stretches:
             self.stretches[key] = self._parts(line)

@@ -1,9 +1,8 @@
-"""What of a scene is seen from a figure's eye, as outlines: who is where, and how the light falls on it.
+"""The visible objects of a scene as outlines, with their shading.
 
-The tracer itself is asked. An image of the scene with every material replaced holds in red the number of the part that
-is seen, in green the cosine at which it is seen, and in blue which of the checkers' two colours it has; where a number
-changes is an outline. Only camera rays and rays back to the eye are traced, for any shape that the tracer knows, and
-what hides what is exact.
+The tracer renders an image in which each material is replaced: red is the number of the face, green the cosine at
+which it is seen, blue which of the checker's two colours it has. Outlines are where the number changes. Only camera
+rays and shadow rays back to the camera are traced, so any shape works, and hidden surfaces are exact.
 """
 
 import math
@@ -29,29 +28,29 @@ from viewer.figures.visible.outlines import (
     window_of,
 )
 
-DARKER = (0.75, 0.45)  # cosines below which a surface is a shade darker
+DARKER = (0.75, 0.45)  # cosines below which a surface is one and two shades darker
 
 
 @dataclass(frozen=True)
 class Part:
-    """What is seen of one object: the spots of its faces, and where they are one and two shades darker."""
+    """The visible part of one object: the areas of its faces, and of its shades."""
 
     number: int  # of the object
     faces: tuple[tuple[Area, ...], ...]
-    checks: tuple[Area, ...]  # squares of the checkers' other colour
-    mingled: tuple[Area, ...]  # where squares are too fine to be drawn
+    checks: tuple[Area, ...]  # squares of the checker's other colour
+    mingled: tuple[Area, ...]  # where the squares are too fine to be drawn
     shades: tuple[tuple[Area, ...], ...]
-    spots: tuple[Point, ...]  # well within it, those farthest from its rim first
+    spots: tuple[Point, ...]  # for its name: well inside, those farthest from its border first
 
 
 @dataclass(frozen=True)
 class Scenery:
     opaque: tuple[Part, ...]
-    glass: tuple[Part, ...]  # before all that is opaque; what is behind it is seen through it
+    glass: tuple[Part, ...]  # drawn over all that is opaque, which is seen through it
 
 
 def orbit_camera(orbit: Orbit, frame: Frame) -> Camera:
-    """The 3D view's eye as a camera of the scene."""
+    """The camera of the 3D view as a camera of the scene."""
 
     def outside(place: np.ndarray) -> tuple[float, float, float]:
         x, y, z = (frame.middle + frame.radius * place).tolist()
@@ -62,7 +61,7 @@ def orbit_camera(orbit: Orbit, frame: Frame) -> Camera:
 
 
 def solid_objects(world: World, camera: Camera) -> list[int]:
-    """Numbers of the opaque objects that hide what is behind them: walls do so from their camera's side only."""
+    """The opaque objects that hide what is behind them. A wall hides only from the side of the scene's camera."""
     eye, own = np.array(camera.position), np.array(world.view().eye)
     found = []
     for k, item in enumerate(world.scene.objects):
@@ -79,14 +78,14 @@ def solid_objects(world: World, camera: Camera) -> list[int]:
 
 
 def visible_parts(world: World, camera: Camera, where: Rectangle) -> Scenery:
-    """What is seen within this rectangle of the canvas."""
+    """The visible parts inside this rectangle of the canvas."""
     objects = world.scene.objects
     clear = [k for k, item in enumerate(objects) if item.material.transmit > 0.0]
     solid = solid_objects(world, camera)
     opaque = _parts(objects, solid, camera, where, solid)
     if not clear:
         return Scenery(opaque, ())
-    # What is opaque is to be named where no glass is before it, glass where nothing opaque is seen through it.
+    # Opaque objects get their name where no glass is in front of them, glass where nothing opaque is behind it.
     together = _parts(objects, [*solid, *clear], camera, where, [*solid, *clear])
     free = {part.number: part.spots for part in together}
     opaque = tuple(replace(part, spots=free.get(part.number, part.spots)) for part in opaque)
@@ -102,7 +101,7 @@ def visible_parts(world: World, camera: Camera, where: Rectangle) -> Scenery:
 def _parts(
     objects: Sequence[Object], seen: Sequence[int], camera: Camera, where: Rectangle, wanted: Sequence[int]
 ) -> tuple[Part, ...]:
-    """The wanted of these objects; all of `seen` hide one another."""
+    """The parts of the wanted objects, as far as `seen` objects do not hide them."""
     faces = [(k, face) for k in seen for face in map(Face, objects[k].shape.faces())]
     if not faces:
         return ()
@@ -125,7 +124,7 @@ def _parts(
     numbers = np.rint(pixels[..., 0] * len(faces)).astype(np.int32) - 1
     places = pixels_of_numbers(numbers, len(faces))
     cosine = pixels[..., 1].copy()
-    for number, (_, face) in enumerate(faces):  # a flat face is of one shade
+    for number, (_, face) in enumerate(faces):  # a flat face has one shade
         here = places[number]
         if face.is_flat and len(here):
             cosine.flat[here] = cosine.flat[here].mean()
@@ -152,7 +151,7 @@ def _parts(
 
 
 def _numbered(red: float, item: Object, shape: object) -> Material:
-    """The material that says by its colours which part is seen. What is cut into faces has lost its checkers' axes."""
+    """The material whose colours say which face is seen. A face that stands for a part of an object has no checker."""
     checker = item.material.checker if shape is item.shape else None
     squares = Checker((red, 1.0, 0.0), checker.size) if checker else None
     return Material(color=(red, 1.0, 1.0), ambient=1.0, diffuse=1.0, checker=squares)
@@ -160,7 +159,7 @@ def _numbered(red: float, item: Object, shape: object) -> Material:
 
 @dataclass(frozen=True)
 class Face:
-    """What of an object has an outline of its own."""
+    """A part of an object that has an outline of its own."""
 
     shapes: tuple[Shape, ...]
 
@@ -170,6 +169,6 @@ class Face:
 
 
 def occluder_world(world: World, camera: Camera) -> World | None:
-    """The scene of what can hide a ray from the figure's eye."""
+    """The scene of the objects that can hide a ray."""
     kept = tuple(world.scene.objects[k] for k in solid_objects(world, camera))
     return tracer.prepare(replace(world.scene, objects=kept, camera=camera)) if kept else None

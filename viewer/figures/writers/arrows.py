@@ -1,4 +1,4 @@
-"""The strokes of an arrow head. Heads are outlines: programs that read SVG and PDF drop markers of their own."""
+"""Arrow heads as outlines, since programs that read SVG and PDF often drop markers."""
 
 import math
 
@@ -6,11 +6,11 @@ from viewer.base.theme import Arrow
 from viewer.figures.marks import Line, Point
 
 HEAD = 11.0  # points from tip to tail, on a line 2.4 wide
-SPREAD = 0.42  # of its length to either side
+SPREAD = 0.42  # of its length, to either side
 
 
 def heads(line: Line) -> list[tuple[tuple[Point, Point, Point], bool]]:
-    """Each head's corners (side, tip, side) and whether it is filled."""
+    """(corners (side, tip, side), whether it is filled) of each head."""
     if line.arrow is Arrow.NONE:
         return []
     (x0, y0), (x1, y1) = line.start, line.end

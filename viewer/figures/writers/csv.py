@@ -1,4 +1,4 @@
-"""The node table as CSV: a line a ray, vectors a column a component, the names of the JSON."""
+"""The node table as CSV: one line per ray, one column per component of a vector, named as in the JSON."""
 
 import csv
 import io

@@ -1,4 +1,4 @@
-"""The ray tree as a graph for Graphviz: hits are nodes, rays are edges, dashed where they run to a light."""
+"""The ray tree as a graph for Graphviz: hits are nodes, rays are edges, and shadow rays are dashed."""
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.digits import number_text, rgb_text

@@ -1,4 +1,4 @@
-"""Figures as PDF, a page a figure: lines as lines, text that can be selected, in a font that the file carries."""
+"""Figures as PDF, one page each: lines as lines, and text that can be selected, in an embedded font."""
 
 import datetime
 import math
@@ -9,8 +9,8 @@ from viewer.figures.font import BASELINE, FAMILY, FONT, boxed
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
 
-UNDATED = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)  # the same figure is the same file on every day
-ROUND = 0.5522847498  # how far a quarter circle's control points stand from its ends, in radii
+UNDATED = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)  # so that the same figure is the same file on every day
+ROUND = 0.5522847498  # distance of a quarter circle's control points from its ends, in radii
 
 
 def write_pdf(figures: Sequence[Figure]) -> bytes:
@@ -40,7 +40,7 @@ def write_pdf(figures: Sequence[Figure]) -> bytes:
 
 
 class _Page:
-    """Marks as PDF's own operators (ISO 32000-1, 8.5), which know any dash and any outline."""
+    """Marks as PDF operators (ISO 32000-1, 8.5), which allow any dash and any outline."""
 
     def __init__(self, pdf, height: float) -> None:
         self.pdf, self.height = pdf, height

@@ -1,4 +1,4 @@
-"""Figures as PNG: the PDF's page as pixels, so that both look the same. What the figure leaves free is transparent."""
+"""Figures as PNG: the page of the PDF as pixels, so that both look the same. The background is transparent."""
 
 import io
 from typing import Any
@@ -6,7 +6,7 @@ from typing import Any
 from viewer.figures.marks import Figure
 from viewer.figures.writers.pdf import write_pdf
 
-PIXELS = 1920  # across, by default: a slide that fills a projector
+PIXELS = 1920  # the default width: a slide that fills a projector
 
 
 def write_png(figure: Figure, width: int = PIXELS) -> bytes:

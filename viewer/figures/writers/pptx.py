@@ -1,6 +1,6 @@
-"""Figures as PPTX, a slide a figure: boxes are shapes with their text, rays are connectors that follow their boxes.
+"""Figures as PPTX, one slide each: boxes are shapes with their text, rays are connectors that follow the boxes.
 
-PowerPoint puts arrow heads at a connector's end, so there they stand at the hit and not on the way.
+PowerPoint puts arrow heads at the end of a connector, so there they stand at the hit and not on the way.
 """
 
 import datetime
@@ -14,9 +14,9 @@ from viewer.base.theme import Arrow, Color, rgb_bytes
 from viewer.figures.font import ANCHORS, FAMILY, text_width
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
 
-EMU = 12_700  # of PowerPoint's units a point
-UNDATED = datetime.datetime(2000, 1, 1)  # the same figure is the same file on every day
-OLDEST = (1980, 1, 1, 0, 0, 0)  # that a ZIP archive can say
+EMU = 12_700  # PowerPoint's units per point
+UNDATED = datetime.datetime(2000, 1, 1)  # so that the same figure is the same file on every day
+OLDEST = (1980, 1, 1, 0, 0, 0)  # the earliest time that a ZIP archive can store
 BLANK = 6  # of the default template's layouts
 HEADS = {Arrow.FILLED: "triangle", Arrow.OPEN: "arrow", Arrow.DOUBLE: "stealth"}
 A = "{http://schemas.openxmlformats.org/drawingml/2006/main}"
@@ -53,7 +53,7 @@ class _Slide:
                 self.words.setdefault(mark.inside, []).append(mark)
 
     def draw(self) -> None:
-        """Boxes first: what is glued to them must find them, and is to be drawn over nothing but the ground."""
+        """Draw the marks, boxes first: connectors are glued to boxes, which lie on nothing but the background."""
         for mark in self.figure.marks:
             if isinstance(mark, Box):
                 self._box(mark)
@@ -136,7 +136,7 @@ class _Slide:
         _look(made, shape.fill, shape.stroke)
 
     def _text(self, text: Text) -> None:
-        """A little wider than it is: another font may take more room."""
+        """A text, in a frame a little wider than its width, for another font may take more room."""
         width, height = 1.15 * text_width(text.content, text.size) + 4.0, 1.2 * text.size
         left = text.at[0] - ANCHORS[text.anchor] * width
         made = self.shapes.add_textbox(*_rectangle(left, text.at[1] - 0.5 * height, width, height))
@@ -152,7 +152,7 @@ def _write(frame: Any, words: Sequence[Text], anchor: str) -> None:
     from pptx.util import Pt
 
     frame.margin_top = frame.margin_bottom = 0
-    frame.word_wrap = True  # else programs put what is not centred elsewhere
+    frame.word_wrap = True  # otherwise programs misplace text that is not centred
     frame.vertical_anchor = MSO_ANCHOR.MIDDLE
     for k, text in enumerate(words):
         paragraph = frame.paragraphs[0] if k == 0 else frame.add_paragraph()
@@ -209,7 +209,7 @@ def _element(name: str, **attributes: str) -> Any:
 
 
 def _name(shape: Any, name: str, title: str) -> None:
-    """Its name, and what it is for who cannot see it; the template's style goes: it would throw shadows."""
+    """Set the name, and the title as alternative text. Removes the template's style, which would draw shadows."""
     for style in shape._element.xpath("./p:style"):
         shape._element.remove(style)
     shape.name = name
@@ -226,7 +226,7 @@ def _rectangle(left: float, top: float, width: float, height: float) -> tuple[in
 
 
 def _undated(archive: bytes) -> bytes:
-    """The same archive without the time at which it was written."""
+    """The same archive without the times of its files."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(archive)) as old, zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as new:
         for name in old.namelist():

@@ -1,4 +1,4 @@
-"""Figures as SVG: text as text, marks of one name in a group of that name, attributes that every program reads."""
+"""Figures as SVG: text as text, marks of one name in a group with that name, attributes that every program reads."""
 
 from xml.sax.saxutils import escape, quoteattr
 
@@ -22,7 +22,7 @@ def write_svg(figure: Figure) -> bytes:
         lines.append(f'<rect width="{w}" height="{h}"{_fill(figure.paper)}/>')
     known: set[str] = set()
     for name, title, group in figure.groups():
-        # A name comes once a file; what is drawn of it later has it as its class.
+        # An id occurs once in a file: later groups of the same name have it as their class.
         lines.append(f"<g {'class' if name in known else 'id'}={quoteattr(name)}>")
         known.add(name)
         if title:

@@ -1,13 +1,13 @@
-"""Figures as TikZ: a file that LaTeX compiles alone, and that a Beamer slide takes in with \\input.
+r"""Figures as TikZ: a file that LaTeX compiles by itself, and that a Beamer slide includes with \input.
 
-Alone the class `standalone` is loaded; where a document class is loaded already, only the picture is read.
+By itself, it loads the class `standalone`. If a document class is loaded already, only the picture is read.
 """
 
 from viewer.base.theme import Color, rgb_bytes
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
 
-# TeX's own signs, and letters that its usual fonts lack.
+# TeX's special characters, and letters that its usual fonts lack.
 SIGNS = {
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#", "%": r"\%", "_": r"\_",
     "^": r"\textasciicircum{}", "~": r"\textasciitilde{}", "×": r"\(\times\)", "−": r"\(-\)", "·": r"\(\cdot\)",
@@ -16,8 +16,8 @@ SIGNS = {
     "ₛ": r"\textsubscript{s}", "ₚ": r"\textsubscript{p}", "²": r"\textsuperscript{2}", "ᵖ": r"\textsuperscript{p}",
     "°": r"\textdegree{}", "…": r"\ldots{}", "–": "--",
 }  # fmt: skip
-LATIN = 0x180  # below this its usual fonts have the letters
-BOX = r"\fbox{\phantom{x}}"  # in the place of others
+LATIN = 0x180  # the usual fonts have all letters below
+BOX = r"\fbox{\phantom{x}}"  # in the place of other letters
 
 
 def write_tikz(figure: Figure) -> bytes:
