@@ -1,4 +1,4 @@
-"""From a name on the command line to a scene that is ready to be traced."""
+"""Finding and loading the scene that a command line names."""
 
 import contextlib
 from collections.abc import Iterator

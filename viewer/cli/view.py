@@ -23,7 +23,7 @@ SIZE = (1280, 720)
 
 def view(options: ViewOptions) -> int:
     path, lesson = find(options.scene or lessons.names()[0])
-    if not path.exists():  # an unreadable file is shown with its faults, for it may be being written
+    if not path.exists():  # a file that cannot be read is shown with its faults: perhaps it is being written
         raise Unusable(f"{path}: file not found")
     if options.screenshot:
         if options.screenshot.suffix.lower() != ".png":

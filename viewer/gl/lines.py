@@ -1,4 +1,4 @@
-"""Lines of constant width with their arrow heads, drawn as small faces: not every driver draws wide lines."""
+"""Lines of constant width with arrow heads, drawn as triangles, since not every driver draws wide lines."""
 
 from dataclasses import dataclass
 
@@ -24,7 +24,7 @@ LINE = np.dtype(
 
 @dataclass(frozen=True)
 class Line:
-    """One line, its ends in the frame."""
+    """One line. Its ends are in the frame."""
 
     start: np.ndarray
     end: np.ndarray
@@ -74,7 +74,9 @@ class Lines:
         opacity: float = 1.0,
         halo: Color | None = None,
     ) -> None:
-        """All lines; `size` in pixels, `scale` pixels a logical one. With `halo`, only their seam in that colour."""
+        """Draw all lines. `size` in pixels, `scale` pixels per logical pixel. With `halo`, only their border in that
+        colour.
+        """
         if not self.count:
             return
         shared = {

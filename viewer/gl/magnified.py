@@ -1,7 +1,7 @@
-"""A picture seen so near that its pixels are squares: they are what is clicked on.
+"""A magnified picture, whose pixels are seen as squares: they are what a click picks.
 
-The panels' backend filters every texture smoothly, whatever the texture says; so the squares are made here, for as much
-of the picture as is on the screen, to be drawn pixel by pixel.
+imgui's backend filters every texture linearly, whatever the texture says. So the squares are computed here, for the
+visible part of the picture, and drawn pixel by pixel.
 """
 
 import math
@@ -9,20 +9,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-NEAR = 1.5  # screen pixels to one of the picture's, from which on they are squares
+NEAR = 1.5  # screen pixels per pixel of the picture, from which on they are squares
 
 
 class Place(NamedTuple):
-    """Where a picture is on the screen, and what of the screen is its panel's; in pixels."""
+    """The place of a picture on the screen, and its panel, in pixels."""
 
     left: float
     top: float
-    scale: float  # screen pixels to one of the picture's
+    scale: float  # screen pixels per pixel of the picture
     panel: tuple[float, float, float, float]  # left, top, right, bottom
 
 
 def magnify(picture: np.ndarray, place: Place) -> tuple[np.ndarray, int, int] | None:
-    """(pixels, left, top): what of the picture (height, width, 4) is in the panel, as it is seen; None for nothing."""
+    """(pixels, left, top): the part of a picture (height, width, 4) inside the panel, magnified; None if it is empty."""
     height, width = picture.shape[:2]
     left, top, right, bottom = place.panel
     first = (max(math.ceil(left), round(place.left)), max(math.ceil(top), round(place.top)))

@@ -1,7 +1,7 @@
-"""The 3D view as a whole: ground, surfaces, the camera with its image, rays, glass, and what lies hidden, fainter.
+"""The 3D view: background, surfaces, the camera with its image, rays, glass, and hidden lines more faintly.
 
-Order matters. Rays are drawn before glass, so that one sees them inside it; then once more, faintly, where something
-opaque stands before them.
+The order matters. Rays are drawn before glass, so that they are seen inside it, and then once more, faintly, where
+an opaque surface hides them.
 """
 
 from dataclasses import dataclass
@@ -19,12 +19,12 @@ from viewer.gl.stage_lines import StageLines
 from viewer.gl.surfaces import Surfaces, make_surface_program
 from viewer.gl.target import Target
 
-IMAGE_OPACITY = 0.78  # of the image on the image plane: it shows, and what is behind it too
+IMAGE_OPACITY = 0.78  # of the image on the image plane: both the image and what is behind it are seen
 
 
 @dataclass(frozen=True)
 class ImagePlane:
-    """The camera's image in the scene: its corners in the frame, top left, bottom left, top right, bottom right."""
+    """The camera's image in the scene. Corners in the frame: top left, bottom left, top right, bottom right."""
 
     corners: np.ndarray
     texture: moderngl.Texture
@@ -36,7 +36,7 @@ class Stage:
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
         self.target = Target(ctx)
-        self.programs: dict[Features, moderngl.Program] = {}  # of surfaces, as scenes have asked for them
+        self.programs: dict[Features, moderngl.Program] = {}  # of surfaces, by the features that scenes have asked for
         self.ground = make_program(ctx, "ground")
         self.picture = make_program(ctx, "picture")
         self.empty = ctx.vertex_array(self.ground, [])
@@ -47,7 +47,7 @@ class Stage:
         self.surfaces: Surfaces | None = None
 
     def set_world(self, world: World, frame: Frame, features: Features | None = None) -> None:
-        """Show this world, with what its surfaces need, or with these features."""
+        """Show this world, with the features that it needs, or with these."""
         if self.surfaces:
             self.surfaces.release()
         features = features_of(world.scene) if features is None else features
@@ -63,7 +63,7 @@ class Stage:
         self.rays.set(lines.rays)
 
     def draw(self, orbit: Orbit, theme: Theme, size: tuple[int, int], scale: float, plane: ImagePlane | None) -> None:
-        """Draw into the target, `size` in pixels, `scale` pixels a logical one."""
+        """Draw into the target. `size` in pixels, `scale` pixels per logical pixel."""
         ctx = self.ctx
         self.target.resize(size)
         size = self.target.size
@@ -71,7 +71,7 @@ class Stage:
         edge = faded(theme.text, EDGE_OPACITY)
         self.target.use()
         ctx.enable_only(moderngl.BLEND)
-        # The picture itself stays opaque, whatever is blended into it.
+        # The target stays opaque, whatever is blended into it.
         ctx.blend_func = (  # type: ignore[assignment]  # its stub has forgotten the form with four
             moderngl.SRC_ALPHA,
             moderngl.ONE_MINUS_SRC_ALPHA,
@@ -85,7 +85,7 @@ class Stage:
         ctx.enable(moderngl.DEPTH_TEST)
         ctx.depth_func = "<="
         if self.surfaces:
-            # Pushed back a little, so that lines that end on a surface stand before it.
+            # Surfaces are pushed back a little, so that lines that end on a surface stay in front of it.
             ctx.polygon_offset = 1.0, 2.0
             self.surfaces.draw_opaque(orbit, matrix, edge)
             ctx.polygon_offset = 0.0, 0.0

@@ -1,4 +1,4 @@
-"""Every line of the 3D view: rays, normals, and the camera's frustum, from what is to be shown of a session."""
+"""The lines of the 3D view: rays, normals, the camera's frustum, edges of glass."""
 
 from dataclasses import dataclass
 
@@ -25,7 +25,7 @@ from viewer.figures.ray_lines import RayLine, relatives
 from viewer.gl.creases import creases
 from viewer.gl.lines import Line
 
-PLANE_SHARE = 0.30  # of the way from the camera to what it looks at: where its image plane is drawn
+PLANE_SHARE = 0.30  # of the distance from the camera to `look_at`: where the image plane is drawn
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class StageLines:
 
 
 def style_rays(lines: list[RayLine], tree: RayTree, selected: int | None, theme: Theme) -> list[Line]:
-    """Rays in their kinds' styles; what does not belong to the selected one is dimmed."""
+    """Rays in the styles of their kinds. Rays that are not on the path of the selected one are dimmed."""
     kept = relatives(tree, selected) if selected is not None else None
     styled = []
     for line in lines:
@@ -51,7 +51,7 @@ def style_rays(lines: list[RayLine], tree: RayTree, selected: int | None, theme:
 
 
 def normal_lines(tree: RayTree, rows: int, frame: Frame, selected: int | None, theme: Theme) -> list[Line]:
-    """The normal at every hit, on the side its ray came from."""
+    """The normal at every hit, on the side of the incoming ray."""
     nodes = tree.nodes[:rows]
     kept = relatives(tree, selected) if selected is not None else None
     hits = np.flatnonzero(np.isfinite(nodes["normal"][:, 0]) & (nodes["kind"] != SHADOW))
@@ -64,7 +64,7 @@ def normal_lines(tree: RayTree, rows: int, frame: Frame, selected: int | None, t
 
 
 def image_plane(view: View, frame: Frame, focus: np.ndarray) -> np.ndarray:
-    """Corners of the image in the frame, (4, 3): top left, bottom left, top right, bottom right."""
+    """Corners (4, 3) of the image in the frame: top left, bottom left, top right, bottom right."""
     eye = frame.inside(view.eye)
     away = PLANE_SHARE * max(float((focus - eye) @ view.forward), 0.2)
     aspect = view.width / view.height
@@ -75,7 +75,7 @@ def image_plane(view: View, frame: Frame, focus: np.ndarray) -> np.ndarray:
 
 
 def frustum_lines(view: View, frame: Frame, corners: np.ndarray, theme: Theme) -> list[Line]:
-    """From the eye through the image's corners, and the image's frame."""
+    """Lines from the eye through the image's corners, and the image's frame."""
     eye = frame.inside(view.eye)
     color = faded(theme.text, 0.75)
     edges = [(eye, corner) for corner in corners]
@@ -84,7 +84,7 @@ def frustum_lines(view: View, frame: Frame, corners: np.ndarray, theme: Theme) -
 
 
 def glass_edges(world: World, frame: Frame, theme: Theme) -> list[Line]:
-    """Where the faces of cut glass meet: clear faces alone hardly show."""
+    """The edges between the faces of cut glass: clear faces alone can hardly be seen."""
     lines = []
     for item in world.scene.objects:
         if item.material.transmit > 0.0 and item.shape.has_edges:

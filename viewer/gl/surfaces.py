@@ -1,7 +1,7 @@
-"""The scene's surfaces as the 3D view shows them: opaque ones first, glass over the rays, back faces before front ones.
+"""The surfaces of a scene: opaque ones first, then glass, whose back faces come before its front faces.
 
-Walls are one-way: seen from the side where the scene's camera is they are solid, from the other side a ghost. So one
-looks into a room from outside, as into a doll's house.
+Walls are one-way. From the side of the scene's camera they are opaque, from the other side nearly transparent, so
+that one can look into a room from outside.
 """
 
 import math
@@ -20,16 +20,16 @@ from viewer.gl.features import Features
 from viewer.gl.program import make_program, put
 
 MOST_LIGHTS = 8  # as in surface.frag
-TRIANGLES = 400_000  # that all balls together may take
+TRIANGLES = 400_000  # of all balls together
 
 
 GHOST = 0.13  # opacity of a wall seen from its other side
-FADES = {True: (1.1, 2.4), False: (3.0, 10.0)}  # where an endless plane of glass, or another, fades out
+FADES = {True: (1.1, 2.4), False: (3.0, 10.0)}  # radii between which an infinite plane fades out: of glass, and opaque
 
 
 @dataclass(frozen=True)
 class Group:
-    """One draw call: triangles at one place, or one ball many times."""
+    """One draw call: triangles, or one ball many times."""
 
     array: moderngl.VertexArray
     middle: np.ndarray
@@ -40,7 +40,7 @@ class Group:
 
 
 class Surfaces:
-    """A world's surfaces on the GPU. `release` when another world takes its place."""
+    """The surfaces of a world on the GPU. Call `release` before another world is shown."""
 
     def __init__(
         self, ctx: moderngl.Context, program: moderngl.Program, world: World, frame: Frame, features: Features
@@ -69,11 +69,11 @@ class Surfaces:
             self._draw_group(group, culled="back" if group.wall else None)
 
     def draw_clear(self, orbit: Orbit) -> None:
-        """After the opaque ones what one sees through, if there is any: glass, farthest first; walls from behind."""
+        """Draw what one sees through, after the opaque surfaces: glass, the farthest first, and walls from behind."""
         walls = [group for group in self.groups if group.wall and not group.glass]
         if not walls and "GLASS" not in self.features:
             return
-        self._use_textures()  # what was drawn in between has used others
+        self._use_textures()  # other textures have been in use meanwhile
         self.ctx.fbo.depth_mask = False
         if "GLASS" in self.features:
             self._draw_glass(orbit)
@@ -85,14 +85,14 @@ class Surfaces:
         chosen = [group for group in self.groups if group.glass]
         for group in sorted(chosen, key=lambda group: -float(np.linalg.norm(group.middle - orbit.eye))):
             if not group.wall:
-                self._draw_group(group, culled="front")  # its far side first
+                self._draw_group(group, culled="front")  # the far side first
                 self._draw_group(group, culled="back")
 
     def _draw_group(self, group: Group, culled: str | None, ghost: float = 0.0) -> None:
         if culled:
             self.ctx.enable(moderngl.CULL_FACE)
             self.ctx.cull_face = culled
-        # An endless plane fades before its square's edge shows.
+        # An infinite plane fades out before the edge of its square shows.
         fade_from, fade_to = FADES[group.glass] if group.endless else (0.0, 0.0)
         put(self.program, fade_from=fade_from, fade_to=fade_to, ghost=ghost)
         group.array.render(moderngl.TRIANGLES, instances=group.count)
@@ -132,7 +132,7 @@ class Surfaces:
 
     def _make_textures(self) -> None:
         scene, arrays = self.world.scene, self.world.arrays
-        # A column an object, not a material: a flat checker's axes are the object's own.
+        # One column per object, not per material: the axes of a flat checker belong to the object.
         table = np.zeros((4, len(scene.objects), 4), np.float32)
         axes = np.zeros((2, len(scene.objects), 4), np.float32)
         for k, item in enumerate(arrays.objects):
@@ -169,11 +169,11 @@ class Surfaces:
         glass = np.array([objects[k].material.transmit > 0.0 for k, _ in balls])
         if (~glass).any():
             self._ball_group(shared, places[~glass], glass=False)
-        for row in places[glass]:  # one by one: they are sorted by distance
+        for row in places[glass]:  # one draw call each, since they are sorted by distance
             self._ball_group(shared, row[None], glass=True)
 
     def _is_plain_ball(self, shape: object) -> bool:
-        """A ball that is not a room about the camera."""
+        """Whether it is a ball, but not a room around the camera."""
         return isinstance(shape, Sphere) and not shape.contains(self.camera)
 
     def _ball_group(self, shared: moderngl.Buffer, places: np.ndarray, glass: bool) -> None:
@@ -225,7 +225,7 @@ class Surfaces:
 
 
 def _turned(corners: np.ndarray, normals: np.ndarray, camera: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Triangles with their front to the camera."""
+    """The triangles with their front facing the camera."""
     area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     away = (area * (camera - corners[:, 0])).sum(axis=1) < 0.0
     corners, normals = corners.copy(), normals.copy()

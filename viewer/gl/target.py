@@ -1,4 +1,4 @@
-"""What the 3D view is drawn into: a smoothed picture of any size, as a texture for a panel to show."""
+"""The framebuffer of the 3D view: an antialiased picture of any size, as a texture for a panel."""
 
 import moderngl
 import numpy as np
@@ -7,7 +7,7 @@ SAMPLES = 4
 
 
 class Target:
-    """A framebuffer with several samples a pixel, and the texture they are merged into."""
+    """A framebuffer with several samples per pixel, and the texture that they are resolved into."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
@@ -15,7 +15,7 @@ class Target:
         self.owned: list = []
 
     def resize(self, size: tuple[int, int]) -> bool:
-        """Make room for this many pixels; whether anything changed."""
+        """Change the size. Returns whether it was another."""
         size = (max(1, size[0]), max(1, size[1]))
         if size == self.size:
             return False
@@ -24,7 +24,7 @@ class Target:
         color = ctx.renderbuffer(size, 4, samples=samples)
         depth = ctx.depth_renderbuffer(size, samples=samples)
         drawn = ctx.framebuffer([color], depth)
-        drawn.use()  # before the old one goes: GL objects to losing the buffer that is in use
+        drawn.use()  # before the old one is released: OpenGL objects to losing the framebuffer in use
         self.release()
         self.drawn = drawn
         self.texture = ctx.texture(size, 4)

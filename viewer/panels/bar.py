@@ -1,4 +1,4 @@
-"""The bar at the bottom: depth, the kinds of ray (the legend is its switches), the model, and what is going on."""
+"""The bar at the bottom: depth, model, the kinds of rays (a legend of switches), and the status."""
 
 from imgui_bundle import imgui
 
@@ -9,7 +9,7 @@ from viewer.panels.image import waiting_lines
 from viewer.session.session import Session
 
 NAME = "##bar"
-SAMPLE = 44  # logical pixels that a legend's line takes beside its name
+SAMPLE = 44  # logical pixels of a legend entry beside its name
 GAP = 6  # between two entries
 
 
@@ -79,7 +79,7 @@ def _model(session: Session) -> None:
 
 
 def _legend(session: Session, right: float) -> None:
-    """Each kind of ray as it is drawn, with its name; a click shows or hides it. It ends left of `right`."""
+    """Each kind of ray as it is drawn, with its name. A click shows or hides it. The legend ends left of `right`."""
     unit = d.unit()
     theme = session.theme
     labels = _labels(session, right - imgui.get_cursor_pos_x())
@@ -108,11 +108,11 @@ def _legend(session: Session, right: float) -> None:
 
 
 def _labels(session: Session, room: float) -> dict[str, str]:
-    """What the legend calls each kind: the longest names that fit into `room`, at last the lecture's letters."""
+    """The names in the legend: the longest that fit into `room`, at last the letters."""
     full = {kind: style.label for kind, style in STYLES.items()}
     short = full | {"tir": "total internal"}
     if _has_glass(session):
-        # What lecturers are asked for first: why the shadow of a glass ball has no bright spot.
+        # A frequent question: why does the shadow of a glass ball have no bright spot?
         through = "stopped by glass" if _glass_blocks(session) else "unbent in glass"
         full["shadow"] += f", {through}"
         short["shadow"] += f", {through}"
@@ -145,7 +145,7 @@ def _meaning(session: Session, kind: str) -> str:
 
 
 def _status(session: Session, content: str, place: float) -> None:
-    """At the right end: what is going on, or how large the tree is."""
+    """The status, at the right end."""
     imgui.same_line()
     if imgui.get_cursor_pos_x() < place:
         imgui.set_cursor_pos_x(place)

@@ -1,4 +1,4 @@
-"""Small things all panels draw: text with a halo, dashed lines, arrow heads, all in a theme's colours."""
+"""Drawing that all panels share: text with a halo, dashed lines, arrow heads, in the colours of a theme."""
 
 import math
 
@@ -14,7 +14,7 @@ def u32(color: Color) -> int:
 
 
 def unit() -> float:
-    """Pixels a logical pixel: what sizes are multiplied by."""
+    """Pixels per logical pixel. Sizes are multiplied by it."""
     return imgui.get_font_size() / FONT_SIZE
 
 
@@ -26,7 +26,7 @@ def text_size(text: str, size: float) -> Point:
 
 
 def shortened(content: str, size: float, room: float) -> str:
-    """A text cut to what fits into `room`, with an ellipsis."""
+    """A text cut to fit into `room`, with an ellipsis."""
     if text_size(content, size)[0] <= room:
         return content
     while len(content) > 4 and text_size(content + "…", size)[0] > room:
@@ -37,9 +37,9 @@ def shortened(content: str, size: float, room: float) -> str:
 def text(
     draw: imgui.ImDrawList, at: Point, color: Color, content: str, size: float, plate: Color | None = None
 ) -> None:
-    """A text with its top left corner at `at`; on a plate of the ground's colour it reads on any picture."""
+    """A text with its top left corner at `at`. On a `plate` of the background's colour it is readable on any picture."""
     size = round(size)
-    x, y = round(at[0]), round(at[1])  # between pixels letters blur
+    x, y = round(at[0]), round(at[1])  # between pixels, letters blur
     if plate:
         width, height = text_size(content, size)
         grow = round(0.18 * size)
@@ -50,7 +50,7 @@ def text(
 
 
 def line(draw: imgui.ImDrawList, a: Point, b: Point, color: Color, width: float, dash: Point = (0.0, 0.0)) -> None:
-    """A line, dashed where `dash` (on, off in pixels) is not zero."""
+    """A line, dashed if `dash` (on, off in pixels) is not zero."""
     if dash[0] <= 0.0:
         draw.add_line(a, b, u32(color), width)
         return
@@ -64,7 +64,7 @@ def line(draw: imgui.ImDrawList, a: Point, b: Point, color: Color, width: float,
 
 
 def arrow(draw: imgui.ImDrawList, a: Point, b: Point, at: float, color: Color, size: float, kind: Arrow) -> None:
-    """A head on the line from a to b, its tip at that share of it."""
+    """An arrow head on the line from a to b, its tip at the share `at` of the length."""
     span = math.dist(a, b)
     if kind is Arrow.NONE or span < 1.5 * size:
         return
@@ -110,7 +110,7 @@ def eye(draw: imgui.ImDrawList, at: Point, radius: float, color: Color) -> None:
 
 
 def sample(draw: imgui.ImDrawList, at: Point, width: float, style: RayStyle, color: Color, scale: float) -> None:
-    """A piece of a ray as it is drawn: for the legend."""
+    """A piece of a ray, for the legend."""
     a, b = at, (at[0] + width, at[1])
     dash = (style.dash[0] * scale * 0.8, style.dash[1] * scale * 0.8)
     line(draw, a, b, color, style.width * scale, dash)
@@ -118,7 +118,7 @@ def sample(draw: imgui.ImDrawList, at: Point, width: float, style: RayStyle, col
 
 
 def toggle(theme: Theme, label: str, on: bool) -> bool:
-    """A button that shows whether it is on; whether it was pressed."""
+    """A button that shows whether it is on. Returns whether it was pressed."""
     if on:
         imgui.push_style_color(imgui.Col_.button, theme.accent)
         imgui.push_style_color(imgui.Col_.button_hovered, theme.accent)
@@ -130,7 +130,7 @@ def toggle(theme: Theme, label: str, on: bool) -> bool:
 
 
 def hint(content: str) -> None:
-    """What the item before is for, while the mouse rests on it."""
+    """A tooltip for the item before."""
     if imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
         imgui.set_tooltip(content)
 

@@ -1,4 +1,4 @@
-"""Error against time while the image converges, every setting's curve, and a map of where the error is."""
+"""Error over time while the image converges, with a curve for each setting, and the choice of a map."""
 
 import math
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ from viewer.session.view_state import Request
 
 MAP_WIDTH = 116  # logical pixels
 PLOT_HEIGHT = 96
-FEW = 60.0  # how far an axis reaches that has numbers at 2 and 5, too
+FEW = 60.0  # an axis with a smaller ratio of its ends also has ticks at 2 and 5
 LEGEND_FROM = 290  # of the panel's width
 MARKERS = (
     implot.Marker_.circle, implot.Marker_.square, implot.Marker_.diamond, implot.Marker_.up, implot.Marker_.down,
@@ -72,7 +72,7 @@ def _controls(session: Session) -> None:
 
 
 def _numbers(session: Session) -> None:
-    """How far the image has come, what one more second buys, and what no second does."""
+    """The error so far, a forecast for one more second, and the error that no sample removes."""
     run, theme = session.refinement.current, session.theme
     if not run or not run.points:
         return
@@ -93,7 +93,7 @@ def _numbers(session: Session) -> None:
 
 
 def _picked(session: Session, run: Run) -> str:
-    """The picked pixel's own."""
+    """The samples and the error of the picked pixel."""
     if not (session.pixel and run.image):
         return ""
     x, y = session.pixel
@@ -130,7 +130,7 @@ def _plot(session: Session) -> None:
             state.clear()
         d.hint("drop the curves of earlier settings")
     room = imgui.get_content_region_avail()
-    room.y = max(room.y, PLOT_HEIGHT * unit)  # else the panel scrolls
+    room.y = max(room.y, PLOT_HEIGHT * unit)  # otherwise the panel would scroll
     flags, axis = implot.Flags_, implot.AxisFlags_
     implot.push_style_var(implot.StyleVar_.plot_padding, (4.0 * unit, 4.0 * unit))
     implot.push_style_color(implot.Col_.frame_bg, (0.0, 0.0, 0.0, 0.0))
@@ -158,14 +158,14 @@ def _plot(session: Session) -> None:
 
 
 def _around(values: Sequence[float]) -> tuple[float, float]:
-    """Ends of a logarithmic axis with room on either side of its values."""
+    """The ends of a logarithmic axis, with room on either side of its values."""
     low, high = min(values, default=1.0), max(values, default=1.0)
     room = max((high / low) ** 0.06, 1.15)
     return low / room, high * room
 
 
 def ticks(low: float, high: float) -> list[float]:
-    """Round numbers on a logarithmic axis: 1, 2, 5 in each decade, or decades alone where there are many."""
+    """Ticks of a logarithmic axis: 1, 2, 5 in each decade, or only decades if there are many."""
     steps = (1.0, 2.0, 5.0) if high / low < FEW else (1.0,)
     decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
     found = [step * 10.0**k for k in decades for step in steps]
@@ -173,7 +173,7 @@ def ticks(low: float, high: float) -> list[float]:
 
 
 def _curve(session: Session, run: Run, reach: tuple[float, float]) -> None:
-    """A marker a round; flat from first to last second, the error that stays for rays that are cut."""
+    """A marker for each round, and a horizontal line at the error due to cut rays."""
     points = [p for p in run.points if p.error > 0.0]
     if not points:
         return

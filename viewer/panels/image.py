@@ -1,4 +1,4 @@
-"""The image as it renders: click or drag to see a pixel's rays, wheel to look closer, arrow keys to move by a pixel."""
+"""The image as it renders: click or drag to pick a pixel, wheel to zoom, arrow keys to move by a pixel."""
 
 from imgui_bundle import imgui
 
@@ -42,7 +42,7 @@ def draw(session: Session, canvas: Canvas) -> None:
 
 
 def _place(session: Session, corner: imgui.ImVec2, room: imgui.ImVec2) -> tuple[float, float, float]:
-    """Left and top of the image on the screen, and the size of one of its pixels there."""
+    """Left and top of the image on the screen, and the size of one of its pixels."""
     width, height = session.size
     look = session.image_view
     scale = min(room.x / width, room.y / height) * look.zoom
@@ -67,7 +67,7 @@ def _handle_mouse(session: Session, place: tuple[float, float, float]) -> None:
 
 
 def _mark_pixel(session: Session, draw: imgui.ImDrawList, place: tuple[float, float, float]) -> None:
-    """A frame about the picked pixel with four arms that leave the pixel itself to be seen."""
+    """A frame around the picked pixel, with four arms that leave the pixel itself free."""
     left, top, scale = place
     assert session.pixel
     x0, y0 = left + session.pixel[0] * scale, top + session.pixel[1] * scale
@@ -84,7 +84,7 @@ def _mark_pixel(session: Session, draw: imgui.ImDrawList, place: tuple[float, fl
 
 
 def _head(session: Session) -> None:
-    """Where the picked pixel is, to be typed as well, and its colour in numbers."""
+    """The picked pixel's coordinates, which can be typed, and its colour."""
     if not session.world:
         imgui.new_line()
         return
@@ -128,7 +128,7 @@ def _head(session: Session) -> None:
 
 
 def _refined(session: Session) -> str:
-    """What more samples have made of the picked pixel."""
+    """The mean of the picked pixel's samples."""
     run = session.refinement.current
     if not (run and run.image and session.pixel and run.points):
         return ""
@@ -140,7 +140,7 @@ def _refined(session: Session) -> str:
 
 
 def _scale(session: Session) -> None:
-    """What the map's colours stand for, at the right end."""
+    """The scale of the map's colours, at the right end."""
     unit, size = d.unit(), imgui.get_font_size()
     low, high = (f"{value:g}" for value in RANGES[session.refinement.shows])
     word = session.refinement.shows
@@ -178,7 +178,7 @@ def _progress(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, ro
 
 
 def _waiting(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
-    """What is going on while there is no image yet."""
+    """The status, while there is no image yet."""
     lines = waiting_lines(session)
     size = imgui.get_font_size()
     top = corner.y + 0.5 * room.y - 0.7 * size * len(lines)

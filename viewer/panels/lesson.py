@@ -1,4 +1,4 @@
-"""The lesson's text beside its scene; a scene that belongs to no lesson has no such panel."""
+"""The lesson's text. A scene that belongs to no lesson has no such panel."""
 
 from imgui_bundle import imgui
 
@@ -9,7 +9,7 @@ from viewer.session.view_state import Request
 
 
 def draw(session: Session, canvas: Canvas) -> None:
-    assert session.lesson  # else there is no such panel
+    assert session.lesson  # otherwise there is no such panel
     for block in session.lesson.text.split("\n\n"):
         content = " ".join(block.split())
         imgui.push_text_wrap_pos(0.0)
@@ -19,7 +19,7 @@ def draw(session: Session, canvas: Canvas) -> None:
             for item in block.split("\n- "):
                 imgui.bullet()
                 imgui.same_line()
-                imgui.text(" ".join(item.removeprefix("- ").split()))  # wraps, which bullet_text does not
+                imgui.text(" ".join(item.removeprefix("- ").split()))  # it wraps, unlike bullet_text
         else:
             imgui.text(content)
         imgui.pop_text_wrap_pos()

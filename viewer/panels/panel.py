@@ -1,4 +1,4 @@
-"""What a panel says of itself."""
+"""Panels: their title, how they are drawn, and where they stand."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from viewer.session.view_state import Request
 
 
 class Corner(Enum):
-    """Where a panel stands at first."""
+    """The corner in which a panel stands at first."""
 
     TOP_LEFT = auto()
     TOP_RIGHT = auto()

@@ -57,7 +57,7 @@ def _section(session: Session, section: Section) -> None:
         imgui.pop_text_wrap_pos()
     flags = imgui.TableFlags_.sizing_stretch_prop | imgui.TableFlags_.pad_outer_x
     if imgui.begin_table(section.title, 2, flags):
-        # Values stay on their line, names wrap; but for a value that is a sentence.
+        # Names wrap, values do not, except for a value that is a sentence.
         widest = max(imgui.calc_text_size(line.value).x for line in section.lines)
         if widest < 0.66 * imgui.get_content_region_avail().x:
             imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)

@@ -1,4 +1,4 @@
-"""The scene in 3D with the rays over it: drag to turn, shift-drag or right-drag to move, wheel to zoom, click a ray."""
+"""The scene in 3D with the rays: drag to turn, shift-drag or right-drag to move, wheel to zoom, click to select a ray."""
 
 import math
 
@@ -15,7 +15,7 @@ from viewer.panels import draw as d
 from viewer.panels.panel import Corner, Panel
 from viewer.session.session import Session
 
-REACH = 9.0  # logical pixels: how near to a ray a click must be
+REACH = 9.0  # logical pixels: the largest distance of a click from a ray
 MOST_LABELS = 40
 
 
@@ -56,7 +56,7 @@ def _handle_mouse(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: 
             orbit.turn(math.pi * moved.x / room.y, math.pi * moved.y / room.y)
     if imgui.is_item_hovered() and io.mouse_wheel != 0.0:
         orbit.zoom(io.mouse_wheel)
-    # A click is a press and release in one place: turning the view picks nothing.
+    # A click is a press and release in one place, so turning the view selects nothing.
     if imgui.is_item_hovered() and imgui.is_mouse_released(button.left):
         moved = io.mouse_drag_max_distance_sqr[0]
         if moved < io.mouse_drag_threshold**2:
@@ -75,7 +75,7 @@ def _row_at(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.
 
 
 class _Overlay:
-    """What is written over the 3D view: lights, the camera, ends of shadow rays, names; nothing over another."""
+    """Texts and signs over the 3D view: lights, the camera, ends of shadow rays, names. No text covers another."""
 
     def __init__(self, session: Session, stage: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
         self.session = session
@@ -100,7 +100,7 @@ class _Overlay:
                 self._camera_name()
 
     def at(self, point: np.ndarray) -> tuple[float, float] | None:
-        """Where a point of the frame is on the screen; None behind the eye."""
+        """A point of the frame on the screen; None if it is behind the camera."""
         places, depths = project(np.atleast_2d(point), self.matrix, self.size)
         if depths[0] <= 0.0 or not np.isfinite(places).all():
             return None
@@ -149,7 +149,7 @@ class _Overlay:
             self.stage.add_circle_filled(at, 4.5 * self.unit, d.u32(session.theme.accent))
 
     def _crosses(self) -> None:
-        """Where blocked shadow rays end."""
+        """Crosses at the ends of blocked shadow rays."""
         session = self.session
         if "shadow" not in session.shown.kinds:
             return
@@ -164,7 +164,7 @@ class _Overlay:
                 d.cross(self.stage, at, 5.0 * self.unit, color, 2.4 * self.unit)
 
     def _ray_names(self) -> None:
-        """R, T and the row's number beside the middle of each ray; the selected one first, then the heaviest."""
+        """The label of each ray beside its middle: first the selected one, then the heaviest."""
         session = self.session
         tree = session.tree
         assert tree

@@ -1,4 +1,4 @@
-"""The ray tree as a diagram: the eye on top, reflected rays to the left, refracted right, stubs to the lights."""
+"""The ray tree as a diagram: the eye at the top, reflected rays to the left, refracted ones right, stubs to the lights."""
 
 import bisect
 import math
@@ -19,8 +19,8 @@ from viewer.panels import draw as d
 from viewer.panels.panel import Corner, Panel
 from viewer.session.session import Session
 
-MOST_ROWS = 160  # drawn; of larger trees the heaviest rays
-# Logical pixels: between neighbours and between levels, at most and at least; smaller and the tree has to be moved.
+MOST_ROWS = 160  # the heaviest rays, if a tree has more
+# Logical pixels between neighbours and between levels, at most and at least. A tree that needs less has to be moved.
 WIDEST, NARROWEST = 170.0, 34.0
 TALLEST, LOWEST = 104.0, 22.0
 EYE_ROOM = 50.0  # above the first hit
@@ -68,13 +68,13 @@ class _Diagram:
         self.folded = len(self.tree) - sum(i < len(self.tree) for i in wanted & rows)
         self._fit(places, corner, room)
         self.rows = sorted(i for i in rows if i < len(self.tree))
-        self.levels: dict[float, list[float]] = {}  # where hits stand on each level, left to right
+        self.levels: dict[float, list[float]] = {}  # positions of hits on each level, left to right
         for x, y in sorted(self.at[i] for i in self.rows if self.tree.nodes["kind"][i] != SHADOW):
             self.levels.setdefault(y, []).append(x)
         self.kept = relatives(self.tree, session.selected) if session.selected is not None else None
 
     def _fit(self, places: dict[int, Place], corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
-        """From places to pixels: as far apart as there is room for, up to where nothing gets clearer."""
+        """Map positions to pixels, as far apart as the room allows, up to WIDEST and TALLEST."""
         look = self.session.tree_view
         unit = d.unit()
         left = min(place.x for place in places.values()) - 0.9
@@ -85,7 +85,7 @@ class _Diagram:
         height = min(TALLEST, max(LOWEST, (room.y - head - foot) / unit / lowest))
         self.step_x, self.step_y = width * unit * look.zoom, height * unit * look.zoom
         fits = room.x >= (right - left) * width * unit * 0.999
-        middle = 0.5 * (left + right) if fits else 0.0  # too wide: the eye stays in the middle
+        middle = 0.5 * (left + right) if fits else 0.0  # too wide: keep the eye in the middle
         base_x = corner.x + 0.5 * room.x - middle * self.step_x + look.center[0] * unit
         base_y = corner.y + head + look.center[1] * unit
         self.at = {i: (base_x + p.x * self.step_x, base_y + p.y * self.step_y) for i, p in places.items()}
@@ -110,7 +110,7 @@ class _Diagram:
         return 1.0 if self.kept is None or i in self.kept else DIMMED
 
     def _top(self, i: int) -> tuple[float, float]:
-        """Where the edge to row i begins: its parent, or the eye."""
+        """The start of the edge to row i: its parent, or the eye."""
         parent = int(self.tree.nodes["parent"][i])
         if parent >= 0:
             return self.at[parent]
@@ -118,7 +118,7 @@ class _Diagram:
         return (x, y - 36 * d.unit())
 
     def _levels(self) -> None:
-        """The depths, as faint lines with their number."""
+        """The depths, as faint lines with their numbers."""
         deepest = int(self.tree.nodes["depth"].max())
         size = self.text_size
         for depth in range(deepest + 1):
@@ -150,7 +150,7 @@ class _Diagram:
         d.arrow(self.pad, a, b, 0.55, color, 9.0 * unit, style.arrow)
 
     def _edge_label(self, i: int) -> None:
-        """What the parent multiplies this ray by, beside its edge, where there is room for it."""
+        """The factor of a ray beside its edge, if there is room."""
         unit = d.unit()
         kind = self.tree.kind(i)
         if kind == "shadow" or i == 0 or not self.labels_edges:
@@ -189,14 +189,14 @@ class _Diagram:
         note = {"depth": "cut: depth", "weight": "cut: weight", "nodes": "cut: limit"}.get(end or "", "")
         size = self.text_size
         color = faded(self.theme.text, opacity)
-        # Level with the node: there the edges from above and to below have parted.
+        # At the node's height, where the edges from above and to below are apart.
         at = x + self.radius + 7.0 * d.unit()
         room = self._room_beside(i) - 7.0 * d.unit()
         gap = 6.0 * d.unit()
         if note and room < d.text_size(f"{i}  {name}", size)[0] + gap + d.text_size(note, size)[0]:
             note = "cut"
         taken = gap + d.text_size(note, size)[0] if note else 0.0
-        # Where there is no room at the edge, what the parent multiplies by stands here, if it fits.
+        # The factor stands here if there is no room at the edge.
         factor = self._factor(i) if i and not self.labels_edges else ""
         wide = gap + d.text_size(factor, size)[0]
         if factor and room >= d.text_size(f"{i}  {name}", size)[0] + taken + wide:
@@ -211,7 +211,7 @@ class _Diagram:
             d.text(self.pad, (at, y - 0.5 * size), faded(self.theme.muted, opacity), note, size, self.theme.panel)
 
     def _room_beside(self, i: int) -> float:
-        """Pixels between a node's rim and what stands next on its level, at most what a long name needs."""
+        """Pixels between a node and its right neighbour on the same level, at most what a long name needs."""
         x, y = self.at[i]
         level = self.levels[y]
         next_one = bisect.bisect_right(level, x)
@@ -219,7 +219,7 @@ class _Diagram:
         return min(right, x + 3.0 * self.step_x) - x - self.radius - 6.0 * d.unit()
 
     def _light_end(self, i: int) -> None:
-        """A small sun where the light is reached, a cross where it is not; faint where the surface faces away."""
+        """A small sun if the light is reached, otherwise a cross. Faint if the surface faces away."""
         x, y = self.at[i]
         opacity = self.opacity(i) * (DIMMED if self.tree.faces_away(i) else 1.0)
         r = 0.62 * self.radius
@@ -237,7 +237,7 @@ class _Diagram:
             self.pad.add_circle((x, y), 1.5 * r, d.u32(self.theme.accent), 0, 2.5 * d.unit())
 
     def _note(self) -> None:
-        """In a corner beside the eye: what is not to be seen of this tree; in fewer words where there is less room."""
+        """A note in a corner: what is not shown of this tree. Shorter if there is less room."""
         drawn, total, weight = len(self.rows), len(self.tree), format_number(self.tree.residual, 3)
         fewer = f"{drawn} of {total} rays drawn" if self.folded > 0 else ""
         if self.tree.residual > 0.0:
@@ -284,7 +284,7 @@ class _Diagram:
             self.session.select(row)
 
     def _row_at(self, mouse: tuple[float, float]) -> int | None:
-        """The node under the mouse, or the edge."""
+        """The node or edge under the mouse."""
         near = self.radius + 5.0 * d.unit()
         best = min(self.rows, key=lambda i: math.dist(self.at[i], mouse))
         if math.dist(self.at[best], mouse) <= near:

@@ -1,4 +1,4 @@
-"""A chapter of the report: one scene with a section for each source of error; measured, and with its plots."""
+"""A chapter of the report: one scene with a section for each source of error. Measures it, and draws its plots."""
 
 import re
 from collections.abc import Callable, Sequence

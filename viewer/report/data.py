@@ -1,4 +1,4 @@
-"""The report's figures for programs: JSON, and a CSV with a line a marker."""
+"""The report's numbers for programs: JSON, and a CSV with one line per marker."""
 
 import csv
 import io
@@ -17,7 +17,7 @@ HEAD = ("scene", "source", "method", "setting", "value", "seconds", "rays", "tes
 
 
 def as_csv(chapters: Sequence[Chapter]) -> bytes:
-    """What is not known, or bounded by nothing, is empty."""
+    """The CSV. Unknown and infinite numbers are empty."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(HEAD)
@@ -63,7 +63,7 @@ def _finite(number: float) -> Any:
 
 
 def _plain(value: Any) -> Any:
-    """JSON knows no infinity: null stands for it."""
+    """The value with null for numbers that JSON does not have."""
     match value:
         case dict():
             return {key: _plain(item) for key, item in value.items()}

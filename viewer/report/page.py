@@ -1,4 +1,4 @@
-"""The report as one page that needs nothing else: plots in it, tables beside them, machine and versions at its end."""
+"""The report as one HTML file: plots, tables, and at the end machine and versions."""
 
 import math
 import re
@@ -47,7 +47,7 @@ INTRODUCTION = (
 
 
 def _chapter(chapter: Chapter, titled: bool) -> list[str]:
-    """`titled`: one of several."""
+    """A chapter. `titled`: there are several."""
     body = [f'<h1 id="{chapter.anchor}" class="chapter">{escape(chapter.title)}</h1>'] if titled else []
     for source in chapter.sources:
         body += _section(f"{chapter.anchor}-{source.name}", source, chapter.plots[source.name])
@@ -73,7 +73,7 @@ def _section(name: str, source: Source, plots: Sequence[bytes]) -> list[str]:
 
 
 def _judged(source: Source) -> str:
-    """What the errors are relative to, and which settings have no place on the plots."""
+    """The reference of the errors, and the settings that have no place on the plots."""
     own = source.reference.own
     said = f"{source.size[0]}x{source.size[1]} pixels. Judged against: {source.reference.how}"
     apart = (
@@ -87,7 +87,7 @@ def _judged(source: Source) -> str:
 
 
 def _inline(plot: bytes, name: str) -> str:
-    """An SVG as a part of the page: without its head, its names made its own."""
+    """An SVG for inclusion in the page: without its head, and with ids that start with `name`."""
     text = plot.decode("utf-8")
     text = text[text.index("<svg") :]
     return re.sub(r'(id="|url\(#|href="#)', rf"\g<1>{name}-", text)
@@ -103,7 +103,7 @@ def _slopes(curves: Sequence[Curve]) -> list[str]:
 
 
 def _table(source: Source) -> list[str]:
-    """A row a marker; columns that would be empty are left out."""
+    """One row per marker. Empty columns are left out."""
     points = [(curve, p) for curve in source.curves for p in curve.points]
     columns = {name: [figure(p) for _, p in points] for name, figure in COLUMNS.items()}
     shown = {name: cells for name, cells in columns.items() if any(cell not in ("–", "none") for cell in cells)}

@@ -1,7 +1,7 @@
-"""Error against work as plots: a curve a method, a marker a setting, both axes logarithmic, lower left is better.
+"""Plots of error against work: one curve per method, one marker per setting, logarithmic axes. Lower left is better.
 
-Curves differ in marker and dash as well as in colour; what they are called stands under the plot, never over it. What
-the program itself says is missing at most is a hollow marker of the same form.
+Curves differ in marker and dash as well as in colour, and are named below the plot, never over it. A hollow marker
+is the bound or estimate that the program itself gives.
 """
 
 import io
@@ -21,13 +21,13 @@ WORK: dict[str, tuple[str, Callable[[Point], float]]] = {
     "tests": ("tests of a ray against a surface", lambda point: float(point.tests)),
 }
 FORMATS = ("svg", "pdf")
-SAME = 40.0  # points: of markers so close one name is enough, if they share it
-WORDY = 26  # letters of a method's name, beside which there is no room for another
-FEW = 30.0  # an axis that reaches no farther has marks at 2 and 5, too
+SAME = 40.0  # points: markers nearer than this share a name, if it is the same
+WORDY = 26  # letters of a method's name that leave no room for another beside it
+FEW = 30.0  # an axis with a smaller ratio of its ends also has ticks at 2 and 5
 
 
 def plot(source: Source, work: str, measure: str) -> dict[str, bytes]:
-    """One plot in every format: the measure's error against seconds or rays."""
+    """One plot in every format: an error against seconds, rays or tests."""
     import matplotlib as mpl  # pyright: ignore[reportMissingImports]
     from matplotlib.figure import Figure  # pyright: ignore[reportMissingImports]
 
@@ -38,7 +38,7 @@ def plot(source: Source, work: str, measure: str) -> dict[str, bytes]:
         ends = _draw(axes, source, work, measure)
         names = [name_of(curve) for curve in source.curves]
         canvas.legend(loc="outside lower center", ncols=1 if max(map(len, names)) > WORDY else 2, frameon=False)
-        canvas.draw_without_rendering()  # only then are the axes where they will be
+        canvas.draw_without_rendering()  # only then are the axes in their final place
         _say(axes, ends)
         return {name: _saved(canvas, name) for name in FORMATS}
 
@@ -50,7 +50,7 @@ def _saved(canvas: Any, name: str) -> bytes:
 
 
 def _draw(axes: Any, source: Source, work: str, measure: str) -> "Sequence[End]":
-    """The curves; names of each one's first and last marker, with their places."""
+    """Draw the curves. Returns the names of each curve's first and last marker, with their places."""
     from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
 
     label, cost = WORK[work]
@@ -88,9 +88,9 @@ def _draw(axes: Any, source: Source, work: str, measure: str) -> "Sequence[End]"
 
 
 def _say(axes: Any, ends: "Sequence[End]") -> None:
-    """Names in the colour of their curve beside their markers, over nothing else that is drawn, nor over each other."""
+    """Write names beside their markers, in the colour of the curve, over no curve and no other name."""
     taken = [(x - 4.0, y - 4.0, x + 4.0, y + 4.0) for x, y in _inked(axes)]
-    taken.append((-math.inf, -math.inf, axes.bbox.x0, math.inf))  # the axis has its own numbers
+    taken.append((-math.inf, -math.inf, axes.bbox.x0, math.inf))  # the axis has numbers of its own
     said: list[tuple[str, float, float]] = []
     for label, ink, x, y in ends:
         at_x, at_y = axes.transData.transform((x, y))
@@ -113,7 +113,8 @@ def _say(axes: Any, ends: "Sequence[End]") -> None:
 
 End = tuple[str, str, float, float]  # a marker's name, its colour, and its place
 Box = tuple[float, float, float, float]  # left, bottom, right, top, in points
-PLACES = tuple((right, up) for up in (5, -14, 17, -26, 30, -39) for right in (True, False))  # of a name, the best first
+# offsets of a name, the best first
+PLACES = tuple((right, up) for up in (5, -14, 17, -26, 30, -39) for right in (True, False))
 
 
 def _meet(a: Box, b: Box) -> bool:
@@ -121,7 +122,7 @@ def _meet(a: Box, b: Box) -> bool:
 
 
 def _inked(axes: Any) -> list[tuple[float, float]]:
-    """Places that curves and markers cover, a few points apart."""
+    """Points on curves and markers, a few points apart."""
     found: list[tuple[float, float]] = []
     for line in axes.lines:
         places = line.get_transform().transform(line.get_xydata())
@@ -135,7 +136,7 @@ def _inked(axes: Any) -> list[tuple[float, float]]:
 
 
 def said_of(source: Source, measure: str) -> tuple[Callable[[Point], float], str]:
-    """What the program itself says of this measure, and how that is called."""
+    """The program's own bound or estimate of a measure, and its name."""
     if measure == "largest" and source.bounded:
         return (lambda point: point.bound), "its bound"
     if measure == "rmse":
@@ -144,7 +145,7 @@ def said_of(source: Source, measure: str) -> tuple[Callable[[Point], float], str
 
 
 def drawable(curve: Curve, measure: str) -> Sequence[Point]:
-    """An error of 0 has no place on a logarithmic axis."""
+    """The points of a curve without errors of 0, which a logarithmic axis cannot show."""
     return [p for p in curve.points if 0.0 < error_of(p, measure) < math.inf]
 
 
@@ -153,7 +154,7 @@ def error_of(point: Point, measure: str) -> float:
 
 
 def name_of(curve: Curve) -> str:
-    """With the slope that was measured, beside theory's."""
+    """The method's name with its measured slope and that of theory."""
     if curve.slope is None or curve.fitted is None:
         return curve.method
     return f"{curve.method}: N^{curve.fitted:.2f} (theory {curve.slope:g})"

@@ -1,1 +1,1 @@
-"""The state of the program: scene on show, picked pixel, selected ray, image in progress. No GPU, no panel."""
+"""The state of the viewer, without GPU and panels."""

@@ -1,7 +1,7 @@
-"""The one file that knows glfw and imgui's backend: a window on a screen, or the same without one.
+"""The only file that knows glfw and imgui's backend: a window on a screen, or an offscreen surface.
 
-Both give a GL context, feed imgui, and present what it drew. `imgui_bundle` is imported before `glfw`, so that on
-systems where each brings its own copy of that library, both use the same.
+Both have an OpenGL context, feed imgui, and present what it drew. `imgui_bundle` is imported before `glfw`, so that
+both use the same copy of that library on systems where each brings its own.
 """
 
 import ctypes
@@ -27,14 +27,14 @@ SMALLEST = (480, 320)  # of a window, in its own units
 
 
 class NoWindow(Exception):
-    """No window can be opened, or not even a picture be drawn without one; the text says why."""
+    """No window can be opened, or not even a picture can be drawn without one. The text says why."""
 
 
 NO_GRAPHICS = "OpenGL 3.3 is not to be had (on Debian: the packages libegl1, libgl1 and libgl1-mesa-dri)"
 
 
 class Surface:
-    """What window and offscreen share: imgui's context, and reading back what was drawn."""
+    """The common part of window and offscreen surface: imgui's context, and reading the picture."""
 
     ctx: moderngl.Context
 
@@ -49,7 +49,7 @@ class Surface:
         _load_fonts()
 
     def grab(self) -> np.ndarray:
-        """What imgui drew last as 8-bit RGB (height, width, 3), top row first; drawn again into a buffer of our own."""
+        """The last frame as 8-bit RGB (height, width, 3), top row first, drawn again into a framebuffer of our own."""
         data = imgui.get_draw_data()
         width = max(1, int(data.display_size.x * data.framebuffer_scale.x))
         height = max(1, int(data.display_size.y * data.framebuffer_scale.y))
@@ -61,18 +61,18 @@ class Surface:
             backends.opengl3_render_draw_data(data)
             content = buffer.read(components=3, alignment=1)
         finally:
-            before.use()  # first: GL objects to losing the buffer that is in use
+            before.use()  # first: OpenGL objects to losing the framebuffer in use
             buffer.release()
         return np.frombuffer(content, np.uint8).reshape(height, width, 3)[::-1]
 
 
 class Window(Surface):
-    """A window on the screen. NoWindow where there is none."""
+    """A window on the screen. Raises NoWindow if none can be opened."""
 
     def __init__(self, title: str, size: tuple[int, int], ini: Path | None = None, visible: bool = True) -> None:
         self.dropped: list[Path] = []
         self.on_refresh: Callable[[], None] = lambda: None
-        glfw.set_error_callback(lambda code, text: None)  # what fails says so by its result
+        glfw.set_error_callback(lambda code, text: None)  # failures are seen by their results
         if not glfw.init():
             raise NoWindow("There is no display to open a window on")
         for hint, value in (
@@ -93,7 +93,7 @@ class Window(Surface):
         glfw.swap_interval(1)
         self.ctx = moderngl.create_context(require=330)
         self._start_imgui(ini)
-        # Ours first: imgui's backend calls on to what it finds.
+        # Before imgui's backend, which calls the callbacks that it finds.
         glfw.set_drop_callback(self.window, self._drop)  # type: ignore[arg-type]  # its stub says int for a list
         glfw.set_window_refresh_callback(self.window, lambda _: self.on_refresh())
         address = ctypes.cast(self.window, ctypes.c_void_p).value
@@ -106,9 +106,9 @@ class Window(Surface):
 
     @property
     def scale(self) -> float:
-        """How much larger than on a plain screen things are to be drawn (HiDPI).
+        """The scale of the screen (HiDPI): pixels per logical pixel.
 
-        macOS and Wayland do that themselves and say so by more pixels than units; elsewhere the content scale tells.
+        macOS and Wayland scale by themselves, with more pixels than window units. Elsewhere the content scale tells.
         """
         content, _ = glfw.get_window_content_scale(self.window)
         width, _ = glfw.get_window_size(self.window)
@@ -130,7 +130,7 @@ class Window(Surface):
         glfw.set_window_title(self.window, title)
 
     def wait(self, seconds: float) -> None:
-        """Sleep until something happens; not at all for 0."""
+        """Sleep until an event, or for so many seconds; not at all for 0."""
         if seconds > 0.0:
             glfw.wait_events_timeout(seconds)
         else:
@@ -147,7 +147,7 @@ class Window(Surface):
 
     def present(self) -> None:
         imgui.render()
-        # The size moderngl keeps for the screen is the one at the start: it is not asked.
+        # moderngl keeps the size that the screen had at the start, so it is not used.
         self.ctx.screen.use()
         self.ctx.screen.clear(0.0, 0.0, 0.0, 1.0)
         backends.opengl3_render_draw_data(imgui.get_draw_data())
@@ -164,14 +164,14 @@ class Window(Surface):
 
 
 class Offscreen(Surface):
-    """The same without a screen: for screenshots, and for tests, which send events by imgui's own queue."""
+    """A surface without a screen: for screenshots, and for tests, which send events through imgui's own queue."""
 
     def __init__(self, size: tuple[int, int]) -> None:
         self.dropped: list[Path] = []
         options: dict[str, Any] = {"backend": "egl"} if sys.platform.startswith("linux") else {}
         try:
             self.ctx = moderngl.create_context(standalone=True, require=330, **options)
-        except Exception as error:  # each platform's own kind
+        except Exception as error:  # of a type of its own on each platform
             raise NoWindow(f"Nothing can be drawn: {NO_GRAPHICS}; {error}") from None
         self._start_imgui(None)
         backends.opengl3_init(GLSL)
@@ -190,7 +190,7 @@ class Offscreen(Surface):
         self.title = title
 
     def wait(self, seconds: float) -> None:
-        """Nothing ever comes from outside."""
+        """No event ever comes from outside."""
 
     def wake(self) -> None:
         """See `wait`."""
@@ -207,13 +207,13 @@ class Offscreen(Surface):
         backends.opengl3_shutdown()
         implot.destroy_context()
         imgui.destroy_context()
-        with self.ctx:  # leaving it unbinds it from this thread, where a window may want to be next
+        with self.ctx:  # unbinds the context from this thread, which may open a window next
             pass
         self.ctx.release()
 
 
 def _load_fonts() -> None:
-    """Roboto, and from DejaVu Sans the arrows and subscripts it lacks."""
+    """Roboto, and from DejaVu Sans the arrows and subscripts that it lacks."""
     main = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "Roboto" / "Roboto-Regular.ttf"
     symbols = Path(__file__).parent.parent / "fonts" / "DejaVuSans-symbols.ttf"
     fonts = imgui.get_io().fonts

@@ -123,7 +123,7 @@ HELP = [(binding.label, binding.meaning) for binding in BINDINGS]
 
 
 def handle(session: Session) -> None:
-    """Do what the keys say that were pressed since the last frame, unless a text field takes them."""
+    """Do what the keys that were pressed since the last frame stand for, unless a text field takes them."""
     io = imgui.get_io()
     if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
         if imgui.is_key_pressed(K.escape, False):

@@ -1,4 +1,4 @@
-"""A theme in imgui's terms."""
+"""A theme as an imgui style."""
 
 from imgui_bundle import imgui
 
@@ -6,9 +6,9 @@ from viewer.base.theme import FONT_SIZE, Color, Theme, faded
 
 
 def apply(theme: Theme, scale: float, zoom: float) -> None:
-    """Set every colour and size; `scale` is the screen's, `zoom` the user's."""
+    """Set all colours and sizes. `scale` is the screen's, `zoom` the user's."""
     style = imgui.get_style()
-    _reset(style)  # sizes are multiplied below: from the defaults, so that nothing is scaled twice
+    _reset(style)  # sizes are multiplied below, from the defaults, so that nothing is scaled twice
     style.font_size_base = FONT_SIZE
     style.font_scale_dpi = scale
     style.font_scale_main = zoom
@@ -84,10 +84,10 @@ def apply(theme: Theme, scale: float, zoom: float) -> None:
 
 
 def _reset(style: imgui.Style) -> None:
-    """Every size as imgui has it at first."""
+    """Set every size to imgui's default."""
     defaults = imgui.Style()
     for name in dir(defaults):
-        # What scale_all_sizes has multiplied so far is a size, too, though its name says it is imgui's own.
+        # The factor of scale_all_sizes must be reset as well, though its name is private.
         value = getattr(defaults, name)
         if (not name.startswith("_") or name == "_main_scale") and not callable(value):
             setattr(style, name, value)

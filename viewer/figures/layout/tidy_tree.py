@@ -43,8 +43,7 @@ class Place:
 @dataclass(frozen=True)
 class Layout:
     places: dict[int, Place]
-    # by row: the end of the stub that stands for the ray that total internal reflection leaves out
-    bars: dict[int, Place]
+    bars: dict[int, Place]  # ends of the stubs that stand for the missing ray on total internal reflection
 
 
 @dataclass

@@ -14,8 +14,7 @@ from viewer.figures.visible.rings import sharpen_corners, simplify, straighten
 
 FINE = 2  # pixels per point in each direction: an outline is accurate to a quarter of a point
 SMALL = 6.0  # square points: smaller areas are noise
-# points: finer checkers are not drawn as squares; the size of the window in which that is decided
-SQUARE, NEARBY = 3.0, 8
+SQUARE, NEARBY = 3.0, 8  # points: the smallest checker drawn as squares; the window in which that is decided
 COARSE, RING, MOST_SPOTS = 4, 12, 80  # points between spots for a name; spots in one ring; spots in all
 
 
