@@ -1,7 +1,7 @@
-"""Mesh files (OBJ with its materials, PLY, STL, GLB) by way of trimesh, checked before and after it reads them.
+"""Mesh files (OBJ with its materials, PLY, STL, GLB), read by trimesh and checked before and after.
 
-A mesh comes from anywhere: a file of 400 bytes may ask for a gigabyte, a corner may be no number. Counts are held
-against the file's size before anything is allocated, and whatever goes wrong becomes one line.
+A mesh may come from anywhere: a file of 400 bytes may ask for a gigabyte, or a vertex may not be a number. Counts
+are compared with the file's size before memory is allocated, and every failure becomes one line.
 """
 
 import json
@@ -23,7 +23,8 @@ from tracer.shapes.mesh import Geometry, Mesh
 LARGEST_FILE = 2**30  # bytes
 MOST_FACES = 4_000_000
 
-# What a file without materials looks like, and what is added to a file's colours so that no side is black.
+# The material of a file without materials. Its ambient term is also added to a file's colours, so that no side is
+# black.
 CLAY = Material(name="clay", color=(0.8, 0.78, 0.74), ambient=0.15, diffuse=0.8)
 AMBIENT = 0.15
 
@@ -31,7 +32,7 @@ UNKNOWN_NORMALS = "this trimesh does not tell whether the file has vertex normal
 
 
 class MeshError(ValueError):
-    """A mesh file that cannot be used; the text is one line with what was found and what is allowed."""
+    """A mesh file that cannot be used. The text is one line: what was found and what is allowed."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +45,9 @@ class Part:
 
 
 def read_mesh_scene(path: Path, progress: Callable[[float], None]) -> Scene:
-    """A scene of nothing but this mesh, in light from above the camera. Its library reads it whole: no progress."""
+    """A scene that consists of this mesh, lit from above the camera. trimesh reads the file in one go, so there is no
+    progress.
+    """
     if not path.exists():
         raise FileNotFoundError(path)
     try:
@@ -57,7 +60,7 @@ def read_mesh_scene(path: Path, progress: Callable[[float], None]) -> Scene:
 
 
 def load_parts(path: Path) -> list[Part]:
-    """What is in a mesh file, one part a material."""
+    """The parts of a mesh file, one for each material."""
     if path.suffix.lower() not in MESH_SUFFIXES:
         raise MeshError(f"a mesh must be one of {', '.join(MESH_SUFFIXES)}, got {path.name}")
     if not path.is_file():
@@ -81,12 +84,13 @@ def load_parts(path: Path) -> list[Part]:
 
 
 def _load(path: Path) -> list[tuple[str, Any, np.ndarray]]:
-    """(name, mesh, its place as a 4x4 matrix) for everything in the file that has faces."""
-    import trimesh  # not needed by most scenes, and slow to import
+    """(name, mesh, placement as a 4x4 matrix) of everything in the file that has faces."""
+    import trimesh  # most scenes do not need it, and it is slow to import
 
-    logging.getLogger("trimesh").setLevel(logging.CRITICAL)  # what it would say comes back as our one line
+    logging.getLogger("trimesh").setLevel(logging.CRITICAL)  # its complaints become our one line
     try:
-        # Without processing: it would drop corners that are no numbers, and weld flat faces into smooth ones.
+        # Without processing: trimesh would drop vertices that are not numbers, and merge vertices of flat faces into
+        # smooth ones.
         scene = trimesh.load_scene(path, process=False)
         placed = [scene.graph[node] for node in scene.graph.nodes_geometry]
         found = [(str(name), scene.geometry[name], np.array(place, float)) for place, name in placed]
@@ -123,7 +127,7 @@ def _geometry(path: Path, mesh: Any, place: np.ndarray) -> Geometry:
 
 
 def _material(mesh: Any, documents: dict[str, Any]) -> Material:
-    """What the file says of the surface, in our terms."""
+    """The material of a part, as the file describes it."""
     visual: Any = getattr(mesh.visual, "material", None)
     kind = type(visual).__name__
     if kind == "SimpleMaterial":
@@ -134,7 +138,7 @@ def _material(mesh: Any, documents: dict[str, Any]) -> Material:
 
 
 def _from_obj(visual: Any) -> Material:
-    """An MTL entry: Kd, Ks, Ns, d, Ni, and illum, which tells mirrors and glass from plain surfaces."""
+    """The material of an MTL entry: Kd, Ks, Ns, d, Ni, and illum, which tells mirrors and glass from plain surfaces."""
     entry = visual.kwargs
     if "kd" not in entry:
         return CLAY
@@ -158,7 +162,7 @@ def _from_obj(visual: Any) -> Material:
 
 
 def _from_gltf(visual: Any, document: dict[str, Any]) -> Material:
-    """A glTF 2.0 material: metal mirrors, KHR_materials_transmission and _ior make glass."""
+    """The material of a glTF 2.0 entry: metals are mirrors, KHR_materials_transmission and _ior make glass."""
     base = np.array(visual.baseColorFactor if visual.baseColorFactor is not None else (255, 255, 255, 255), float)
     base = base / 255.0 if base.max() > 1.0 else base
     metal = float(visual.metallicFactor) if visual.metallicFactor is not None else 0.0
@@ -201,7 +205,7 @@ def _index(ior: float) -> float:
 
 
 def _check_glb(path: Path) -> dict[str, Any]:
-    """The JSON part of a GLB file, its counts held against the file's size (glTF 2.0, 4.4)."""
+    """The JSON part of a GLB file. Checks its counts against the file's size (glTF 2.0, 4.4)."""
     size = path.stat().st_size
     with path.open("rb") as file:
         header = file.read(20)
@@ -216,7 +220,7 @@ def _check_glb(path: Path) -> dict[str, Any]:
     except (ValueError, AttributeError, TypeError, RecursionError):
         raise MeshError(f"mesh {path.name} cannot be read as GLB: its JSON part is damaged") from None
     for k, count in enumerate(counts):
-        # Every element takes at least a byte of the file, save where an accessor leaves its data out.
+        # Every element takes at least a byte of the file, unless an accessor leaves its data out.
         if not 0 <= count <= size or ("bufferView" not in accessors[k] and count > MOST_FACES // 100):
             raise MeshError(
                 f"mesh {path.name}: accessor {k} must have no more elements than the file holds, got {count}"
@@ -225,7 +229,7 @@ def _check_glb(path: Path) -> dict[str, Any]:
 
 
 def _check_ply(path: Path) -> int:
-    """How many faces the head of a PLY file promises, its counts held against the file's size."""
+    """The number of faces in the header of a PLY file. Checks its counts against the file's size."""
     promised = 0
     size = path.stat().st_size
     with path.open("rb") as file:

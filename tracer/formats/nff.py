@@ -1,16 +1,16 @@
 """Eric Haines' Neutral File Format, in which ray tracers have been compared since 1987.
 
-E. Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987, and the text NFF.TXT beside his
-Standard Procedural Databases. A file is a row of entities, each a letter and its numbers; line ends count for nothing
-but where a comment ends:
+E. Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987, and the text NFF.TXT of his
+Standard Procedural Databases. A file is a sequence of entities, each a letter and its numbers. Line ends only end
+comments:
 
     v   from, at, up, angle, hither, resolution        f   r g b Kd Ks shine T ior, of all objects that follow
     b   r g b of the background                        s   centre, radius
     l   position [r g b]                               p   count, corners;  pp  the same, each corner with its normal
     c   base, its radius, apex, its radius: the side of a cone or a cylinder
 
-Ks is both the highlight and the mirror. Runs of triangles and patches of one material become one mesh each. Surfaces
-are seen from both sides, also those of negative radius, which the format means to be seen from inside.
+Ks is both the highlight and the mirror. Consecutive triangles and patches of one material become one mesh. Surfaces
+are seen from both sides, also those with a negative radius, which the format means to be seen from inside.
 """
 
 import math
@@ -39,7 +39,7 @@ ENTITIES = {
 }  # fmt: skip
 VIEW = {"from": 3, "at": 3, "up": 3, "angle": 1, "hither": 1, "resolution": 2}
 
-# What materials and cameras call by other names than the format.
+# The names of fields in the format.
 FORMAT_NAMES: dict[type, dict[str, str]] = {
     Camera: {"position": '"from"', "look_at": '"at"'},
     Material: {
@@ -47,13 +47,13 @@ FORMAT_NAMES: dict[type, dict[str, str]] = {
     },
 }  # fmt: skip
 
-BENT = 1e-3  # of its size: a polygon whose printed corners lie no farther off its plane is meant to be flat
+BENT = 1e-3  # of a polygon's size: if its printed corners are off its plane by no more, it is meant to be flat
 MOST_CORNERS = 10**6
 
 
 @dataclass
 class Patches:
-    """A run of triangles of one material: their corners, and normals where they have any."""
+    """Consecutive triangles of one material: their corners, and their normals if they have any."""
 
     material: Material
     smooth: bool
@@ -61,7 +61,7 @@ class Patches:
     normals: list[Any]
 
     def mesh(self) -> Mesh | None:
-        """None where nothing can be seen of it: generators leave slivers where a patch runs to a point."""
+        """The mesh; None if it has no area: generators leave slivers where a patch runs to a point."""
         corners = np.array(self.corners).reshape(-1, 3)
         normals = np.array(self.normals).reshape(-1, 3) if self.smooth else None
         faces = np.arange(len(corners)).reshape(-1, 3)
@@ -72,7 +72,7 @@ class Patches:
 
 
 def read_nff(path: Path, progress: Callable[[float], None]) -> Scene:
-    """The scene in a file. SceneError lists every fault; OSError where the file cannot be read."""
+    """Read a file. Raises SceneError with every fault, and OSError if it cannot be read."""
     try:
         text = path.read_bytes().decode("utf-8")
     except UnicodeDecodeError as error:
@@ -81,7 +81,7 @@ def read_nff(path: Path, progress: Callable[[float], None]) -> Scene:
 
 
 class Reader:
-    """Reads entity after entity; after a fault it goes on at the next one, so that all faults are found at once."""
+    """Reads one entity after another. After a fault it goes on with the next, so that all faults are found at once."""
 
     def __init__(self, path: Path, words: Words) -> None:
         self.path = path
@@ -159,7 +159,7 @@ class Reader:
         angle = found["angle"][0]
         if not 0.0 < angle < 180.0:
             raise Fault(f"angle must be > 0 and < 180, got {angle:g}", lines["angle"])
-        # From the middle of the top row of pixels to that of the bottom one; ours goes from edge to edge.
+        # The angle is from the middle of the top row of pixels to that of the bottom row. Ours is from edge to edge.
         edge = math.tan(0.5 * math.radians(angle)) * height / max(1.0, height - 1.0)
         eye, middle, up = (as_floats(found[name]) for name in ("from", "at", "up"))
         self.camera = self._checked(Camera(eye, middle, up, 2.0 * math.degrees(math.atan(edge))), "v", lines["at"])
@@ -174,7 +174,7 @@ class Reader:
         color = self.words.vector("r g b of f")
         names = ("Kd", "Ks", "shine", "T", "ior")
         diffuse, mirror, shine, transmit, ior = (self.words.number(f"{name} of f") for name in names)
-        # Files write 0 for what has no meaning: the power of a highlight that is none, the index of what is opaque.
+        # Files have 0 for values without a meaning: the power of no highlight, the index of an opaque material.
         material = Material(
             color=color,
             diffuse=diffuse,
@@ -200,13 +200,13 @@ class Reader:
             raise Fault("a normal of a patch must not be 0 0 0")
         if len(points) == 3 or smooth:
             if any(abs(value) > fields.LARGEST for point in points for value in point):
-                self._checked(Polygon(tuple(points)), "polygon")  # says so
+                self._checked(Polygon(tuple(points)), "polygon")  # reports the fault
             self._patch(points, normals)
         elif unit_normal(np.array(points)).any():  # slivers are left out, as in a run of triangles
             self._add(Polygon(tuple(flattened(points))), "polygon")
 
     def _patch(self, points: list[Vector], normals: list[Vector]) -> None:
-        """As triangles about the first corner, in the same mesh as those before where the material is the same."""
+        """Add a patch as triangles around its first corner, to the mesh in progress if the material is the same."""
         material = self._filled()
         smooth = bool(normals)
         if self.run is None or self.run.material != material or self.run.smooth != smooth:
@@ -232,7 +232,7 @@ class Reader:
         return self.material
 
     def _lights(self) -> Iterator[Light]:
-        """Without a colour of its own a light is as bright as keeps the scene's brightness for any number of them."""
+        """Add the lights. Those without a colour share a fixed total brightness, whatever their number."""
         share = 1.0 / math.sqrt(max(1, len(self.lights)))
         for position, color in self.lights:
             yield Light(position=position, color=color or (share, share, share))
@@ -249,7 +249,7 @@ class Reader:
 
 
 def flattened(points: list[Vector]) -> list[Vector]:
-    """Corners that were printed with few digits, put into their plane; those that are bent on purpose as they are."""
+    """The corners of a polygon, moved into its plane if they are off it only because few digits were printed."""
     corners = np.array(points)
     middle = corners.mean(axis=0)
     normal = unit_normal(corners)

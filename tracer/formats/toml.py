@@ -1,4 +1,4 @@
-"""Scene files, format 1: TOML into a Scene, with every fault of the file found in one go.
+"""Scene files, format 1: reads TOML into a Scene, and reports every fault of the file at once.
 
 A fault is one line: `scene.toml: object[2] "ball": radius must be > 0, got -1`. Tables are counted from 0.
 """
@@ -21,12 +21,12 @@ FORMAT = 1
 TABLES = ("camera", "image", "background", "tracing")
 LISTS = ("light", "material", "object")
 KEYS = ("format", "title", *TABLES, *LISTS)
-OWN_KEYS = ("name", "priority", "thin")  # of an object, whatever its shape
+OWN_KEYS = ("name", "priority", "thin")  # keys of an object of any shape
 OBJECT_KEYS = ("shape", "material", *OWN_KEYS)
 
 
 def read_scene(path: Path, progress: Callable[[float], None]) -> Scene:
-    """The scene in a file. SceneError lists every fault; OSError where the file cannot be read."""
+    """Read a file. Raises SceneError with every fault, and OSError if it cannot be read."""
     try:
         document = tomllib.loads(path.read_bytes().decode("utf-8"))
     except UnicodeDecodeError as error:
@@ -37,7 +37,7 @@ def read_scene(path: Path, progress: Callable[[float], None]) -> Scene:
 
 
 class Reader:
-    """Reads one document and collects what is wrong with it."""
+    """Reads one document, and collects its faults."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -63,7 +63,7 @@ class Reader:
         objects: list[Object] = []
         tables = list(self.tables(document, "object"))
         for k, item in enumerate(tables):
-            progress(k / len(tables))  # each may name a mesh
+            progress(k / len(tables))  # each may name a mesh file
             objects += self._object(*item, materials)
         if not document.get("object"):
             self.fault("", "a scene needs at least one [[object]], got none")
@@ -90,7 +90,7 @@ class Reader:
             yield place(key, k, name if isinstance(name, str) else ""), table
 
     def values(self, kind: type, where: str, table: Any, also: tuple[str, ...] = ()) -> dict[str, Any] | None:
-        """The values for a dataclass from one table; None where it has faults. `also`: keys read elsewhere."""
+        """The values of a dataclass from one table; None if there are faults. `also`: keys that are read elsewhere."""
         if not isinstance(table, dict):
             self.fault(where, f"must be a table, got {fields.shown(table)}")
             return None
@@ -100,7 +100,7 @@ class Reader:
         return None if found else values
 
     def table(self, kind: type[T], where: str, table: Any, also: tuple[str, ...] = (), **more: Any) -> T | None:
-        """One dataclass from one table; `more`: its values that come from elsewhere."""
+        """A dataclass from one table. `more`: values from elsewhere."""
         values = self.values(kind, where, table, also)
         if values is None:
             return None
@@ -110,7 +110,7 @@ class Reader:
         return None if found else made
 
     def _materials(self, document: dict[str, Any]) -> dict[str, Material | None]:
-        """By name; None for one with faults, so that objects which use it are not blamed as well."""
+        """Materials by name; None for one with faults, so that objects that use it are not blamed as well."""
         materials: dict[str, Material | None] = {}
         for where, table in self.tables(document, "material"):
             checker = None
@@ -128,7 +128,7 @@ class Reader:
         return materials
 
     def _object(self, where: str, table: Any, materials: dict[str, Material | None]) -> list[Object]:
-        """One object, or one for each material of its mesh file; none where it has faults."""
+        """One object, or one for each material of its mesh file; none if there are faults."""
         if not isinstance(table, dict):
             self.fault(where, f"must be a table, got {fields.shown(table)}")
             return []
@@ -156,7 +156,7 @@ class Reader:
         return materials[name] or Material()
 
     def _shape(self, where: str, table: dict[str, Any]) -> list[tuple[Any, str, Material]]:
-        """(shape, part's name, part's own material) for each object that this table makes."""
+        """(shape, name of the part, material of the part) for each object that this table makes."""
         name = table.get("shape")
         if name is None:
             self.fault(where, f"shape is missing: it must be {fields.one_of(SHAPE_NAMES)}")

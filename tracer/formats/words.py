@@ -1,4 +1,4 @@
-"""A text file word by word: each number is asked for by what it means, so that a fault can say what is missing."""
+"""A text file word by word. Each number is asked for by its meaning, so that a fault can say what is missing."""
 
 import math
 from collections.abc import Container
@@ -13,7 +13,7 @@ class Word(NamedTuple):
 
 
 class Fault(Exception):
-    """What is wrong, without the file; `line` where it is another one than the entity's."""
+    """A fault, without the file. `line` if it is not the entity's own."""
 
     def __init__(self, text: str, line: int | None = None) -> None:
         super().__init__(text)
@@ -21,15 +21,15 @@ class Fault(Exception):
 
 
 class Words:
-    """The words of a text, read from the front; `#` starts a comment that runs to the end of its line.
+    """The words of a text. A comment goes from `#` to the end of its line.
 
-    `names` are the words that begin something: where one stands in a number's place, the number is missing.
+    `names` are the words that begin an entity. If one is found in place of a number, the number is missing.
     """
 
     def __init__(self, text: str, names: Container[str]) -> None:
         self.names = names
         self.texts: list[str] = []
-        self.lines: list[int] = []  # of each
+        self.lines: list[int] = []  # of each word
         for number, line in enumerate(text.splitlines(), 1):
             words = line.partition("#")[0].split()
             self.texts += words
@@ -40,7 +40,7 @@ class Words:
         return self.at < len(self.texts)
 
     def share(self) -> float:
-        """Of the words that have been read."""
+        """The share of the words that have been read."""
         return self.at / len(self.texts)
 
     def take(self) -> Word:
@@ -55,7 +55,7 @@ class Words:
         return self.left() and is_number(self.texts[self.at])
 
     def number(self, what: str) -> float:
-        """The next word as a finite number. Fault for anything else, which is left to be read again."""
+        """Read a finite number. Raises Fault for any other word, which is read again."""
         if not self.left():
             raise Fault(f"{what} must be a number, got the end of the file", self.lines[-1])
         found = self.texts[self.at]
@@ -73,8 +73,8 @@ class Words:
         return (self.number(what), self.number(what), self.number(what))
 
     def skip(self) -> None:
-        """After a fault, on to the next name, or on a later line to any word that is no number."""
-        here = self.lines[self.at - 1]  # of the last word that was read
+        """After a fault, skip to the next name, or to a word on a later line that is not a number."""
+        here = self.lines[self.at - 1]  # the line of the last word that was read
         while self.left() and not self.next_in(self.names):
             if self.lines[self.at] > here and not is_number(self.texts[self.at]):
                 return

@@ -22,7 +22,7 @@ class Place(NamedTuple):
 
 
 def magnify(picture: np.ndarray, place: Place) -> tuple[np.ndarray, int, int] | None:
-    """(pixels, left, top): the part of a picture (height, width, 4) inside the panel, magnified; None if it is empty."""
+    """(pixels, left, top): the part of a picture (height, width, 4) inside the panel, magnified; None if empty."""
     height, width = picture.shape[:2]
     left, top, right, bottom = place.panel
     first = (max(math.ceil(left), round(place.left)), max(math.ceil(top), round(place.top)))

@@ -1,4 +1,4 @@
-"""The scene in 3D with the rays: drag to turn, shift-drag or right-drag to move, wheel to zoom, click to select a ray."""
+"""The scene in 3D with its rays: drag to turn, shift-drag or right-drag to move, wheel to zoom, click to select."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The ray tree as a diagram: the eye at the top, reflected rays to the left, refracted ones right, stubs to the lights."""
+"""The ray tree as a diagram: eye at the top, reflected rays to the left, refracted ones right, stubs to the lights."""
 
 import bisect
 import math

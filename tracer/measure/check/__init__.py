@@ -1,1 +1,1 @@
-"""`raytree check`: cases with exact answers, beside the textbook's formulas."""
+"""`raytree check`: cases with exact answers, compared with the textbook's formulas and with ours."""

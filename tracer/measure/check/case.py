@@ -1,8 +1,8 @@
-"""A case of `raytree check`: a scene with an exact answer, what the textbook formula makes of it, and what we do.
+"""A case of `raytree check`: a scene with an exact answer, the answer of the textbook's formula, and ours.
 
-An error is counted in units of rounding: u = 2^-53 times the answer's size times the case's condition number, which is
-how much more than the answer's own rounding the rounding of what is given may change it. Exact answers are worked out
-with 50 decimal digits or are whole numbers, fractions and words.
+An error is counted in units of rounding: u = 2^-53 times the size of the answer times the case's condition number,
+the factor by which the problem magnifies rounding errors of its input. Exact answers are computed with 50 decimal
+digits, or are whole numbers, fractions and words.
 """
 
 import inspect
@@ -27,32 +27,32 @@ class Reading:
     setting: str  # in a few words or symbols: "D = 1e7"
     exact: Exact
     got: Got
-    unit: float = U  # of the error, in the answer's own unit: u times its size times the condition number
+    unit: float = U  # in the unit of the answer: u times its size times the condition number
     allowed: float = 4.0  # units
-    textbook: Got | None = None  # the textbook's answer; None where it has nothing to say
+    textbook: Got | None = None  # the textbook's answer; None if it has none
 
     @property
     def error(self) -> float:
-        """In units; infinite where the answer is not even of the right kind."""
+        """The error in units; infinite if the answer is not of the right kind."""
         return (
             off(self.got, self.exact) / self.unit if self.unit > 0.0 else (0.0 if self.got == self.exact else math.inf)
         )
 
     @property
     def textbook_error(self) -> float | None:
-        """Absolute, or relative to the exact answer where that is not 0."""
+        """Relative to the exact answer, or absolute if that is 0."""
         if self.textbook is None:
             return None
         return off(self.textbook, self.exact) / self.size
 
     @property
     def gain(self) -> float:
-        """How many times the textbook's error is ours."""
+        """The ratio of the textbook's error to ours."""
         return (self.textbook_error or 0.0) / (off(self.got, self.exact) / self.size + U)
 
     @property
     def size(self) -> float:
-        """What errors are relative to: of the exact answer, 1 for 0 and for words."""
+        """The size of the exact answer, to which errors are relative; 1 for 0 and for words."""
         return (0.0 if isinstance(self.exact, str) else abs(float(self.exact))) or 1.0
 
     @property
@@ -63,9 +63,9 @@ class Reading:
 @dataclass(frozen=True)
 class Case:
     id: str
-    title: str  # what it is, in one line
+    title: str  # in one line
     read: Callable[[], Iterable[Reading]]
-    wrong: str  # what goes wrong in the textbook's way, and why; wrapped when shown
+    wrong: str  # why the textbook's way fails; wrapped when shown
 
 
 Read = Callable[[], Iterable[Reading]]
@@ -83,12 +83,14 @@ class Result:
 
     @property
     def worst(self) -> Reading:
-        """The reading that comes nearest to what is allowed, or goes farthest beyond."""
+        """The reading that is nearest to the allowed error, or farthest beyond it."""
         return max(self.readings, key=lambda reading: reading.error / (reading.allowed or 1.0))
 
     @property
     def telling(self) -> Reading:
-        """The worst where the case falls short; else the one where we do most better than the textbook."""
+        """The reading to be shown: the worst if the case fails, otherwise the one with the largest gain over the
+        textbook.
+        """
         return self.worst if not self.ok else max(self.readings, key=lambda reading: reading.gain)
 
     @property
@@ -102,7 +104,7 @@ def run(case: Case) -> Result:
 
 
 def off(value: Got, exact: Exact) -> float:
-    """How far a number is from the exact answer; for words 0 or infinite."""
+    """The distance of a number from the exact answer; for words 0 or infinite."""
     if isinstance(exact, str) or isinstance(value, str):
         return 0.0 if value == exact else math.inf
     if not math.isfinite(value):
@@ -111,7 +113,7 @@ def off(value: Got, exact: Exact) -> float:
 
 
 def decimal(value: Exact | float) -> Decimal:
-    """A number with 50 digits; of a float all it has."""
+    """A number with 50 digits; of a float, all its digits."""
     if isinstance(value, Fraction):
         return DIGITS.divide(Decimal(value.numerator), Decimal(value.denominator))
     return Decimal(value)
@@ -122,5 +124,5 @@ def root(value: Exact | float) -> Decimal:
 
 
 def exactly(setting: str, exact: Exact, got: Got, textbook: Got | None = None) -> Reading:
-    """A reading with no room for rounding: a word, a number of things, or digits that must be just these."""
+    """A reading that leaves no room for rounding: a word, a count, or a number whose digits must be exact."""
     return Reading(setting, exact, got, 0.0, 0.0, textbook)

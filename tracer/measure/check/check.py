@@ -1,4 +1,4 @@
-"""All cases of `raytree check`, group by group, and how they come out."""
+"""All cases of `raytree check`, and their results."""
 
 import pkgutil
 from collections.abc import Callable, Iterator, Sequence
@@ -10,7 +10,7 @@ from typing import Any
 from tracer.measure.check import cases
 from tracer.measure.check.case import Case, Result, run
 
-# What the cases' letters stand for.
+# The meaning of the first letter of a case's name.
 TOPICS = {
     "A": "spheres",
     "B": "flat faces, meshes and boxes",
@@ -36,7 +36,7 @@ CASES = tuple(sorted(set(all_cases()), key=lambda one: (one.id[0], int(one.id[1:
 
 
 def run_all(cases: Sequence[Case] = CASES, progress: Callable[[float], None] = lambda share: None) -> list[Result]:
-    """Every case's result; `progress` gets the finished share."""
+    """The results of all cases. `progress` is called with the share."""
     results = []
     for case in cases:
         results.append(run(case))
@@ -45,7 +45,7 @@ def run_all(cases: Sequence[Case] = CASES, progress: Callable[[float], None] = l
 
 
 def to_dict(results: Sequence[Result]) -> dict[str, Any]:
-    """As JSON has it: of each case the reading that comes nearest to what is allowed, and all of them below."""
+    """The results for JSON: of each case the worst reading, and below it all readings."""
     return {"cases": [_case(result) for result in results]}
 
 

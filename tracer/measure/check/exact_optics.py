@@ -1,4 +1,4 @@
-"""Optics with 50 digits, of floats taken as they are: what the cases of rays through glass and mirrors are held to."""
+"""Optics with 50 digits, for the exact answers of rays through glass and mirrors. Floats are taken as exact."""
 
 from collections.abc import Iterable, Sequence
 from decimal import Decimal
@@ -40,7 +40,7 @@ def along(p: Sequence[Decimal], d: Sequence[Decimal], t: Number) -> Point:
 
 
 def bend(s1: Number, n1: float, n2: float) -> Bend:
-    """At a sine of incidence below the critical angle's."""
+    """The angles and shares at a sine of incidence, which must be below the critical angle's."""
     s1, a, b = decimal(s1), decimal(n1), decimal(n2)
     c1, s2 = root(1 - s1 * s1), a * s1 / b
     c2 = root(1 - s2 * s2)
@@ -56,7 +56,7 @@ def across(direction: Iterable[Number], axis: int = 1) -> Decimal:
 
 
 def arctan(x: Number) -> Decimal:
-    """Halved until its series is short."""
+    """The arc tangent. The argument is halved until the series is short."""
     x, halvings = decimal(x), 0
     while abs(x) > Decimal("0.01"):
         x, halvings = x / (1 + root(1 + x * x)), halvings + 1
@@ -76,7 +76,7 @@ def pi() -> Decimal:
 
 
 def chord(p: Sequence[Number], d: Sequence[Number]) -> tuple[Point, Point]:
-    """Where a line enters and leaves the unit circle."""
+    """The points at which a line enters and leaves the unit circle."""
     p, d = point(p), unit(d)
     middle, b = dot(p, p), dot(p, d)
     half = root(b * b - middle + 1)
@@ -84,7 +84,9 @@ def chord(p: Sequence[Number], d: Sequence[Number]) -> tuple[Point, Point]:
 
 
 def round_and_round(p: Sequence[Number], d: Sequence[Number], bounces: int) -> Point:
-    """Where a ray inside a mirrored unit circle is after so many bounces: each turns the chord by the same angle."""
+    """The point that a ray inside a mirrored unit circle reaches after some bounces: each turns the chord by the same
+    angle.
+    """
     (ax, ay), (bx, by) = chord(p, d)
     turn = (ax * bx + ay * by, ax * by - ay * bx)
     x, y = bx, by
@@ -96,7 +98,7 @@ def round_and_round(p: Sequence[Number], d: Sequence[Number], bounces: int) -> P
 
 
 def to_and_fro(p: Sequence[Number], d: Sequence[Number], centers: Sequence[Sequence[float]], count: int) -> list[Point]:
-    """The points a ray meets between two mirrored unit balls in turn, the first of them last in `centers`."""
+    """The points that a ray meets alternately on two mirrored unit balls. The first of them is last in `centers`."""
     p, d, points = point(p), unit(d), []
     for k in range(count):
         center = point(centers[(k + 1) % 2])

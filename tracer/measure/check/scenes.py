@@ -1,4 +1,4 @@
-"""Scenes of the cases, in a few words each, and how their rays are asked for."""
+"""The scenes of the cases, and their rays."""
 
 from collections.abc import Sequence
 
@@ -17,7 +17,7 @@ MIRROR = Material("mirror", reflect=1.0)
 
 
 def glass(n: float, name: str = "glass") -> Material:
-    """Clear, and what it reflects is what Fresnel says."""
+    """Clear glass, which reflects what Fresnel's equations say."""
     return Material(name, transmit=1.0, ior=n)
 
 

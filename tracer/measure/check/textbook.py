@@ -1,7 +1,8 @@
-"""The formulas as textbooks have them, to show beside ours what they lose: plain Python, one formula a function.
+"""The formulas as textbooks have them, in plain Python, to show what they lose.
 
-Nothing else uses this file. Each function is the usual way: the quadratic by (-b - sqrt(b^2 - 4ac)) / 2a, refraction by
-1 - eta^2 (1 - c1^2), angles by acos, what is let through as 1 - R, and a smallest distance below which no hit counts.
+Nothing else uses this file. Each function is the usual way: the quadratic by (-b - sqrt(b^2 - 4ac)) / 2a, refraction
+by 1 - eta^2 (1 - c1^2), angles by acos, the refracted share as 1 - R, and a smallest distance below which no hit
+counts.
 """
 
 import math
@@ -28,7 +29,7 @@ def at(origin: Vector, direction: Vector, t: float) -> Vector:
 
 
 def sphere(origin: Vector, direction: Vector, center: Vector, radius: float, tmin: float = TMIN) -> float:
-    """Distance to a sphere; infinite for none."""
+    """The distance to a sphere; inf for none."""
     f = [o - c for o, c in zip(origin, center, strict=True)]
     a, b, c = dot(direction, direction), 2.0 * dot(f, direction), dot(f, f) - radius * radius
     discriminant = b * b - 4.0 * a * c
@@ -41,7 +42,7 @@ def sphere(origin: Vector, direction: Vector, center: Vector, radius: float, tmi
 
 
 def plane(origin: Vector, direction: Vector, point: Vector, normal: Vector, tmin: float = TMIN) -> float:
-    """Distance to a plane; infinite for none."""
+    """The distance to a plane; inf for none."""
     speed = dot(normal, direction)
     if speed == 0.0:
         return math.inf
@@ -50,7 +51,7 @@ def plane(origin: Vector, direction: Vector, point: Vector, normal: Vector, tmin
 
 
 def triangle(origin: Vector, direction: Vector, corners: Sequence[Vector], least: float = 1e-8) -> float:
-    """Distance to a triangle by Moeller and Trumbore, with their threshold for the determinant; infinite for none."""
+    """The distance to a triangle by Moeller and Trumbore, with their threshold for the determinant; inf for none."""
     a, b, c = corners
     e1, e2 = [y - x for x, y in zip(a, b, strict=True)], [y - x for x, y in zip(a, c, strict=True)]
     p = cross(direction, e2)
@@ -76,7 +77,7 @@ def reflect(v: Vector, n: Vector) -> Vector:
 
 
 def refract(v: Vector, n: Vector, n1: float, n2: float) -> Vector | None:
-    """None on total internal reflection."""
+    """The direction of the refracted ray; None on total internal reflection."""
     eta, c1 = n1 / n2, -dot(n, v)
     root = 1.0 - eta * eta * (1.0 - c1 * c1)
     if root < 0.0:
@@ -86,7 +87,7 @@ def refract(v: Vector, n: Vector, n1: float, n2: float) -> Vector | None:
 
 
 def fresnel(c1: float, n1: float, n2: float) -> float:
-    """R, unpolarised; the share let through is then taken as 1 - R."""
+    """R, unpolarised. The refracted share is then taken as 1 - R."""
     root = 1.0 - (n1 / n2) ** 2 * (1.0 - c1 * c1)
     if root < 0.0:
         return 1.0
@@ -101,13 +102,13 @@ def angle(a: Vector, b: Vector) -> float:
 
 
 def offset(point: Vector, normal: Vector, direction: Vector) -> Vector:
-    """A hit moved off its surface, to the side the next ray goes: the other usual way not to meet it again."""
+    """A hit moved off its surface, towards the next ray: the other usual way to avoid hitting it again."""
     side = 1.0 if dot(normal, direction) > 0.0 else -1.0
     return [p + side * TMIN * n for p, n in zip(point, normal, strict=True)]
 
 
 def haines(origin: Vector, direction: Vector, center: Vector, radius: float) -> bool:
-    """Whether a ray of unit direction comes within the radius of the centre: not the quadratic's discriminant."""
+    """Whether a ray of unit direction comes within the radius of the centre: not by the quadratic's discriminant."""
     f = [o - c for o, c in zip(origin, center, strict=True)]
     b = -dot(f, direction)
     beside = at(f, direction, b)
@@ -115,19 +116,19 @@ def haines(origin: Vector, direction: Vector, center: Vector, radius: float) -> 
 
 
 def press(a: float, b: float, c: float) -> tuple[float, float]:
-    """Roots of the quadratic by q = -(b + sign(b) sqrt(b^2 - 4ac)) / 2, as q/a and c/q; 0/0 is NaN, as in C."""
+    """Roots of the quadratic by q = -(b + sign(b) sqrt(b^2 - 4ac)) / 2, as q/a and c/q. 0/0 is NaN, as in C."""
     q = -0.5 * (b + math.copysign(math.sqrt(b * b - 4.0 * a * c), b))
     return (q / a, c / q if q != 0.0 else math.nan)
 
 
 def pole_normal(point: Vector, radius: float) -> Vector:
-    """Of a ball about the origin with longitudes: on its axis, where there is none, x is set to 1e-5 radius."""
+    """The normal of a ball around the origin with longitudes. On the axis, which has none, x is set to 1e-5 radius."""
     x, y, z = point
     return unit((1e-5 * radius if x == 0.0 and y == 0.0 else x, y, z))
 
 
 def slab(origin: Vector, direction: Vector, low: Vector, high: Vector) -> tuple[float, float]:
-    """Distances to where a ray enters and leaves a box, by 1/d: three slabs at once, as array programs write it."""
+    """The distances at which a ray enters and leaves a box, by 1/d: three slabs at once, as array programs write it."""
     with np.errstate(divide="ignore", invalid="ignore"):
         inverse = 1.0 / np.array(direction, float)
         first, second = np.subtract(low, origin) * inverse, np.subtract(high, origin) * inverse
@@ -137,7 +138,7 @@ def slab(origin: Vector, direction: Vector, low: Vector, high: Vector) -> tuple[
 def mirrors(
     origin: Vector, direction: Vector, sides: Sequence[tuple[Vector, Vector]], bounces: int
 ) -> tuple[Vector, Vector]:
-    """The last hit of a ray between plane mirrors (point, normal), and the direction from there."""
+    """The last hit of a ray between plane mirrors (point, normal), and the direction after it."""
     hit = origin
     for _ in range(bounces):
         t, n, hit = min((t := plane(origin, direction, p, n), n, at(origin, direction, min(t, 1e99))) for p, n in sides)
@@ -147,7 +148,7 @@ def mirrors(
 
 
 def inside_ball(origin: Vector, direction: Vector, bounces: int, axis: int = -1) -> Vector:
-    """The hit after so many bounces inside a mirrored unit ball about 0; with an axis, inside the tube along it."""
+    """The hit after some bounces inside a mirrored unit ball around 0; with an axis, inside the tube along it."""
     hit = origin
     for _ in range(bounces + 1):
         flat_origin, flat = ([0.0 if i == axis else x for i, x in enumerate(a)] for a in (origin, direction))
@@ -177,7 +178,7 @@ def to_and_fro(origin: Vector, direction: Vector, centers: Sequence[Vector], cou
 
 
 def drop(origin: Vector, direction: Vector, n: float, inner: int, radius: float = 1.0) -> tuple[Vector, Vector]:
-    """The last hit and the direction out of a ball about 0 after some inner reflections."""
+    """The last hit in a ball around 0 after some inner reflections, and the direction out."""
     hit = origin
     for k in range(inner + 2):
         t = sphere(origin, direction, (0.0, 0.0, 0.0), radius)
@@ -196,7 +197,7 @@ def drop(origin: Vector, direction: Vector, n: float, inner: int, radius: float 
 
 
 def layers(origin: Vector, direction: Vector, faces: Sequence[tuple[float, float]]) -> tuple[list[Vector], Vector]:
-    """Down through level faces (height, index below), from air: the hits and the last direction."""
+    """The hits and the last direction of a ray from air down through horizontal faces (height, index below)."""
     hits, n1, below = [], 1.0, list(faces)
     while below:
         found = [(plane(origin, direction, (0.0, y, 0.0), (0.0, 1.0, 0.0)), y, n2) for y, n2 in below]
@@ -211,7 +212,7 @@ def layers(origin: Vector, direction: Vector, faces: Sequence[tuple[float, float
 
 
 def panes(origin: Vector, direction: Vector, heights: Sequence[float], n: float) -> tuple[int, Vector | None]:
-    """Down through panes of glass that change places with air at each hit: how many hits, and the direction out."""
+    """The number of hits and the direction out of a ray through panes of glass, which alternate with air."""
     inside, hits = False, 0
     while True:
         t = min(plane(origin, direction, (0.0, y, 0.0), (0.0, 1.0, 0.0)) for y in heights)

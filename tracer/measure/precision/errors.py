@@ -1,8 +1,8 @@
-"""How far an image is from another, in the measures that are usual: none of them tells all.
+"""Measures of the difference between two images. No single one is enough.
 
-RMSE is the root of the mean square, MRSE the mean square relative to the pixel's own size as pbrt's imgtool has it,
-(v - r)^2 / (r + 0.01)^2; the largest difference of any component finds what means hide; FLIP (Andersson et al., Proc.
-ACM Comput. Graph. 3(2), 2020) is the difference that a person sees who flips between the two, from 0 to 1.
+RMSE is the root mean square. MRSE is the mean square relative to the pixel, as in pbrt's imgtool: (v - r)^2 / (r +
+0.01)^2. The largest difference of any component shows what means hide. FLIP (Andersson et al., Proc. ACM Comput.
+Graph. 3(2), 2020), from 0 to 1, is the difference seen by a person who flips between the images.
 """
 
 import math
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-DARK = 0.01  # what pbrt adds to the reference, lest the darkest pixels count for everything
+DARK = 0.01  # pbrt adds this to the reference, so that the darkest pixels do not dominate
 MEASURES = {
     "rmse": "root mean square error",
     "mrse": "mean relative square error",
@@ -21,7 +21,7 @@ MEASURES = {
 
 @dataclass(frozen=True)
 class Errors:
-    """Of one image; `flip` is NaN where its library is not installed."""
+    """The errors of one image. `flip` is NaN if its library is not installed."""
 
     rmse: float
     mrse: float
@@ -33,7 +33,7 @@ NOTHING = Errors(0.0, 0.0, 0.0, 0.0)
 
 
 def errors(pixels: np.ndarray, reference: np.ndarray) -> Errors:
-    """Of linear pixels (height, width, 3) against others of the same size."""
+    """The errors of linear pixels (height, width, 3) against a reference of the same size."""
     off = pixels - reference
     return Errors(
         rmse(pixels, reference),
@@ -48,7 +48,7 @@ def rmse(pixels: np.ndarray, reference: np.ndarray) -> float:
 
 
 def flip(shown: np.ndarray, reference: np.ndarray) -> float:
-    """The mean over pixels in sRGB, 0..1 (height, width, 3), seen from the library's usual distance."""
+    """The mean FLIP of sRGB pixels in 0..1 (height, width, 3), at the library's default distance."""
     try:
         import flip_evaluator  # pyright: ignore[reportMissingImports]
     except ImportError:
@@ -60,6 +60,6 @@ def flip(shown: np.ndarray, reference: np.ndarray) -> float:
 
 
 def encoded(linear: np.ndarray) -> np.ndarray:
-    """What a screen is sent, 0..1 (IEC 61966-2-1), but not rounded."""
+    """sRGB in 0..1 (IEC 61966-2-1), not rounded to 8 bits."""
     clipped = np.clip(linear, 0.0, 1.0)
     return np.where(clipped <= 0.0031308, 12.92 * clipped, 1.055 * clipped ** (1.0 / 2.4) - 0.055)

@@ -1,8 +1,8 @@
-"""Work and precision: what an image costs at each setting of a method, and how far it is from the truth.
+"""Work-precision diagrams: the cost and the error of an image at each setting of a method.
 
-The protocol is that of SciML's work-precision diagrams: a curve a method, a marker a setting, both axes logarithmic,
-lower left is better. Time is the least of several runs once everything is warm, for others only add to it; what is an
-error is worked out when the clock has stopped. What fails is listed, not dropped.
+The protocol is SciML's: one curve per method, one marker per setting, logarithmic axes; lower left is better. The
+time is the least of several warm runs, since other load can only add to it. Errors are computed outside the timed
+part. What fails is listed, not dropped.
 """
 
 import math
@@ -18,24 +18,24 @@ from tracer.image.render import Image
 from tracer.measure.check.case import U
 from tracer.measure.precision.errors import Errors, errors
 
-ENOUGH = 0.3  # seconds: a run so long is taken once
-RUNS = 20  # else so many, or as many as there is time for
+ENOUGH = 0.3  # seconds: a run of this length is not repeated
+RUNS = 20  # runs at most, of shorter ones
 
-Maker = Callable[..., Callable[[], Image]]  # from how an image is made to what makes it
+Maker = Callable[..., Callable[[], Image]]  # from the options of `render` to a function that renders
 
 
 @dataclass(frozen=True)
 class Setting:
-    """One marker of a method: how the image is made."""
+    """One marker of a method."""
 
-    label: str  # "depth 2"
-    value: float  # what the method turns: a depth, a number of samples
+    label: str  # for example "depth 2"
+    value: float  # what the method varies: a depth, or a number of samples
     make: Callable[[], Image]
 
 
 @dataclass(frozen=True)
 class Method:
-    """`slope` is what theory has of its error against `value`, as a power; None where it has nothing simple to say."""
+    """A way to make images. `slope` is theory's exponent of the error as a power of `value`; None if there is none."""
 
     name: str
     settings: Sequence[Setting]
@@ -44,7 +44,7 @@ class Method:
 
 @dataclass(frozen=True)
 class Reference:
-    """The image that is taken for the truth: how it was made, and how far a second way of making it is from it."""
+    """The reference image: how it was made, and its distance from an image that was made in another way."""
 
     pixels: np.ndarray
     how: str
@@ -53,10 +53,10 @@ class Reference:
 
 @dataclass(frozen=True)
 class Point:
-    """A setting as it was measured.
+    """A measured setting.
 
-    `bound` is what the program itself says is missing at most, of any component, and what rounding may add. `tests` are
-    of a ray against a surface.
+    `bound` is the program's own bound on the missing light of a component, plus rounding. `tests` are of a ray
+    against a surface.
     """
 
     label: str
@@ -66,20 +66,20 @@ class Point:
     tests: int
     errors: Errors
     bound: float
-    estimate: float  # RMSE as the program itself puts it; NaN: it does not
+    estimate: float  # the program's own estimate of the RMSE; NaN: it has none
 
 
 @dataclass(frozen=True)
 class Curve:
     method: str
     points: tuple[Point, ...]
-    slope: float | None  # theory's
-    fitted: float | None  # measured: of RMSE against value, where the reference is still far better
+    slope: float | None  # of theory
+    fitted: float | None  # measured: of RMSE against value, over the markers with an error well above the reference's
 
 
 @dataclass(frozen=True)
 class Source:
-    """One source of error by itself, or several together."""
+    """One source of error, or several together."""
 
     name: str
     title: str
@@ -99,7 +99,7 @@ class Source:
 def cuts(
     made: Maker, depths: Sequence[int], weights: Sequence[float], sums: Sequence[float], deep: int, **of_sums: Any
 ) -> Sequence[Method]:
-    """The three ways to cut a tree. Where it is a weight that cuts, no depth does before `deep`."""
+    """The three ways to cut a tree. Weights are tried with the depth `deep`, which cuts nothing."""
     return (
         Method("cut at a depth", [Setting(f"depth {d}", d, made(depth=d)) for d in depths]),
         Method("cut at a ray's weight", [Setting(f"weight {w:g}", w, made(depth=deep, min_weight=w)) for w in weights]),
@@ -108,7 +108,7 @@ def cuts(
 
 
 def counted(total: int, progress: Callable[[float], None]) -> Callable[[], None]:
-    """A step of so many, which tells `progress` the share done."""
+    """A function to be called after each of `total` steps, which calls `progress` with the share."""
     done = count(1)
     return lambda: progress(next(done) / total)
 
@@ -116,13 +116,13 @@ def counted(total: int, progress: Callable[[float], None]) -> Callable[[], None]
 def all_measured(
     methods: Sequence[Method], reference: Reference, done: Callable[[], None]
 ) -> tuple[tuple[Curve, ...], tuple[str, ...]]:
-    """Every method's curve, and what failed of them."""
+    """All methods' curves, and the failures."""
     pairs = [measured(method, reference, done) for method in methods]
     return tuple(curve for curve, _ in pairs), tuple(line for _, lines in pairs for line in lines)
 
 
 def measured(method: Method, reference: Reference, done: Callable[[], None]) -> tuple[Curve, list[str]]:
-    """The method's curve, and what failed of it. `done` is told of every setting."""
+    """A method's curve, and its failures. Calls `done` after each setting."""
     points, failures = [], []
     for setting in method.settings:
         try:
@@ -141,7 +141,7 @@ def measured(method: Method, reference: Reference, done: Callable[[], None]) -> 
 
 def repeated(make: Callable[[], Image]) -> tuple[Image, float]:
     """An image, and the least seconds that it took."""
-    make()  # warm
+    make()  # warms up
     least, spent, image = math.inf, 0.0, None
     for _ in range(RUNS):
         began = time.perf_counter()
@@ -163,13 +163,13 @@ def point_of(label: str, value: float, image: Image, least: float, reference: np
 
 
 def rounding(image: Image, rays: int) -> float:
-    """What rounding may add to a pixel at most, roughly: some units for every ray of its trees."""
+    """A rough bound on the rounding errors of a pixel: some units for every ray of its trees."""
     width, height = image.size
     return 4.0 * U * float(np.abs(image.pixels).max()) * rays / (width * height)
 
 
 def fitted(points: Sequence[Point], reference: Reference) -> float | None:
-    """The power of `value` that RMSE falls with; of points whose error the reference's own does not blur."""
+    """The fitted exponent of RMSE against `value`, over the points with an error well above the reference's."""
     clear = [p for p in points if p.errors.rmse > 4.0 * reference.own.rmse and p.value > 1.0]
     if len(clear) < 3:
         return None

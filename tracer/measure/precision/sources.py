@@ -1,8 +1,8 @@
-"""Where an image's error comes from, one source by itself at a time: trees that are cut, pixels that are sampled.
+"""The sources of an image's error, one at a time: cut trees, sampled pixels, the kernel's formulas.
 
-A tree cut at a depth, at the weight of a ray, or when what is left weighs too little in sum, is judged at the pixels'
-centres against trees followed to almost nothing. Samples are judged at the scene's own depth, against an image of very
-many of another sampler. Together: both, each setting finer in both.
+A tree that is cut at a depth, at a ray's weight, or at a sum of weights, is compared at pixel centres with a tree
+that is followed to almost nothing. Samples are compared, at the scene's own depth, with an image of very many
+samples of another sampler. Both together: each setting is finer in both.
 """
 
 import math
@@ -30,29 +30,29 @@ from tracer.measure.precision.precision import (
 from tracer.measure.precision.textbook_kernel import KINDS, images
 from tracer.scene import Scene
 
-PATIENCE = 6.0  # seconds that an image taken for true may take
-PROBE = 12  # pixels across, of the image that tells how long others take
-DEEP = 1000  # levels: where it is a weight that cuts, no depth does
-TRUE = 1e-9  # of the weight, that the trees taken for true lack at most
-FAINT = 1e-4  # the same of a ray, where samples blur what is lost by more
-MOST_NODES = 20_000  # rays of them, where weights hardly fall
+PATIENCE = 6.0  # seconds that a reference image may take
+PROBE = 12  # pixels across, of the image that is timed first
+DEEP = 1000  # levels: no tree that is cut by weight gets there
+TRUE = 1e-9  # of the weight: the largest that trees of a reference lack
+FAINT = 1e-4  # of a ray's weight: the same for references with samples, which blur what is lost
+MOST_NODES = 20_000  # rays of a reference's tree, where weights hardly fall
 
 Size = tuple[int, int]
 Progress = Callable[[float], None]
-How = Mapping[str, Any]  # what `render` is asked, but for the world and the size
+How = Mapping[str, Any]  # options of `render`
 
 
 @dataclass(frozen=True)
 class Effort:
-    """How far settings go."""
+    """The range of settings."""
 
     depths: Sequence[int]
     weights: Sequence[float]
     tolerances: Sequence[float]
     samples: Sequence[int]
-    true_samples: int  # a square
-    errors: Sequence[float]  # to be reached by samples where the error is
-    kernels: bool = False  # whether others are compiled: the first time that takes a minute
+    true_samples: int  # of the reference; a square
+    errors: Sequence[float]  # goals of adaptive sampling
+    kernels: bool = False  # whether other kernels are compiled, which takes a minute the first time
 
 
 FULL = Effort(tuple(range(9)), tuple(10.0**-k for k in range(1, 7)), tuple(10.0**-k for k in range(1, 7)),
@@ -63,7 +63,7 @@ QUICK = Effort(
 
 
 def left_out(scene: Scene, effort: Effort) -> list[str]:
-    """Sources of error that this scene has not, and those that the tracer has not, with the reason."""
+    """Sources of error that this scene does not have, and those that the tracer does not have, with reasons."""
     found = ["soft lights, glossy mirrors, lens: every light is a point, every mirror is smooth, the eye is a pinhole"]
     found.append("wavelengths: every index is one number")
     if not effort.kernels:
@@ -78,7 +78,7 @@ def _branches(scene: Scene) -> bool:
 
 
 def affordable(world: World, size: Size, how: How) -> Size:
-    """This size, or a smaller one of that shape, so that such an image takes no longer than PATIENCE."""
+    """This size, or a smaller one of the same proportions with which a reference takes no longer than PATIENCE."""
     probe = (min(size[0], PROBE), max(1, min(size[0], PROBE) * size[1] // size[0]))
     began = time.perf_counter()
     render(world, probe, **how)
@@ -89,19 +89,19 @@ def affordable(world: World, size: Size, how: How) -> Size:
 
 @dataclass(frozen=True)
 class Study:
-    """How a source of error is measured: against what, and the settings of each method."""
+    """How a source of error is measured: its reference, and the settings of each method."""
 
     name: str
     title: str
     about: str
-    true: How  # of the image that is taken for the truth
-    second: How  # another way to make it
-    said: Callable[[Image], str]  # what is said of the two
-    methods: Callable[[Maker], Sequence[Method]]  # of how images are made
-    bounded: bool = False  # whether what the program says is missing bounds this error
+    true: How  # of the reference
+    second: How  # of an image made in another way
+    said: Callable[[Image], str]  # describes the two
+    methods: Callable[[Maker], Sequence[Method]]  # from a function that makes images
+    bounded: bool = False  # whether the program's own bound is one on this error
 
     def run(self, world: World, size: Size, step: Callable[[], None]) -> Source:
-        """`step` is told of every image that is taken for true and of every setting."""
+        """Measure the source. Calls `step` for every reference and every setting."""
         true = render(world, size, **self.true)
         step()
         second = render(world, size, **self.second)
@@ -121,9 +121,9 @@ def _maker(world: World, size: Size) -> Maker:
 def sources(
     world: World, size: Size, effort: Effort, progress: Progress = lambda share: None, smaller: bool = False
 ) -> list[Source]:
-    """Every source of error that this scene has, measured on images of that size; `progress` gets the share done.
+    """Measure every source of error of this scene on images of this size. `progress` is called with the share.
 
-    `smaller`: where what is taken for true would take too long, images are smaller.
+    `smaller`: images may be smaller if a reference would take too long.
     """
     kinds = [trees_cut, pixels_sampled, both_together] if _branches(world.scene) else [pixels_sampled]
     studies = [kind(effort) for kind in kinds]
@@ -134,7 +134,7 @@ def sources(
 
 
 def kernels(world: World, size: Size, step: Callable[[], None]) -> Source:
-    """The textbook's formulas in double and in single precision, depth by depth, each judged by this kernel's image."""
+    """The textbook's formulas in double and in single precision, depth by depth, compared with our kernel's image."""
     depths = range(max(world.scene.tracing.depth, 3) + 1)
     ours = [render(world, size, depth=depth).pixels for depth in depths]
     curves, own = [], NOTHING

@@ -1,8 +1,8 @@
-"""Stiff trees whose answer is known: what a cut at a depth, at a ray's weight, at a sum of weights makes of them.
+"""Stiff trees with known answers: the error of cutting them at a depth, at a ray's weight, or at a sum of weights.
 
-Each is one ray, traced for every pixel of a small image so that it can be timed; its exact radiance is a closed form.
-Piles of plates: Stokes, Proc. R. Soc. 11, 1862. The slab: an Airy sum without interference. The drop: Descartes' rays
-of all orders. The corridor and the shell are geometric series.
+Each is one ray, traced for every pixel of a small image so that it can be timed. Its exact radiance is a closed
+form. Piles of plates: Stokes, Proc. R. Soc. 11, 1862. The slab: an Airy sum without interference. The drop:
+Descartes' rays of all orders. The corridor and the shell are geometric series.
 """
 
 import math
@@ -26,12 +26,12 @@ from tracer.scene import Camera, Material, Object
 from tracer.shapes.polygon import Polygon
 from tracer.tree.trace import trace
 
-SIZE = (16, 16)  # so many times the one ray
-ANGLE = 1e-15  # degrees, of the whole image: all pixels have the same direction but for its last bit
+SIZE = (16, 16)  # pixels, which all trace the one ray
+ANGLE = 1e-15  # degrees, of the whole image: all pixels have the same direction but for the last bit
 ANY_DEPTH = 10_000
 MOST = 100_000  # rays of a tree, where its weights hardly fall
-KEPT = 0.9  # of the light that the shell throws back
-MIRRORED = 0.99  # of the corridor's
+KEPT = 0.9  # of the light, that the shell reflects
+MIRRORED = 0.99  # of the light, that the corridor's mirrors reflect
 BOUNCES = 40
 
 
@@ -50,13 +50,13 @@ class Problem:
 
 
 def aimed(problem: Problem) -> World:
-    """Its scene, with a camera all of whose pixels look along the one ray."""
+    """Its scene, with a camera whose pixels all look along the one ray."""
     camera = Camera(problem.eye, add(problem.eye, problem.way), (0.0, 0.3, 1.0), ANGLE)
     return prepare(replace(problem.make().scene, camera=camera))
 
 
 def solved(problem: Problem, step: Callable[[], None]) -> Source:
-    """How far each way to cut is from the exact answer; `step` is told of every setting."""
+    """The error of each way to cut the tree. Calls `step` after every setting."""
     stage = aimed(problem)
     exact = problem.exact(stage)
     reference = Reference(np.full((SIZE[1], SIZE[0], 3), exact), f"closed form: {exact:.15g}", NOTHING)
@@ -71,7 +71,7 @@ def steps(problem: Problem) -> int:
 
 
 def slab_lets_through(stage: World) -> float:
-    """(1 - R) / (1 + R), where R is of the ray as it is recorded."""
+    """(1 - R) / (1 + R), with the R of the recorded ray."""
     with localcontext(DIGITS):
         r = bent(trace(stage, (0, 0), size=SIZE, depth=0)).r
         return float((1 - r) / (1 + r))
@@ -86,7 +86,7 @@ def shell() -> World:
 
 
 def corridor() -> World:
-    """Two mirrors a unit apart, a quarter long for each bounce, open at the end to a white sky."""
+    """Two mirrors at distance 1, a quarter long for each bounce, open at the end towards a white sky."""
     mirror = Material("mirror", reflect=MIRRORED)
     end = 0.25 * BOUNCES
     walls = [

@@ -31,7 +31,7 @@ EYES = ("top", "left")
 
 @dataclass(frozen=True)
 class Places:
-    """Centres of boxes and of the signs at the ends of stubs, ends of the bars of total internal reflection, the eye."""
+    """Centres of boxes and of signs at ends of stubs, ends of the bars of total internal reflection, the eye."""
 
     at: dict[int, Point]
     bars: dict[int, Point]
