@@ -14,15 +14,15 @@ from tracer.measure.check.case import Case, Result, run
 TOPICS = {
     "A": "spheres",
     "B": "flat faces, meshes and boxes",
-    "C": "where rays start, and how large a scene is",
-    "D": "bending at a surface",
+    "C": "the start of a ray, and the scale of a scene",
+    "D": "refraction at a surface",
     "E": "long chains of bounces",
     "F": "trees that branch without end",
     "G": "geometrical optics",
     "H": "one medium in another",
     "I": "shadows and mirrors",
-    "J": "sameness, and input that is none",
-    "L": "nothing traced that a scene does not need",
+    "J": "what must not change a tree, and invalid input",
+    "L": "rays that a scene does not need",
 }
 
 

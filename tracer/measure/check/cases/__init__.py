@@ -1,1 +1,1 @@
-"""The cases, one file a topic."""
+"""The cases of `raytree check`, one file per topic. A new case: a function with `@case` in one of them."""

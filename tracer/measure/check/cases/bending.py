@@ -17,19 +17,19 @@ DOWN = (0.0, -1.0, 0.0)
 
 
 def into(n: float, sine: float, cosine: float) -> RayTree:
-    """From air into glass; the ray starts at the height of its own cosine, so that it is short at every angle."""
+    """The tree of a ray from air into glass. It starts at the height of its cosine, so it is short at every angle."""
     return path(world(plane((0, 0, 0), UP, glass(n)), model="fresnel"), (0, cosine, 0), (sine, -cosine, 0), 1)
 
 
 def out_of(n: float, sine: float, cosine: float, outside: float = 1.0) -> RayTree:
-    """From glass into air, or into a glass that lies over it."""
+    """The tree of a ray from glass into air, or into another glass above it."""
     above = [plane((0, 0, 0), DOWN, glass(outside))] if outside != 1.0 else []
     stage = world(plane((0, 0, 0), UP, glass(n)), *above, model="fresnel")
     return path(stage, (0, -cosine, 0), (sine, cosine, 0), 1)
 
 
 def bent(tree: RayTree) -> exact_optics.Bend:
-    """What the eye's ray, as it is recorded, does at the plane."""
+    """The exact angles and shares of the recorded eye ray at the plane."""
     row = tree.nodes[0]
     return exact_optics.bend(exact_optics.across(row["direction"].tolist()), float(row["n1"]), float(row["n2"]))
 
@@ -39,22 +39,22 @@ def share(tree: RayTree, row: int) -> float:
 
 
 def usual(tree: RayTree) -> tuple[float, list[float]]:
-    """The textbook's reflected share and direction behind the plane, of the same ray."""
+    """The textbook's reflected share and refracted direction of the same ray."""
     row = tree.nodes[0]
     d, n, n1, n2 = row["direction"].tolist(), row["normal"].tolist(), float(row["n1"]), float(row["n2"])
     return textbook.fresnel(-textbook.dot(n, d), n1, n2), list(textbook.refract(d, n, n1, n2) or (0.0, 0.0, 0.0))
 
 
 def given(n: float) -> float:
-    """How many times more than n itself R = ((n - 1) / (n + 1))^2 is off where n is; at least 1."""
+    """The condition number of R = ((n - 1) / (n + 1))^2 with respect to n; at least 1."""
     return max(1.0, 4.0 * n / ((n - 1.0) * (n + 1.0)))
 
 
 @case("D1", "just below the critical angle: the ray that still leaves, and R")
 def near_critical() -> Iterator[Reading]:
-    """Here the cosine behind the surface is the root of a number close to 0. An angle wrong by u is by nature u /
-    cosine wrong behind the glass, whatever the formula. 1 - eta^2 (1 - c1^2) adds the rounding of c1^2 and of the
-    subtraction to this; (1 - s2)(1 + s2) with the sine from a cross product adds almost nothing.
+    """The cosine behind the surface is the root of a number close to 0. So an angle with error u has the error u /
+    cosine behind the surface, whatever the formula. 1 - eta^2 (1 - c1^2) adds the rounding errors of c1^2 and of the
+    subtraction. (1 - s2)(1 + s2), with the sine from a cross product, adds almost nothing.
     """
     critical = math.asin(1.0 / 1.5)
     for aside in (0.1, 1e-3, 1e-6, 1e-9, 1e-12):
@@ -67,21 +67,21 @@ def near_critical() -> Iterator[Reading]:
 
 @case("D2", "exactly at the critical angle: everything is reflected")
 def at_critical() -> Iterator[Reading]:
-    """Half of all digits are lost here by nature: a sine wrong by 1e-16 makes a cosine wrong by 1e-8. The textbook
-    takes its sine from 1 - c1^2, lands a little below the critical angle and lets 1e-7 of the light pass. What
-    counts is that nothing is NaN and the ray sent on has length 1.
+    """Half of the digits are lost here with any formula: an error of 1e-16 in the sine is one of 1e-8 in the cosine.
+    The textbook takes the sine from 1 - c1^2, gets an angle a little below the critical angle, and lets 1e-7 of the
+    light pass. What counts is that nothing is NaN, and that the next ray has length 1.
     """
     tree = out_of(2.5, 0.6, 0.8, outside=1.5)
-    # A sine u wrong makes a cosine sqrt(2u) wrong: more digits than half nobody has here.
+    # An error u in the sine is one of sqrt(2u) in the cosine: no formula has more than half of the digits.
     yield Reading("R", 1, share(tree, 1), math.sqrt(U), 16.0, usual(tree)[0])
     yield Reading("|r|", 1, float(np.linalg.norm(tree.nodes["direction"][1])), U, 4.0)
 
 
 @case("D3", "the angle of refraction shown to people, near normal incidence")
 def near_normal() -> Iterator[Reading]:
-    """An angle taken as the acos of a dot product has half the digits at most: the cosine of 1e-8 is 1 - 5e-17,
-    which is rounded to 1. So at 1e-4 rad eight digits are right, at 1e-8 none: 0 is shown. atan2 of the length of
-    the cross product and the dot product has all digits at every angle.
+    """An angle computed as acos of a dot product has at most half of the digits: the cosine of 1e-8 is 1 - 5e-17, which
+    is rounded to 1. So at 1e-4 rad eight digits are right, and at 1e-8 none: 0 is shown. atan2 of the length of the
+    cross product and the dot product has all digits at every angle.
     """
     for angle in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10):
         tree = into(1.5, math.sin(angle), math.cos(angle))
@@ -92,10 +92,10 @@ def near_normal() -> Iterator[Reading]:
 
 @case("D4", "nearly equal indices: how far the ray is turned, and R")
 def matched() -> Iterator[Reading]:
-    """The textbook's rs is the difference of n1 c1 and n2 c2, which agree in all but the last digits where the
-    indices nearly match; R is its square. With n = 1 + 1e-9 half of R's digits are gone. Written as (n2 - n1)(n2 +
-    n1) over a sum, the only difference is one that was given. The acos of two nearly equal directions loses the
-    rest: a turn of 1e-9 is shown as 0 or 1e-8.
+    """The textbook's rs is the difference of n1 c1 and n2 c2, which agree in nearly all digits if the indices nearly
+    match, and R is its square. With n = 1 + 1e-9, half of R's digits are gone. In (n2 - n1)(n2 + n1) over a sum, the
+    only difference is one of given numbers. acos of two nearly equal directions loses the rest: a turn of 1e-9 is
+    shown as 0 or 1e-8.
     """
     for k in (3, 6, 9, 12):
         n = 1.0 + 10.0**-k
@@ -110,14 +110,14 @@ def matched() -> Iterator[Reading]:
 
 @case("D5", "grazing incidence: the share that still gets into the glass")
 def grazing() -> Iterator[Reading]:
-    """The textbook says T = 1 - R. At a cosine of 1e-12, R is 1 - 6e-12, and of T only four digits are left; at
-    1e-16 T is half wrong or 0. Each share has a formula of its own without a difference in it; the smaller one has
-    to be computed, the larger one may then be 1 less that.
+    """The textbook says T = 1 - R. At a cosine of 1e-12, R is 1 - 6e-12, and only four digits of T are left. At 1e-16,
+    T is half wrong or 0. Each share has a formula of its own without a difference in it. The smaller one must be
+    computed; the larger one may then be 1 minus that.
     """
     for cosine in (1e-2, 1e-5, 1e-8, 1e-12, 1e-16):
         tree = into(1.5, math.sqrt((1.0 - cosine) * (1.0 + cosine)), cosine)
         d = exact_optics.unit(tree.nodes["direction"][0].tolist())
-        # The sine holds no digits of so small a cosine: T from the cosine itself.
+        # The sine has no digits of such a small cosine: T is computed from the cosine itself.
         c1 = -d[1]
         c2 = exact_optics.root(1 - (1 - c1 * c1) / decimal(1.5) ** 2)
         both = 4 * c1 * c2 * decimal(1.5)
@@ -132,10 +132,10 @@ def grazing() -> Iterator[Reading]:
         )
 
 
-@case("D6", "light falling head on: R = ((n - 1) / (n + 1))^2")
+@case("D6", "normal incidence: R = ((n - 1) / (n + 1))^2")
 def head_on() -> Iterator[Reading]:
-    """Nothing much goes wrong here: with c1 = 1 the textbook's terms are exact but for the rounding of the
-    products. The case is here to show that care elsewhere costs nothing where none is needed, even for n = 1e8.
+    """Little goes wrong here: with c1 = 1 the textbook's terms are exact but for the rounding of the products. The case
+    shows that care elsewhere costs nothing where it is not needed, even for n = 1e8.
     """
     for n in (1.5, 1.33, 1.333, 2.42, 1e8):
         tree = into(n, 0.0, 1.0)
@@ -145,8 +145,8 @@ def head_on() -> Iterator[Reading]:
 
 @case("D7", "Brewster's angle: the two rays are perpendicular, R = 25/338")
 def brewster() -> Iterator[Reading]:
-    """rp is zero here as the difference of two equal products; the textbook leaves about 1e-16 of it, which squared
-    is harmless. As a product of (c1 - s2) and (c1 + s2) the factor that vanishes is in plain sight.
+    """rp is 0 here, as the difference of two equal products. The textbook leaves about 1e-16 of it, whose square is
+    harmless. In the product of (c1 - s2) and (c1 + s2) the vanishing factor can be seen.
     """
     tree = into(1.5, 3.0, 2.0)
     exact = Fraction(25, 338)
@@ -159,8 +159,8 @@ def brewster() -> Iterator[Reading]:
 
 @case("D9", "angles in between: R, T and the angle of refraction")
 def spots() -> Iterator[Reading]:
-    """At common angles every formula has nearly all its digits. The few that the textbook loses come from 1 - c1^2,
-    from the differences in rs and rp, and from acos, a few units each.
+    """At common angles every formula has nearly all its digits. The few units that the textbook loses come from 1 -
+    c1^2, from the differences in rs and rp, and from acos.
     """
     for degrees, inside in ((45, False), (10, True), (60, False)):
         a = math.radians(degrees)
@@ -177,8 +177,8 @@ def spots() -> Iterator[Reading]:
 
 @case("D10", "the 3-4-5 triangle: cosine 0.6 into n = 4/3, everything rational")
 def three_four_five() -> Iterator[Reading]:
-    """The answers are fractions: R = 49/1250, the sine behind the surface 3/5, its cosine 4/5. The textbook is off
-    by a few units in the last place; there is no excuse to be off by more.
+    """The answers are fractions: R = 49/1250, the sine behind the surface 3/5, its cosine 4/5. The textbook is wrong by
+    a few units in the last place. A larger error would have no excuse.
     """
     tree = into(4 / 3, 4.0, 3.0)
     r, t = usual(tree)
@@ -192,9 +192,9 @@ def three_four_five() -> Iterator[Reading]:
 
 @case("D11", "in and out of a slab: the direction comes back")
 def slab() -> Iterator[Reading]:
-    """A ray that leaves a slab is parallel to the one that came. Leaving the glass at grazing incidence is like
-    approaching the critical angle from inside: an error u of the direction in the glass grows by 1 / cosine. This
-    is the nature of the thing; at 89.99 degrees that is 6000 fold for every formula.
+    """A ray that leaves a slab is parallel to the one that entered it. Leaving the glass at grazing incidence is like
+    approaching the critical angle from inside: an error u of the direction in the glass grows by 1 / cosine. At
+    89.99 degrees that is a factor of 6000 for every formula.
     """
     stage = world(box((-1e6, -1, -1e6), (1e6, 0, 1e6), glass(1.5)))
     random = np.random.default_rng(5)
@@ -212,9 +212,9 @@ def slab() -> Iterator[Reading]:
 
 @case("D12", "equal indices on both sides: the ray goes straight on, alone")
 def equal_indices() -> Iterator[Reading]:
-    """In the textbook c2 is sqrt(1 - (1 - c1^2)), which is not c1 to the last bit. So at one angle in four or so
-    glass in the same glass sends out a second ray, of weight 1e-33, which then branches again. Equal indices are no
-    surface: one ray, the same bits.
+    """In the textbook, c2 is sqrt(1 - (1 - c1^2)), which is not always c1. So at about one angle in four, glass in
+    equal glass sends out a second ray, of weight 1e-33, which then branches again. Equal indices are no surface: one
+    ray, with the same bits.
     """
     directions = [(math.sin(0.03 * k), -math.cos(0.03 * k), 0.1) for k in range(50)]
     for n in (1.0, 1.5):

@@ -1,4 +1,4 @@
-"""Group E: long chains of reflections, where every bounce starts from the rounding of the one before."""
+"""Group E: long chains of reflections, where each bounce inherits the rounding errors of the one before."""
 
 import math
 from collections.abc import Iterator
@@ -16,15 +16,15 @@ MANY = 2 * 10**6
 
 
 def far_from(points: np.ndarray, row: int, exact: list[Decimal]) -> float:
-    """How far a recorded point is from where it should be."""
+    """The distance of a recorded point from the exact one."""
     return math.hypot(*(float(x - y) for x, y in zip(exact_optics.point(points[row].tolist()), exact, strict=False)))
 
 
 @case("E1", "two mirrors face to face: the height after 100 000 bounces")
 def parallel() -> Iterator[Reading]:
-    """Moving each start 1e-4 off its mirror along the normal shortens every crossing by that much: the ray gains
-    too little height, 1e-4 of a step a bounce, always the same way. After 10 000 bounces it is 1e-3 too low. A
-    start that stays on its mirror has only rounding to lose.
+    """If each start is moved off its mirror by 1e-4 along the normal, each crossing is shorter by that much. The ray
+    gains too little height, 1e-4 of a step per bounce, always in the same direction: after 10 000 bounces it is 1e-3
+    too low. A start that stays on the mirror has only rounding errors.
     """
     walls = (plane((0, 0, 0), (1, 0, 0), MIRROR, "left"), plane((1, 0, 0), (-1, 0, 0), MIRROR, "right"))
     nodes = path(world(*walls), (0.5, 0, 0), (1, 2.0**-10, 0), 100_000, max_nodes=MANY).nodes
@@ -37,11 +37,11 @@ def parallel() -> Iterator[Reading]:
         yield Reading(f"height after {bounces}", exact, got, U * bounces * float(exact), 4.0, usual)
 
 
-@case("E2", "a ray that runs round inside a glass ball, totally reflected")
+@case("E2", "a ray that circles inside a glass ball, totally reflected")
 def gallery() -> Iterator[Reading]:
-    """A start moved inwards by 1e-4 lies on another chord than the ray's. The angle of incidence changes with each
-    bounce, and the error of the place grows with the square of their number: 1e-2 after ten bounces, anywhere on
-    the circle after a thousand.
+    """A start that is moved inwards by 1e-4 lies on another chord. The angle of incidence changes with each bounce, and
+    the error of the position grows with the square of their number: 1e-2 after ten bounces, anywhere on the circle
+    after a thousand.
     """
     start, d = (math.sin(math.radians(50.0)), 0.0, 0.0), (0.0, 1.0, 0.0)
     nodes = path(world(ball((0, 0, 0), 1.0, glass(1.5))), start, d, 100_000, max_nodes=MANY).nodes
@@ -56,8 +56,8 @@ def gallery() -> Iterator[Reading]:
 
 @case("E3", "a light guide: how far along it the ray is after 100 000 reflections")
 def guide() -> Iterator[Reading]:
-    """As between two mirrors: every start moved off the wall by 1e-4 costs 3e-4 of the way, and all these errors
-    have the same sign. After 1000 reflections the point is 0.3 off, after 10 000 it is 3 off.
+    """As between two mirrors, every start that is moved off the wall by 1e-4 costs 3e-4 of the path, and all these
+    errors have the same sign. After 1000 reflections the point is wrong by 0.3, after 10 000 by 3.
     """
     slab = box((-10, -1, -10), (1e6, 1, 10), glass(1.5))
     nodes = path(world(slab, model="fresnel"), (0, 0, 0), (3, 1, 0), 100_000, max_nodes=MANY).nodes
@@ -72,9 +72,9 @@ def guide() -> Iterator[Reading]:
 
 @case("E4", "a skew ray in a mirrored tube")
 def fibre() -> Iterator[Reading]:
-    """The ray winds round the tube by the same angle at each bounce. With starts moved off the wall the angle
-    drifts; the place on the wall is wrong with the square of the number of bounces, the way along the tube with
-    their number.
+    """The ray winds around the tube by the same angle at each bounce. With starts that are moved off the wall, the
+    angle drifts: the error of the position on the wall grows with the square of the number of bounces, that along
+    the tube with their number.
     """
     start = (0.2, 0.4, 0.0)
     tube = Object(Cone((0.0, 0.0, -10.0), 1.0, (0.0, 0.0, 1e6), 1.0), MIRROR, "tube")
@@ -98,8 +98,8 @@ def fibre() -> Iterator[Reading]:
 
 @case("E5", "a corner of three mirrors sends a ray back the way it came")
 def corner() -> Iterator[Reading]:
-    """The direction comes back in the textbook, too. The line does not: each of the three starts is moved off its
-    mirror by 1e-4, so the ray returns beside where it should, by as much.
+    """The textbook's direction is right as well, but its line is not: each of the three starts is moved off its mirror
+    by 1e-4, so the ray returns beside the right line, by as much.
     """
     random = np.random.default_rng(7)
     for what, count in (("along the axes", 1), ("turned at random", 60)):
@@ -110,7 +110,7 @@ def corner() -> Iterator[Reading]:
             stage = world(*(plane((0, 0, 0), axis.tolist(), MIRROR, f"mirror {i}") for i, axis in enumerate(axes)))
             nodes = path(stage, start.tolist(), d.tolist(), 3).nodes
             back = max(back, float(np.abs(nodes["direction"][3] + nodes["direction"][0]).max()))
-            # The line it leaves along is the one it came along, turned about the corner.
+            # The line that it leaves along is the one that it came along, reflected in the corner.
             d0 = nodes["direction"][0]
             beside = max(beside, float(np.linalg.norm(np.cross(nodes["origin"][3] + start, d0))))
             sides = [((0, 0, 0), axis.tolist()) for axis in axes]
@@ -122,9 +122,9 @@ def corner() -> Iterator[Reading]:
 
 @case("E7", "to and fro through the centre of a mirrored ball")
 def concentric() -> Iterator[Reading]:
-    """A ray through the centre meets the ball along its normal and comes back. Here moving the start along the
-    normal does no harm, it stays on the diameter: an error that hides in the simplest test. What is left is
-    rounding, which adds up by one unit a bounce at most.
+    """A ray through the centre meets the ball along its normal and comes back. Moving the start along the normal does
+    no harm, as it stays on the diameter: the simplest test hides this error. Rounding errors are left, at most one
+    unit per bounce.
     """
     nodes = path(world(ball((0, 0, 0), 1.0, MIRROR)), (0, 0, 0), (0.3, -0.5, 0.81), 10_000).nodes
     d = nodes["direction"][0]
@@ -139,9 +139,9 @@ def concentric() -> Iterator[Reading]:
 
 @case("E8", "between two mirrored balls: each bounce multiplies the distance from the axis")
 def unstable() -> Iterator[Reading]:
-    """A ray at 1e-6 beside the axis leaves it as 1, 3, 11, 41, 153, ... times that, 3.7 fold a bounce. Errors grow
-    as fast as the thing itself: a start moved by 1e-4 along the normal is 1e-4 in relation after each bounce, and
-    it never gets better. Rounding alone leaves 15 digits.
+    """A ray at 1e-6 beside the axis leaves it as 1, 3, 11, 41, 153, ... times that, a factor of 3.7 per bounce. Errors
+    grow as fast: a start that is moved by 1e-4 along the normal has a relative error of 1e-4 after each bounce,
+    which stays. Rounding alone leaves 15 digits.
     """
     centers = ((0.0, 0.0, 0.0), (3.0, 0.0, 0.0))
     stage = world(*(ball(center, 1.0, MIRROR, f"ball {i}") for i, center in enumerate(centers)))
@@ -156,11 +156,11 @@ def unstable() -> Iterator[Reading]:
         yield Reading(f"height at bounce {k}", y, got, U * float(y) * (k + 1), 8.0, usual[k][1])
 
 
-@case("E9", "the same off the axes of coordinates: a tracer must say when it knows no more")
+@case("E9", "the same off the coordinate axes: a tracer must say when no digit is left")
 def chaos() -> Iterator[Reading]:
-    """Every bounce multiplies any error by 3.73. Rounding alone, 1e-16, is as large as the balls after 28 bounces:
-    no double precision can go on, and the textbook's formulas are no worse than ours. But a tracer that tells no
-    error draws the rest as if it were true; here the row says that its digits are gone.
+    """Every bounce multiplies any error by 3.73. Rounding alone, 1e-16, has grown to the size of the balls after 28
+    bounces: no double precision can go on, and the textbook's formulas are no worse than ours. But a tracer that
+    tells no error draws the rest as if it were true. Here the row says that its digits are gone.
     """
     centers, growth = ((0.0, 0.0, 0.0), (1.3, 2.1, 1.7)), 3.728458374
     stage = world(*(ball(center, 1.0, MIRROR, f"ball {i}") for i, center in enumerate(centers)))

@@ -1,4 +1,4 @@
-"""Group B: a ray and a flat face: needles, sizes, and rays within a plane."""
+"""Group B: a ray and a flat face: slivers, sizes, and rays inside a plane."""
 
 import math
 import random
@@ -22,7 +22,7 @@ def triangle(corners: Sequence[Sequence[float]]) -> Object:
 
 
 def distance(origin: Sequence[float], direction: Sequence[float], corners: Sequence[Sequence[float]]) -> Decimal:
-    """To the plane of a triangle, with 50 digits: n.(a - o) / n.d with n = (b - a) x (c - a)."""
+    """The distance to the plane of a triangle, with 50 digits: n.(a - o) / n.d with n = (b - a) x (c - a)."""
     a, b, c = (point(as_floats(corner)) for corner in corners)
     o, d = point(origin), point(direction)
     p, q = [y - x for x, y in zip(a, b, strict=True)], [y - x for x, y in zip(a, c, strict=True)]
@@ -39,10 +39,10 @@ def reading(
     return Reading(setting, exact, float(row["t"]), U * float(exact), allowed, textbook.triangle(o, d, corners))
 
 
-@case("B4", "the hit on a plain triangle: t and its place")
+@case("B4", "the hit on an ordinary triangle: t and the point")
 def inside() -> Iterator[Reading]:
-    """Nothing goes wrong here: with sides of length 1 and the eye at distance 1, the textbook is good to the last
-    digits, too. The case is there so that care for the others costs nothing where all is well.
+    """Nothing goes wrong here: with sides of length 1 and the eye at distance 1, the textbook is right to the last
+    digits, too. The case shows that care for the others costs nothing here.
     """
     corners, chance = ((0, 0, 0), (1, 0, 0), (0, 1, 0)), random.Random(2)
     some = []
@@ -60,11 +60,11 @@ def inside() -> Iterator[Reading]:
         yield max((one for one in some if one.setting.endswith(name)), key=lambda one: one.error)
 
 
-@case("B6", "a triangle like a needle, 1e-6 to 1e-100 wide")
+@case("B6", "a sliver of a triangle, 1e-6 to 1e-100 wide")
 def needle() -> Iterator[Reading]:
-    """The usual test throws a triangle away when its determinant is below 1e-8, as if the ray ran along it. But the
-    determinant is twice the area seen by the ray, and a needle of width 1e-12 seen from straight above has just
-    1e-12 of it. The needle is missed. A sign decides without any such limit.
+    """The usual test rejects a triangle if its determinant is below 1e-8, as if the ray were parallel to it. But the
+    determinant is twice the area seen along the ray, and a sliver of width 1e-12 seen from above has an area of just
+    1e-12. So it is missed. A test by signs needs no such limit.
     """
     for width in (1e-6, 1e-12, 1e-100):
         corners = ((0, 0, 0), (1, 0, 0), (0.5, width, 0))
@@ -73,9 +73,9 @@ def needle() -> Iterator[Reading]:
 
 @case("B7", "triangles of any size, legs of 1e-60 to 1e60")
 def sizes() -> Iterator[Reading]:
-    """The determinant is the product of two legs: 1e-12 for legs of 1e-6, 1e-120 for legs of 1e-60, and a limit of
-    1e-8 takes either for a ray along the plane. A scene in metres is there, the same scene in kilometres or as a
-    fine mesh has holes.
+    """The determinant is the product of two legs: 1e-12 for legs of 1e-6, 1e-120 for legs of 1e-60. A limit of 1e-8
+    takes either for a ray parallel to the plane. A scene in metres is there, but in kilometres, or as a fine mesh,
+    it has holes.
     """
     for size in (1e-60, 1e-6, 1.0, 1e8, 1e60):
         corners = ((0, 0, 0), (size, 0, 0), (0, size, 0))
@@ -84,9 +84,9 @@ def sizes() -> Iterator[Reading]:
 
 @case("B8", "a millimetre above a triangle of a thousand kilometres")
 def flat() -> Iterator[Reading]:
-    """The distance comes from corners 1e6 away, and the eye is 1e-6 above: products of size 1e12 are rounded before
-    they cancel. Lying level, the triangle is lucky, as its zeros are exact. Turned, its textbook distance has a few
-    digits only or none at all. In pairs, twice the digits are carried until all has cancelled.
+    """The distance is computed from corners 1e6 away, and the eye is 1e-6 above: products of size 1e12 are rounded
+    before they cancel. A horizontal triangle is lucky, as its zeros are exact. Of a rotated one, the textbook's
+    distance has a few digits or none. Double-double numbers keep twice the digits until all has cancelled.
     """
     turned = [turn(corner) for corner in FLAT]
     for height in (1e-3, 1e-6):
@@ -99,16 +99,18 @@ def flat() -> Iterator[Reading]:
 
 
 def turn(a: Sequence[float]) -> Vector:
-    """About x by acos .6, then about z by acos .8; rounded, so what is exact is taken from the rounded corners."""
+    """A rotation about x by acos .6, then about z by acos .8. It is rounded, so the exact answer uses the rounded
+    corners.
+    """
     x, y, z = a[0], 0.6 * a[1] - 0.8 * a[2], 0.8 * a[1] + 0.6 * a[2]
     return (0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z)
 
 
 @case("B9", "a ray within a plane, and rays that graze it")
 def within() -> Iterator[Reading]:
-    """Within the plane t = 0/0, so the case has to be asked for. The distance is correct at every angle, but o + t
-    d is rounded: the hit may lie 1e-16 beside the plane, on either side, and the next ray then starts under the
-    floor. The hit is put onto the plane instead.
+    """In the plane t is 0/0, so the case must be tested for. The distance is right at every angle, but o + t d is
+    rounded: the hit may be 1e-16 beside the plane, on either side, and the next ray then starts under the floor.
+    Here the hit is moved onto the plane.
     """
     scene = world(plane((0, 0, 0), (0, 1, 0), DARK))
     for aim in ((1, 0, 0), (0.6, 0, -0.8)):
@@ -126,9 +128,9 @@ def within() -> Iterator[Reading]:
 
 @case("B10", "a ray in the face of a box")
 def slabs() -> Iterator[Reading]:
-    """The usual test multiplies by 1/d, infinite where d is 0. A ray that starts in the plane of a face has 0 times
-    infinity there: NaN, which no comparison puts right again, and the box is missed. A direction of 0 never crosses
-    that pair of planes: where the ray starts decides.
+    """The usual test multiplies by 1/d, which is infinite if d is 0. For a ray that starts in the plane of a face that
+    gives 0 times infinity: NaN, which fails every comparison, so the box is missed. A direction of 0 never crosses
+    that pair of planes, so the start decides.
     """
     low, high = (0.0, -1.0, -1.0), (1.0, 1.0, 1.0)
     scene = world(box(low, high, glass(1.0)))

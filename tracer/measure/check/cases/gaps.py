@@ -1,4 +1,4 @@
-"""Group B, meshes: no ray slips between two triangles, and none meets both of them."""
+"""Group B, meshes: no ray passes between two triangles, and none meets both of them."""
 
 import math
 import random
@@ -14,7 +14,7 @@ from tracer.shapes.mesh import Geometry, Mesh
 
 
 def sphere_mesh(rings: int = 16, sectors: int = 32, radius: float = 2.0) -> tuple[np.ndarray, np.ndarray]:
-    """Corners and faces of a closed ball of triangles."""
+    """Vertices and faces of a closed ball of triangles."""
     points = [(0.0, radius, 0.0)]
     for i in range(1, rings):
         for j in range(sectors):
@@ -35,10 +35,10 @@ def sphere_mesh(rings: int = 16, sectors: int = 32, radius: float = 2.0) -> tupl
 
 @case("B1", "no gap in a closed mesh: rays from inside, at corners and edges")
 def closed() -> Iterator[Reading]:
-    """Moeller and Trumbore's test works out u and v of every triangle on its own. On a shared edge each of the two
-    neighbours may round to just outside, -1e-17, and the ray slips through the crack: about one in ten of those
-    aimed at corners and edges. Ours gives a corner the same two numbers whichever triangle asks. Of the textbook's
-    triangles, slow as they are in Python, the first 100 rays alone are asked: that is the *.
+    """Moeller and Trumbore's test computes u and v of every triangle by itself. On a shared edge, each of the two
+    neighbours may be rounded to just outside, -1e-17, and the ray passes through the crack: about one in ten of
+    those aimed at corners and edges. Ours gives a corner the same two numbers for every triangle. The textbook's
+    triangles are slow in Python, so only the first 100 rays are tested: that is the *.
     """
     points, faces = sphere_mesh()
     scene = world(Object(Mesh(Geometry(points, faces)), DARK, "mesh"))
@@ -67,7 +67,7 @@ def closed() -> Iterator[Reading]:
 def textbook_hits(
     origin: Sequence[float], direction: Sequence[float], points: np.ndarray, faces: np.ndarray, face: np.ndarray
 ) -> bool:
-    """Whether any face is hit; those beside the one aimed at are asked first."""
+    """Whether any face is hit. The faces beside the one that is aimed at are tested first."""
     beside = np.isin(faces, face).any(axis=1)
     return any(
         textbook.triangle(origin, direction, points[corners].tolist()) < math.inf
@@ -79,9 +79,9 @@ def textbook_hits(
 @case("B3", "along the diagonals of a cube of 12 triangles")
 def parity() -> Iterator[Reading]:
     # A cube of 12 triangles. Every ray passes through the diagonals of two faces.
-    """A ray that meets the diagonal of a face meets both of its triangles, at the same distance. A program that
-    takes each as a surface of its own counts the face twice: inside and outside are exchanged, glass is entered two
-    times. Surfaces at the same distance to the bit are one interface here.
+    """A ray that meets the diagonal of a face meets both of its triangles, at the same distance. A program that takes
+    each as a surface counts the face twice: inside and outside are exchanged, or glass is entered twice. Here,
+    surfaces at the same distance to the last bit are one interface.
     """
     points = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
     quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))

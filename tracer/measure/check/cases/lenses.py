@@ -1,4 +1,4 @@
-"""Group G: drops, balls, prisms and slabs, traced, against what geometric optics says in closed form."""
+"""Group G: drops, balls, prisms and slabs, compared with the closed forms of geometrical optics."""
 
 import math
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ from tracer.scene import Object
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.tree.raytree import RayTree
 
-# The impact at which k inner reflections turn a ray the least, n = 4/3: root((k + 1)^2 - n^2) / root(k (k + 2)).
+# The impact parameter of least deviation with k inner reflections, n = 4/3: root((k + 1)^2 - n^2) / root(k (k + 2)).
 RAINBOWS = {1: 0.8606629658238704, 2: 0.950146187582615, 3: 0.9737289911202953, 20: 0.9991157706854212}
 
 PRISM = np.array([(x, y, z) for z in (-1.0, 1.0) for x, y in ((-1.0, 0.0), (1.0, 0.0), (0.0, math.sqrt(3.0)))])
@@ -35,20 +35,20 @@ def last_out(tree: RayTree) -> np.void:
 
 
 def crossing(point, direction) -> float:
-    """Where a ray meets the x axis."""
+    """The x at which a ray crosses the x axis."""
     return float(point[0]) - float(point[1]) * (float(direction[0]) / float(direction[1]))
 
 
 def turned(direction) -> float:
-    """Clockwise from the x axis, 0 to 2 pi."""
+    """The angle of a direction clockwise from the x axis, 0 to 2 pi."""
     return -math.atan2(float(direction[1]), float(direction[0])) % (2.0 * math.pi)
 
 
 @case("G1", "the rainbow's angles, by rays traced through a drop")
 def rainbow() -> Iterator[Reading]:
-    """A ray of the rainbow runs through the drop on chords of equal length. Starts moved off the surface by 1e-4
-    change each chord, and with it every later angle: the first bow is off by 1e-7 rad, which no one sees, the third
-    by 6e-6, the one of twenty reflections by 1e-2.
+    """A ray of the rainbow runs through the drop on chords of equal length. Starts that are moved off the surface by
+    1e-4 change each chord, and with it every later angle: the first bow by 1e-7 rad, which nobody sees, the third by
+    6e-6, the one of twenty reflections by 1e-2.
     """
     n, full = 4 / 3, 2 * exact_optics.pi()
     for k, b in RAINBOWS.items():
@@ -64,8 +64,8 @@ def rainbow() -> Iterator[Reading]:
 
 @case("G2", "a ball of n = 2 sends light nearly back: by how much it misses")
 def cat_eye() -> Iterator[Reading]:
-    """The angle to the way back is b^3 / 4, 2.5e-10 at an impact of 1e-3. acos of a dot product cannot tell any
-    angle below 1e-8 from 0. With atan2 the angle is as good as the directions themselves: 1e-16 absolute.
+    """The angle to the way back is b^3 / 4, which is 2.5e-10 at an impact parameter of 1e-3. acos of a dot product
+    cannot tell angles below 1e-8 from 0. With atan2 the angle is as good as the directions: 1e-16 absolute.
     """
     for b in (0.5, 0.1, 1e-2, 1e-3, 1e-4):
         d = last_out(through_drop(b, 2.0, 1))["direction"]
@@ -76,8 +76,8 @@ def cat_eye() -> Iterator[Reading]:
 
 @case("G3", "where a ball lens crosses its axis")
 def ball_lens() -> Iterator[Reading]:
-    """Starting the ray inside the glass 1e-4 off the surface moves it to a neighbouring line; the focus is then
-    wrong in the fourth or fifth digit. No lens designer would take that; nothing but an epsilon is to blame.
+    """A ray inside the glass that starts 1e-4 off the surface runs on a neighbouring line, so the focus is wrong in the
+    fourth or fifth digit. No lens designer would accept that, and only an epsilon is to blame.
     """
     for n, b in ((1.5, 0.8), (1.5, 0.5), (1.5, 0.1), (1.5, 1e-3), (2.0, 0.5)):
         nodes = path(world(ball((0, 0, 0), 1.0, glass(n))), (-2, b, 0), (1, 0, 0), 2).nodes
@@ -92,8 +92,8 @@ def ball_lens() -> Iterator[Reading]:
 
 @case("G6", "a prism of 60 degrees at its least deviation")
 def prism() -> Iterator[Reading]:
-    """The deviation itself is no difficulty for the textbook's formulas at such angles; only its acos costs a few
-    units. The prism is a mesh: the ray must find its faces without a gap.
+    """At such angles the deviation is no difficulty for the textbook's formulas; only its acos costs a few units. The
+    prism is a mesh: the ray must find its faces without a gap.
     """
     for n, name in ((1.5, "1.5"), (math.sqrt(2.0), "root 2")):
         stage = world(Object(Mesh(Geometry(PRISM, np.array(FACES))), glass(n), "prism"))
@@ -110,8 +110,8 @@ def prism() -> Iterator[Reading]:
 
 @case("G7", "how far a slab moves a ray aside: 0.35 in the 3-4-5 case")
 def shift() -> Iterator[Reading]:
-    """A start moved 1e-4 along the normal takes that much of the slab's thickness from the way in the glass: the
-    shift is wrong by a part in ten thousand. The direction is right, so nothing looks wrong.
+    """A start that is moved 1e-4 along the normal takes that much of the slab's thickness from the path in the glass:
+    the shift is wrong by one part in ten thousand. The direction is right, so nothing looks wrong.
     """
     for sine, cosine, n in ((0.8, 0.6, 4 / 3), (math.sqrt(0.75), 0.5, 1.5)):
         slab = box((-1e3, -1, -1e3), (1e3, 0, 1e3), glass(n))
@@ -127,9 +127,9 @@ def shift() -> Iterator[Reading]:
 
 @case("G8", "through hundreds of layers of different glass and out again")
 def many_layers() -> Iterator[Reading]:
-    """Every face moves the start by 1e-4 along the normal, always the same way: with a hundred layers of thickness
-    1 the shift is wrong by a part in ten thousand. Each layer touches the next: two faces at the same place are one
-    interface, and what counts are the indices on its sides.
+    """Every face moves the start by 1e-4 along the normal, always in the same direction: with a hundred layers of
+    thickness 1, the shift is wrong by one part in ten thousand. The layers touch: two faces at the same place are
+    one interface, at which the indices on its two sides count.
     """
     random = np.random.default_rng(11)
     for count in (10, 100, 300):
@@ -154,8 +154,8 @@ def many_layers() -> Iterator[Reading]:
 
 @case("G9", "Snell's window: where a diver sees the sky, and where the pool")
 def window() -> Iterator[Reading]:
-    """The edge is where the radicand changes its sign. Between 1 - eta^2 (1 - c1^2) and (1 - s2)(1 + s2) lie a few
-    units; both decide rightly at 1e-12 from the edge. What matters is that no threshold blurs it.
+    """The edge is where the radicand changes its sign. 1 - eta^2 (1 - c1^2) and (1 - s2)(1 + s2) differ by a few units,
+    and both decide rightly at 1e-12 from the edge. What matters is that no threshold blurs it.
     """
     n = 4 / 3
     water = world(plane((0, 0, 0), (0, 1, 0), glass(n, "water")))
@@ -170,14 +170,14 @@ def window() -> Iterator[Reading]:
     low, high = 1.0, 1.3
     while low < (middle := 0.5 * (low + high)) < high:
         low, high = (middle, high) if leaves(middle) else (low, middle)
-    # A sine u wrong is a tangent u / cosine^3 wrong.
+    # An error u in the sine is one of u / cosine^3 in the tangent.
     yield Reading("radius over depth", exact, low, U * (n * n / (n * n - 1.0)) ** 1.5, 4.0)
 
 
 @case("G11", "apparent depth: three quarters of the real one")
 def apparent_depth() -> Iterator[Reading]:
-    """The way in the water starts 1e-4 below its surface in the textbook's manner, so the ground is met 1e-4 too
-    early: four digits of the ratio are right, at every angle.
+    """In the textbook, the path in the water starts 1e-4 below its surface, so the ground is met 1e-4 too early: four
+    digits of the ratio are right, at every angle.
     """
     water = plane((0, 0, 0), (0, 1, 0), glass(4 / 3, "water"))
     stage = world(water, plane((0, -1, 0), (0, 1, 0), MATTE, "ground"))
@@ -193,8 +193,8 @@ def apparent_depth() -> Iterator[Reading]:
 
 @case("G13", "a concave mirror: where a ray parallel to the axis crosses it")
 def concave() -> Iterator[Reading]:
-    """The reflected ray starts 1e-4 inside the mirror in the textbook's manner, on a parallel line. Its crossing is
-    wrong by some 1e-5 to 1e-4; the true one is 1 / (2 cosine) to the last digits.
+    """In the textbook, the reflected ray starts 1e-4 inside the mirror, on a parallel line. Its crossing is wrong by
+    1e-5 to 1e-4. The exact one is 1 / (2 cosine).
     """
     for h in (0.1, 0.6, 0.8):
         nodes = path(world(ball((0, 0, 0), 1.0, MIRROR)), (0, h, 0), (1, 0, 0), 1).nodes

@@ -1,4 +1,4 @@
-"""Group A, decisions: whether a ray meets a sphere at all, and what it does at its edge and at its pole."""
+"""Group A, decisions: whether a ray meets a sphere, and what happens at its edge and at its pole."""
 
 import math
 import random
@@ -38,11 +38,11 @@ def distant_tangent() -> Iterator[Reading]:
             yield exactly(f"2^-{k} {where} the edge, D = 2^30", exact, met(path(scene, origin, aim)), usual)
 
 
-@case("A4", "hit or miss, a hair inside and outside of the edge")
+@case("A4", "hit or miss, just inside and outside of the edge")
 def decided() -> Iterator[Reading]:
-    """Whether the ray hits is the sign of b^2 - 4ac. Both are 4 |f|^2, and the edge makes a difference of about 8 *
-    2^-k: from 5 away that still has digits, from 2^30 away b^2 is 5e18, where doubles count in steps of 1024. The
-    answer is then the same on either side of the edge.
+    """Whether the ray hits is the sign of b^2 - 4ac. Both terms are 4 |f|^2, and the edge makes a difference of about 8
+    * 2^-k: from 5 away that still has digits, but from 2^30 away b^2 is 5e18, where doubles have steps of 1024. Then
+    the answer is the same on both sides of the edge.
     """
     yield from tangent()
     yield from distant_tangent()
@@ -50,14 +50,14 @@ def decided() -> Iterator[Reading]:
 
 @case("A5", "both roots in one point")
 def double() -> Iterator[Reading]:
-    """The careful quadratic computes q = -(b + sign(b) sqrt(b^2 - 4ac)) / 2, and its roots q/a and c/q. A ray that
-    starts on the sphere and runs along it has b = c = 0: q is 0, and c/q is 0/0, which is no number. Every
-    comparison with it is false, and a pixel may end as NaN.
+    """The careful quadratic computes q = -(b + sign(b) sqrt(b^2 - 4ac)) / 2, and the roots q/a and c/q. A ray that
+    starts on the sphere and is tangent to it has b = c = 0: q is 0, and c/q is 0/0, which is NaN. Every comparison
+    with it is false, and a pixel may become NaN.
     """
     scene = world(ball(CENTER, 1.0, DARK))
     got = float(path(scene, (1, 0, -5), (0, 0, 1)).nodes[0]["t"])
     yield exactly("edge, from 5 away: t", 5, got, textbook.press(1.0, -10.0, 25.0)[0])
-    # On the sphere, along it: a = 1, b = 0, c = 0.
+    # On the sphere, along a tangent: a = 1, b = 0, c = 0.
     first, second = textbook.press(1.0, 0.0, 0.0)
     usual = "NaN" if math.isnan(first) or math.isnan(second) else "0 and 0"
     tree = path(scene, (1, 0, 0), (0, 0, 1))
@@ -67,9 +67,9 @@ def double() -> Iterator[Reading]:
 
 @case("A10", "through the pole of a glass ball, straight on")
 def pole() -> Iterator[Reading]:
-    """On the axis a sphere has no longitude, so programs that need one set x to 1e-5 of the radius there. The
-    normal tilts by 1e-5, and the ray that should pass straight through leaves it turned by 2e-6: ten billion
-    roundings. A normal that is the point minus the centre needs no longitude.
+    """On the axis a sphere has no longitude, so programs that need one set x to 1e-5 of the radius there. The normal
+    tilts by 1e-5, and the ray that should pass straight through is turned by 2e-6: ten billion roundings. A normal
+    that is the point minus the centre needs no longitude.
     """
     tree = path(world(ball(CENTER, 1.0, glass(1.5))), (0, 0, -5), (0, 0, 1), depth=2)
     enter, inside, out = tree.nodes
@@ -85,15 +85,15 @@ def pole() -> Iterator[Reading]:
 
 
 def text(a: Sequence[float]) -> str:
-    """A vector in words; eleven digits, or all where so few would hide that a number is not whole."""
+    """A vector as text with eleven digits, or with all if fewer would hide that a number is not whole."""
     return " ".join(f"{x + 0.0:.17g}" if float(f"{x:.11g}").is_integer() else f"{x:.11g}" for x in a)
 
 
 @case("A11", "what a ray hits, throws a shadow along it: one geometry")
 def two_questions() -> Iterator[Reading]:
-    """Some programs solve the quadratic to find the nearest hit, and ask a quicker formula whether a shadow ray is
-    blocked. Near the edge of a sphere 1e6 away the two disagree about one ray in three: a point that is seen lets
-    light through, or one that is not seen throws a shadow. One test for both cannot disagree.
+    """Some programs solve the quadratic to find the closest hit, and use a quicker formula for shadow rays. Near the
+    edge of a sphere 1e6 away the two disagree for one ray in three: a visible point does not block the light, or an
+    invisible one does. One test for both cannot disagree.
     """
     chance, found = random.Random(4), {"ours": 0, "textbook": 0, "hits": 0}
     floor = box((-2, -2, -1e6 - 1), (2, 2, -1e6), MATTE, "floor")

@@ -1,4 +1,4 @@
-"""Groups H and I: media that touch, nest and overlap; where a shadow ends, and what a mirror shows."""
+"""Groups H and I: media that touch, nest and overlap; edges of shadows, and images in mirrors."""
 
 import math
 import random
@@ -20,7 +20,7 @@ UP = (0.0, 1.0, 0.0)
 
 
 def glass_over_water(overlap: float = 0.0) -> World:
-    """A layer of glass on two of water; the water may reach into the glass, which then has priority."""
+    """A layer of glass on two of water. The water may overlap the glass, which then has priority."""
     top = box((-9, -1, -9), (9, 0, 9), glass(1.5), "glass", 1)
     return world(top, box((-9, -3, -9), (9, overlap - 1.0, 9), glass(WATER, "water"), "water"), model="fresnel")
 
@@ -39,9 +39,9 @@ def slant(stage: World) -> RayTree:
 
 @case("H1", "glass on water, face to face: 60 degrees in, 60 degrees out")
 def touching() -> Iterator[Reading]:
-    """Where two media touch there are two faces at the same place. A textbook tracer leaves the glass for air, at
-    60 degrees, and misses the water's face because it is nearer than its smallest distance. At the bottom it then
-    leaves water at 60 degrees, where the sine outside would be 1.15: total reflection where there is none.
+    """Two media that touch have two faces at the same place. A textbook tracer leaves the glass for air, at 60 degrees,
+    and misses the water's face because it is nearer than its smallest distance. At the bottom it then leaves water
+    at 60 degrees, where the sine outside would be 1.15: total internal reflection, which is wrong.
     """
     tree = slant(glass_over_water())
     rows, nodes = straight_through(tree), tree.nodes
@@ -49,7 +49,8 @@ def touching() -> Iterator[Reading]:
     faces = [(1.0, 1.5), (1.5, WATER), (WATER, 1.0)]
     bends = [exact_optics.bend(sine / decimal(n1), n1, n2) for n1, n2 in faces]
     into = textbook.refract((SINE, -COSINE, 0), UP, 1.0, 1.5) or UP
-    into = textbook.refract(into, UP, 1.5, 1.0) or UP  # the textbook leaves the glass for air: the water's face is gone
+    # in the textbook the glass ends in air: the water's face is missed
+    into = textbook.refract(into, UP, 1.5, 1.0) or UP
     names = ("in the glass", "in the water", "in the air again")
     usual = (None, textbook.angle(into, (0.0, -1.0, 0.0)), None)
     for name, row, a, other in zip(names, rows, bends, usual, strict=False):
@@ -66,9 +67,9 @@ def touching() -> Iterator[Reading]:
 
 @case("H2", "contact or a gap of 1e-15: R is 0.145 or 1")
 def gap() -> Iterator[Reading]:
-    """At 60 degrees glass reflects everything at air, but not at water. So the narrowest gap turns a clear contact
-    into a mirror. A tracer that treats every face as one with air has R = 1 in both; one that merges what lies
-    within 1e-4 has 0.145 in both. Only faces at the same number touch.
+    """At 60 degrees glass reflects everything towards air, but not towards water. So the narrowest gap turns a clear
+    contact into a mirror. A tracer that takes every face as one with air has R = 1 in both cases; one that merges
+    all within 1e-4 has 0.145 in both. Only faces at exactly the same distance touch.
     """
     for width in (0.0, 1e-15, 1e-9, 1e-3):
         bottom = box((-9, -1, -9), (9, -width, 9), glass(WATER), "water")
@@ -80,17 +81,17 @@ def gap() -> Iterator[Reading]:
             if width == 0.0
             else 1
         )
-        usual = textbook.fresnel(COSINE, 1.5, 1.0)  # whichever of both faces it finds, the glass ends in air
+        usual = textbook.fresnel(COSINE, 1.5, 1.0)  # whichever of the two faces it finds, the glass ends in air
         got, unit = float(tree.nodes["factor"][1, 0]), U * float(exact)
-        # At 77 degrees behind the face R is given to 1 / cosine^2 of its sine.
+        # At 77 degrees behind the face, R has the condition number 1 / cosine^2 with respect to the sine.
         yield Reading(f"R, gap {width:g}", exact, got, unit * (20.0 if width == 0.0 else 1.0), 8.0, usual)
 
 
-@case("H3", "two panes with a hair of air between them: four faces")
+@case("H3", "two panes with a little air between them: four faces")
 def two_panes() -> Iterator[Reading]:
-    """A gap below the smallest distance of 1e-4 is jumped over, so the tracer counts three faces and believes to be
-    in glass when it is in air. A ray at 30 degrees then leaves at 19.5 degrees, one at 45 degrees at 28.1: as if
-    the air below were glass. (Shown is by how much the direction's coordinates are off, at most).
+    """A gap below the smallest distance of 1e-4 is skipped, so the tracer counts three faces and takes air for glass. A
+    ray at 30 degrees then leaves at 19.5 degrees, one at 45 degrees at 28.1, as if the air below were glass. The
+    number shown is the largest error of the direction's coordinates.
     """
     for degrees in (30, 45):
         s, c = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
@@ -110,9 +111,9 @@ def two_panes() -> Iterator[Reading]:
 
 @case("H4", "water that reaches into the glass around it: the glass has priority")
 def overlapping() -> Iterator[Reading]:
-    """Modellers let media overlap so that no gap is left. Face by face the overlap is wrong: the ray enters water
-    inside the glass, then leaves the glass as if for air. With priorities the hidden face is no face: the tree has
-    the same bits as where both just touch.
+    """Modellers let media overlap so that no gap is left. Face by face, the overlap is wrong: the ray enters water
+    inside the glass, and then leaves the glass as if for air. With priorities, the hidden face is no interface: the
+    tree has the same bits as if the media just touched.
     """
     plain, overlapped = slant(glass_over_water()), slant(glass_over_water(0.1))
     for field in ("point", "direction", "theta1", "theta2", "weight", "n1", "n2"):
@@ -130,8 +131,8 @@ def overlapping() -> Iterator[Reading]:
 
 @case("H5", "the same ball twice in the file: nothing changes")
 def twice() -> Iterator[Reading]:
-    """Two equal surfaces at the same place bend the ray twice where each is taken as one between air and glass: the
-    turn is 1.6 times too large. The second ball begins where the first does, so inside there is one glass.
+    """Two equal surfaces at the same place bend the ray twice if each is taken as one between air and glass: the turn
+    is 1.6 times too large. The second ball begins where the first does, so there is one glass inside.
     """
     once = path(world(ball((0, 0, 0), 1.0, glass(1.5))), (-2, 0.5, 0), (1, 0, 0), 4)
     both = path(
@@ -152,7 +153,7 @@ def twice() -> Iterator[Reading]:
 
 
 def trees_that_differ(count: int) -> int:
-    """Of one ball and of two in its place, seen from any side."""
+    """The number of trees that differ between one ball and two in its place, seen from any side."""
     chance = random.Random(5)
     item = ball((0, 0, 0), 1.0, glass(1.5))
     one, two = world(item, model="fresnel"), world(item, replace(item, name="again"), model="fresnel")
@@ -167,8 +168,8 @@ def trees_that_differ(count: int) -> int:
 
 @case("H6", "the eye under water: the first medium is found before the first ray")
 def diver() -> Iterator[Reading]:
-    """A tracer that starts every path in air bends the first ray as if the water were not there, and leaves glass
-    for air at the angle it came with. Which solids the eye is in is asked before the first ray.
+    """A tracer that starts every path in air bends the first ray as if there were no water, and leaves glass for air at
+    the angle of incidence. Which solids the eye is in must be known before the first ray.
     """
     tree = path(glass_over_water(), (0, -2, 0), (0.3, 1, 0), 3)
     rows = straight_through(tree)
@@ -183,9 +184,9 @@ def diver() -> Iterator[Reading]:
 
 @case("I2", "the edge of a ball's shadow, decided at 7.5 (1 - 1e-14) and 7.5 (1 + 1e-14)")
 def shadow() -> Iterator[Reading]:
-    """A shadow ray that starts 1e-4 above its floor comes from another point: at the shadow's edge that is an error
-    of 1e-4, and every point nearer to the edge than that is decided by the offset. Starting on the floor and with a
-    discriminant free of cancellation, the edge is right to 1e-14.
+    """A shadow ray that starts 1e-4 above its floor belongs to another point. At the shadow's edge that is an error of
+    1e-4, and for all points nearer to the edge the offset decides. With a start on the floor and a discriminant
+    without cancellation, the edge is right to 1e-14.
     """
     floor = plane((0, 0, 0), UP, MATTE, "floor")
     lamp = Light("lamp", position=(0.0, 10.0, 0.0))
@@ -201,8 +202,8 @@ def shadow() -> Iterator[Reading]:
 
 @case("I7", "what a mirror shows is as far away as its image behind the mirror")
 def virtual() -> Iterator[Reading]:
-    """The ray that leaves the mirror starts 1e-4 above it, so both ways together are short by about that much:
-    distances through mirrors have four digits. Started on the mirror they add up to the distance of the image.
+    """The ray that leaves the mirror starts 1e-4 above it, so the sum of both paths is too short by about that much:
+    distances through mirrors have four digits. With a start on the mirror they add up to the distance of the image.
     """
     thing, origin = (1.0, 2.0, 4.0), (0.5, 0.3, 3.0)
     stage = world(plane((0, 0, 0), (0, 0, 1), MIRROR, "mirror"), ball(thing, 0.7, MATTE))

@@ -14,14 +14,14 @@ KINDS = ("camera", "reflection", "refraction", "tir", "shadow")
 
 
 def view(*objects: Object, lights: Sequence[Light] = (), model: str = "whitted", inside: bool = False) -> World:
-    """Seen from above, so that the floor y = 0 fills the image; or from inside a block."""
+    """A view from above in which the floor y = 0 fills the image; or from inside a block."""
     eye = (0.0, 0.5, 0.0) if inside else (0.0, 4.0, 0.0)
     camera = Camera(position=eye, look_at=(0.1, 0.0, 0.0), up=(0.0, 0.0, 1.0), fov=20.0)
     return prepare(Scene(tuple(objects), tuple(lights), camera, tracing=Tracing(model=model)))
 
 
 def counts(world: World, depth: int, **expected: int) -> Iterator[Reading]:
-    """Every kind's count; those not named are 0, and the eye's rays one a pixel."""
+    """The number of rays of each kind; 0 for those not named, and one camera ray per pixel."""
     rays = render(world, size=SIZE, depth=depth, threads=1).rays
     for kind in KINDS:
         exact = PIXELS if kind == "camera" else expected.get(kind, 0)
@@ -34,24 +34,25 @@ def floor(material: Material) -> Object:
 
 @case("L1", "a matte scene with one light: one ray and one shadow ray a pixel")
 def matte() -> Iterator[Reading]:
-    """A tracer that sends every kind of ray from every hit and multiplies by 0 afterwards does the work of a tree
-    for a picture that needs none: two children a hit are 63 rays a pixel at depth 5, of which 62 count for nothing.
+    """A tracer that sends every kind of ray from every hit, and multiplies by 0 afterwards, does the work of a tree for
+    a picture that needs none: with two children per hit, 63 rays per pixel at depth 5, of which 62 count for
+    nothing.
     """
     yield from counts(view(floor(MATTE), lights=[Light("lamp", position=(1, 5, 1))]), 5, shadow=PIXELS)
 
 
 @case("L2", "no light: no shadow ray")
 def dark() -> Iterator[Reading]:
-    """A shadow ray asks whether a light is seen. Where there is none, there is nothing to ask; a loop that always
-    sends one would double the work for a black picture.
+    """A shadow ray asks whether a light is seen. Without lights there is nothing to ask. A loop that always sends one
+    would double the work for a black picture.
     """
     yield from counts(view(floor(MATTE)), 5)
 
 
 @case("L3", "a mirror, equal indices, total internal reflection: one ray each")
 def one_child() -> Iterator[Reading]:
-    """A surface that always splits sends a ray of weight 0 along with the other. With one such ray a hit the tree
-    doubles at every level: a thousand rays at depth ten where ten would do.
+    """A surface that always splits sends a ray of weight 0 along with the other. With one such ray per hit the tree
+    doubles at every level: a thousand rays at depth ten instead of ten.
     """
     world = view(floor(MIRROR))
     yield exactly(
@@ -70,8 +71,8 @@ def one_child() -> Iterator[Reading]:
 
 @case("L5", "a light behind the surface: no shadow ray")
 def unlit() -> Iterator[Reading]:
-    """Where n.l is below 0 the light adds nothing, whatever stands in its way. To search the scene first and to
-    find that out afterwards wastes, on a closed body, about half of all shadow rays.
+    """If n.l is below 0 the light adds nothing, whatever stands in its way. Searching the scene before testing that
+    wastes about half of all shadow rays on a closed body.
     """
     yield from counts(view(floor(MATTE), lights=[Light("under", position=(0, -5, 0))]), 5)
     both = [Light("under", position=(0, -5, 0)), Light("over", position=(1, 5, 1))]

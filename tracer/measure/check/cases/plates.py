@@ -1,4 +1,4 @@
-"""Group F: trees that branch without end, weights that hardly fall: what a fixed cut loses, what a bound says."""
+"""Group F: trees that branch without end, and weights that hardly fall: what a fixed cut loses, what a bound says."""
 
 import math
 from collections.abc import Iterator
@@ -13,21 +13,21 @@ from tracer.scene import Material
 from tracer.tree.raytree import RayTree
 
 WHITE = (1.0, 1.0, 1.0)
-CUT = {"depth": 5, "min_weight": 1.0 / 255.0}  # what tracers do: a few levels, no weight below one step of a screen
+CUT = {"depth": 5, "min_weight": 1.0 / 255.0}  # a usual choice: a few levels, and no weight below one step of a screen
 
-# The 3-4-5 drop: x, y and what both are divided by.
+# The 3-4-5 drop: x, y and their common denominator.
 HITS = ((-3, 4, 5), (117, 44, 125), (237, -3116, 3125), (-76443, 16124, 78125), (922077, 1721764, 1953125))
 EXITS = ((527, -336, 625), (-11753, -10296, 15625), (-164833, 354144, 390625))
 
 
 def pile(count: int) -> World:
-    """Clear plates on black under a white sky: what is seen is what they throw back."""
+    """Clear plates on black under a white sky: the eye sees what they reflect."""
     plates = [box((-1e3, 2.0 * k, -1e3), (1e3, 2.0 * k + 1.0, 1e3), glass(1.5), f"plate {k}") for k in range(count)]
     return world(*plates, plane((0, -1, 0), (0, 1, 0), DARK, "floor"), background=WHITE, model="fresnel")
 
 
 def under_dark() -> World:
-    """A clear slab over a white sky, below a black ceiling: what is seen is what it lets through."""
+    """A clear slab over a white sky, below a black ceiling: the eye sees what it transmits."""
     slab = box((-1e6, 0, -1e6), (1e6, 1, 1e6), glass(1.5))
     return world(slab, plane((0, 9, 0), (0, -1, 0), DARK, "ceiling"), background=WHITE, model="fresnel")
 
@@ -44,9 +44,9 @@ def shown(tree: RayTree) -> float:
 
 @case("F1", "a slab seen head on, all its inner reflections: 1/13 and 12/13")
 def head_on() -> Iterator[Reading]:
-    """A fixed depth of 5 and a smallest weight of 1/255 leave out all but the first inner reflections; R and T come
-    out about one part in a thousand too small. Followed to 1e-12 the tree takes 20 rays: what is left inside is
-    worth a 25th each time.
+    """A fixed depth of 5 and a smallest weight of 1/255 leave out all but the first inner reflections, so R and T are
+    about one part in a thousand too small. Followed to 1e-12 the tree has 20 rays: each reflection leaves a 25th of
+    the light inside.
     """
     for stage, what, exact in ((pile(1), "R", Fraction(1, 13)), (under_dark(), "T", Fraction(12, 13))):
         ray = ((0.0, 2.0, 0.0), (0.0, -1.0, 0.0))
@@ -57,9 +57,9 @@ def head_on() -> Iterator[Reading]:
 
 @case("F2", "a slab seen aslant: what it lets through is (1 - R) / (1 + R)")
 def aslant() -> Iterator[Reading]:
-    """How much light a smallest weight of 1/255 loses depends on which ray happens to fall below it: a few parts in
-    a thousand at 45 and 75 degrees, less than a tenth of that at 60. Nothing tells the reader, for a ray that was
-    cut looks like one that found black.
+    """How much light a smallest weight of 1/255 loses depends on which ray happens to fall below it: a few parts in a
+    thousand at 45 and 75 degrees, less than a tenth of that at 60. Nothing tells the reader, for a ray that was cut
+    looks like one that found black.
     """
     for degrees in (30.0, 45.0, 60.0, 75.0):
         tree = down(under_dark(), degrees, tolerance=1e-20)
@@ -77,9 +77,9 @@ def aslant() -> Iterator[Reading]:
 
 @case("F3", "a slab at grazing incidence: 27 000 inner reflections count")
 def grazing() -> Iterator[Reading]:
-    """At 89.99 degrees a face throws back 0.999 of the light, and what got in is let out one part in a thousand at
-    a time. All of these parts weigh less than 1/255 and are cut: nothing at all comes through, instead of 5e-4.
-    With the heaviest ray first and a bound on what is missing, the answer is right within 1e-12 and says so.
+    """At 89.99 degrees a face reflects 0.999 of the light, and what got in comes out one part in a thousand at a time.
+    All these parts weigh less than 1/255 and are cut: nothing comes through, instead of 5e-4. Best-first, with a
+    bound on what is missing, the answer is right within 1e-12, and says so.
     """
     for degrees in (89.0, 89.9, 89.99):
         tree = down(under_dark(), degrees, tolerance=1e-12)
@@ -90,9 +90,9 @@ def grazing() -> Iterator[Reading]:
 
 @case("F4", "piles of plates: N faces reflect N / (24 + N)")
 def piles() -> Iterator[Reading]:
-    """Every face splits every ray, so the number of rays grows without end while each one's weight falls: their sum
-    does not. A smallest weight bounds each ray that is cut, not all of them together. With ten plates a fixed cut
-    is far below the truth; a bound on the sum of the cut weights holds wherever tracing stops.
+    """Every face splits every ray, so the number of rays grows without end while their weights fall: the sum of the
+    weights does not. A smallest weight bounds each ray that is cut, not all of them together. With ten plates a
+    fixed cut is far below the exact answer. A bound on the sum of the cut weights holds wherever tracing stops.
     """
     for count in (1, 2, 3, 5, 10):
         exact, stage = Fraction(2 * count, 24 + 2 * count), pile(count)
@@ -105,9 +105,9 @@ def piles() -> Iterator[Reading]:
 
 @case("F6", "the 3-4-5 drop: every point and every weight a fraction")
 def drop() -> Iterator[Reading]:
-    """A ray at 4/5 of the radius meets a drop of n = 4/3 at Brewster's angle, and all that follows is rational.
-    Starts moved off the surface by 1e-4 shift the third hit by some 1e-3: three digits are right where fifteen
-    could be.
+    """A ray at 4/5 of the radius meets a drop of n = 4/3 at Brewster's angle, and all that follows is rational. Starts
+    that are moved off the surface by 1e-4 shift the third hit by about 1e-3: three digits are right instead of
+    fifteen.
     """
     ray = ((-2.0, 0.8, 0.0), (1.0, 0.0, 0.0))
     tree = path(world(ball((0, 0, 0), 1.0, glass(4 / 3)), model="fresnel"), *ray, 5)
@@ -133,9 +133,9 @@ def drop() -> Iterator[Reading]:
 
 @case("F7", "inside a shining shell that throws back half: 2 - 2^-depth")
 def furnace() -> Iterator[Reading]:
-    """With half thrown back five levels give 1.97 instead of 2, and with 0.999 they give 6 instead of 1000. A fixed
-    depth is only good for scenes that absorb. The sums here are exact to the last bit down to depth 51; where
-    something is missing, the bound says how much.
+    """If half of the light is reflected, five levels give 1.97 instead of 2; with 0.999 they give 6 instead of 1000. A
+    fixed depth is only good for scenes that absorb. Down to depth 51 the sums here are exact; where something is
+    missing, the bound says how much.
     """
     shell = world(ball((0, 0, 0), 1.0, Material("shell", ambient=1.0, reflect=0.5)))
     ray = ((0.1, 0.2, -0.3), (1.0, 2.0, 3.0))
@@ -152,9 +152,9 @@ def furnace() -> Iterator[Reading]:
 
 @case("F8", "the ledger: where rays ended, what was cut, what was absorbed add up to 1")
 def balance() -> Iterator[Reading]:
-    """A tracer that follows five levels and adds up what arrived has less than 1, and no column for the rest. Here
-    the weight of cut rays is kept, and each sum is rounded once; a plain sum over millions of rays would lose four
-    digits on the way.
+    """A tracer that follows five levels and adds up what arrived has less than 1, and no column for the rest. Here the
+    weight of cut rays is kept, and each sum is rounded once. A plain sum over millions of rays would lose four
+    digits.
     """
     for name, stage, degrees in (("5 plates", pile(5), 0.0), ("slab at 89 degrees", under_dark(), 89.0)):
         arrived = down(stage, degrees, **CUT).ledger.leaves
@@ -165,8 +165,8 @@ def balance() -> Iterator[Reading]:
 
 @case("F10", "stopped at any time: off by no more than the bound, which only falls")
 def at_any_time() -> Iterator[Reading]:
-    """A depth limit gives one answer and no hint of its error; to learn it one traces again with more. Heaviest
-    first, every stop has a bound of its own, and more rays never make it worse.
+    """A depth limit gives one answer without its error; to learn it, one traces again with more. Best-first, every stop
+    has a bound of its own, and more rays never make it worse.
     """
     stage, bounds = pile(5), []
     cut = shown(down(stage, **CUT))

@@ -1,4 +1,6 @@
-"""Groups C and J: what must not change a tree: its scale, its place, a mirror, the order of ties; and bad input."""
+"""Groups C and J: changes of a scene that must not change its tree: scale, place, mirroring, order of ties; and bad
+input.
+"""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -22,7 +24,7 @@ BALL, RADIUS = (0.1, 0.2, 0.3), 0.9
 
 
 def mixed(s: float = 1.0, side: float = 1.0) -> World:
-    """A glass ball, a box, a mirror triangle and a floor, every length times s, x times `side`."""
+    """A glass ball, a box, a mirror triangle and a floor. Every length is multiplied by s, x also by `side`."""
 
     def at(x: float, y: float, z: float) -> Vector:
         return (side * s * x, s * y, s * z)
@@ -48,7 +50,9 @@ def aims() -> Iterator[tuple[Vector, Vector]]:
 
 
 def differing(k: int, side: float) -> int:
-    """Numbers in the trees of a scaled or mirrored scene that are not those of the scene itself, scaled or mirrored."""
+    """How many numbers in the trees of a scaled or mirrored scene are not those of the scene itself, scaled or
+    mirrored.
+    """
     s = 2.0**k
     one, other, count = mixed(), mixed(s, side), 0
     turn = np.array((side, 1.0, 1.0))
@@ -64,7 +68,7 @@ def differing(k: int, side: float) -> int:
 
 
 def textbook_differing(k: int) -> int:
-    """Distances to the ball that are not 2^k times those of the scene itself."""
+    """How many distances to the ball are not 2^k times those of the scene itself."""
     s, count = 2.0**k, 0
     for origin, aim in aims():
         d = textbook.unit(aim)
@@ -76,7 +80,7 @@ def textbook_differing(k: int) -> int:
 
 @case("C3", "a scene times 2^-200 to 2^200: the same trees, bit for bit")
 def scales() -> Iterator[Reading]:
-    """A power of two changes no digit of a number, so it should change none of a tree. Any length built into a
+    """A power of two changes no digit of a number, so it should change none of a tree. Any length that is built into a
     program does: with a smallest distance of 1e-4 every hit is lost in a scene of size 1e-6, and the same scene in
     other units is another picture.
     """
@@ -86,8 +90,8 @@ def scales() -> Iterator[Reading]:
 
 @case("C10", "glass over a core, moved up to 2^38 away")
 def places() -> Iterator[Reading]:
-    """Far from the origin the coordinates have fewer digits for the gap between the two surfaces. The list of hits
-    must stay as long as the gap has any: at 2^38 a step of the coordinates is 6e-5, the gap 1e-3. And where the
+    """Far from the origin the coordinates have fewer digits for the gap between the two surfaces. The list of hits must
+    stay as long as the gap has any: at 2^38 a step of the coordinates is 6e-5, and the gap is 1e-3. If the
     difference to the centre is exact, the distance must be the same to the last bit.
     """
     gap = 2.0**-10
@@ -112,16 +116,16 @@ def places() -> Iterator[Reading]:
 
 @case("J2", "a mirrored scene has the mirrored trees, bit for bit")
 def mirrored() -> Iterator[Reading]:
-    """Rounding knows no left and right: changing every sign of x changes no digit. A program that sums in another
-    order on one side, or picks a side by a sign, draws a symmetric scene with a picture that is not.
+    """Rounding is symmetric: changing the sign of every x changes no digit. A program that sums in another order on one
+    side, or chooses a side by a sign, draws an asymmetric picture of a symmetric scene.
     """
     yield exactly("12 trees, x to -x: numbers that differ", 0, differing(0, -1.0))
 
 
-@case("J4", "rays that are none: NaN, infinite, without direction")
+@case("J4", "invalid rays: NaN, infinite, without direction")
 def bad_rays() -> Iterator[Reading]:
-    """Every comparison with NaN is false, so the usual test reports a miss, the pixel shows the background, and
-    nobody hears of it. Such a ray is refused here, in words.
+    """Every comparison with NaN is false, so the usual test reports a miss, the pixel shows the background, and nobody
+    notices. Here such a ray is refused with a message.
     """
     scene, nan, inf = world(ball((0, 0, 0), 1.0, MATTE)), math.nan, math.inf
     rays: tuple[tuple[str, Sequence[float], Sequence[float]], ...] = (
@@ -142,8 +146,8 @@ def bad_rays() -> Iterator[Reading]:
 
 @case("J6", "lengths near the smallest that there are")
 def subnormal() -> Iterator[Reading]:
-    """Squares of lengths below 1e-162 are 0, and the quadratic is left with nothing. The answer must be right, or
-    the scene refused; the worst is a wrong number without a word.
+    """Squares of lengths below 1e-162 are 0, and the quadratic has no coefficients left. The answer must be right, or
+    the scene refused. The worst is a wrong number without a message.
     """
     for s in (1e-150, 1e-310):
         try:
@@ -158,12 +162,12 @@ def subnormal() -> Iterator[Reading]:
 
 @case("J7", "two surfaces at the same distance: the first in the file is met")
 def ties() -> Iterator[Reading]:
-    """With no rule the winner is whatever the search happens to meet first, which may change when any object is
-    added elsewhere. A picture should not flicker for that.
+    """Without a rule, the search decides by its order, which may change if any object is added elsewhere: the picture
+    flickers.
     """
     corners = ((-1.0, -1.0, 0.0), (1.0, -1.0, 0.0), (1.0, 1.0, 0.0), (-1.0, 1.0, 0.0))
     faces = {"square": Object(Polygon(corners), DARK, "square"), "box": box((-1, -1, -1), (1, 1, 0), DARK, "box")}
-    for crowd in (0, 40):  # with more things, a tree of boxes is searched in an order of its own
+    for crowd in (0, 40):  # with more objects, a hierarchy is searched in an order of its own
         others = [ball((3 * k - 60, 9, -5), 1, DARK, f"other {k}") for k in range(crowd)]
         for first, second in (("square", "box"), ("box", "square")):
             scene = world(faces[first], *others, faces[second])

@@ -14,7 +14,7 @@ from tracer.measure.check.scenes import MATTE, ball, glass, path, world
 def roots(
     origin: Sequence[float], direction: Sequence[float], center: Sequence[float], radius: float
 ) -> tuple[Decimal, Decimal]:
-    """Both distances with 50 digits, of numbers taken as they are."""
+    """Both distances with 50 digits. The given numbers are taken as exact."""
     f = [o - c for o, c in zip(point(origin), point(center), strict=True)]
     d = point(direction)
     a, b, c = dot(d, d), dot(f, d), dot(f, f) - decimal(radius) ** 2
@@ -30,7 +30,7 @@ def reading(
     radius: float = 1.0,
     inside: bool = False,
 ) -> Reading:
-    """The distance to the sphere, good to 4 roundings of itself."""
+    """The distance to the sphere, with an error of at most 4 roundings."""
     row = path(world(ball(center, radius, MATTE)), origin, direction).nodes[0]
     exact = roots(row["origin"].tolist(), row["direction"].tolist(), center, radius)[1 if inside else 0]
     usual = textbook.sphere(row["origin"].tolist(), row["direction"].tolist(), center, radius)
@@ -39,10 +39,10 @@ def reading(
 
 @case("A1", "a unit sphere seen from far away, near its edge")
 def far() -> Iterator[Reading]:
-    """The textbook takes b^2 - 4ac, two numbers of the size of the squared distance, to find a difference of the
-    size of the squared radius. At D = 1e7 they have sixteen digits before the one that counts: the hit lies visibly
-    off the sphere. At D = 1e8 the difference is all rounding: the edge frays, and rays miss the sphere. Measured
-    from the point of the ray nearest to the centre nothing large is left to cancel.
+    """The textbook takes b^2 - 4ac, two numbers of the size of the squared distance, for a difference of the size of
+    the squared radius. At D = 1e7 they share all but their last digits, and the hit is visibly off the sphere. At D
+    = 1e8 the difference is all rounding error: the edge frays, and rays miss the sphere. Measured from the ray's
+    closest point to the centre, nothing large is left to cancel.
     """
     w = textbook.unit((0.3, -0.5, 0.81))
     aim = [0.9 * x for x in textbook.unit(textbook.cross(w, (1.0, 0.0, 0.0)))]
@@ -66,8 +66,8 @@ def far() -> Iterator[Reading]:
 @case("A2", "a ray that starts just above a unit sphere")
 def near() -> Iterator[Reading]:
     """The near root is -b - sqrt(b^2 - 4ac), two numbers near 1 whose difference is as small as the height, down to
-    1e-15; each carries an error of 1e-16. A smallest distance of 1e-4 hides that: it throws the hits nearer than
-    this away, and the ray goes through to the far side.
+    1e-15. Each has an error of 1e-16. A smallest distance of 1e-4 hides that: it discards nearer hits, and the ray
+    continues to the far side.
     """
     for k in (10, 20, 30, 40, 50):
         yield reading(f"2^-{k} above it", (0, 0, 1 + 2.0**-k), (0.6, 0, -0.8))
@@ -75,9 +75,9 @@ def near() -> Iterator[Reading]:
 
 @case("A3", "a ground that is a sphere of radius 1e3 to 1e15")
 def ground() -> Iterator[Reading]:
-    """The centre is R below, so b^2 and 4ac are of size R^2, and the height of the eye is what is left when they
-    cancel. The error grows with R, but for a few round numbers that happen to come out: at R = 1e9 seven digits of
-    the distance are good, at 1e15 hardly one. The floor of the scene then shows rings, or is not there.
+    """The centre is R below, so b^2 and 4ac are of size R^2, and the height of the eye is left when they cancel. The
+    error grows with R, except for a few round numbers: at R = 1e9 seven digits of the distance are right, at 1e15
+    hardly one. The floor of the scene then shows rings, or is missing.
     """
     chance = random.Random(3)
     for radius in (1e3, 1e6, 6.371e6, 1e9, 1e12, 1e15):
@@ -95,9 +95,9 @@ def ground() -> Iterator[Reading]:
 
 @case("A6", "the way out of a sphere just below its top")
 def grazing() -> Iterator[Reading]:
-    """With y = 1 - 2^-k the root is that of 1 - y^2, which is about 2^(1-k); the textbook rounds y^2 to 1e-16
-    first, which can leave four digits of the difference at k = 40. Taken as (1 - y)(1 + y) it loses nothing. And a
-    smallest distance of 1e-4 throws the way out itself away: the ray never leaves the sphere.
+    """With y = 1 - 2^-k the root is that of 1 - y^2, which is about 2^(1-k). The textbook rounds y^2 to 1e-16 first,
+    which can leave four digits of the difference at k = 40. (1 - y)(1 + y) loses nothing. And a smallest distance of
+    1e-4 discards the exit itself: the ray never leaves the sphere.
     """
     for k in (10, 20, 30, 40, 50):
         yield reading(f"2^-{k} below the top", (0, 1 - 2.0**-k, 0), (1, 0, 0), inside=True)
@@ -105,9 +105,9 @@ def grazing() -> Iterator[Reading]:
 
 @case("A7", "directions of any length, 1e-170 to 1e170")
 def lengths() -> Iterator[Reading]:
-    """a = d.d is the square of the length: of 1e-170 it is 0, of 1e170 infinite, and the quadratic is none any
-    more. A length of 1e100 makes the distance 4e-100 in units of d, which a smallest distance of 1e-4 takes for
-    nothing. Scaled by a power of two first, every direction keeps all its digits.
+    """a = d.d is the square of the length: for 1e-170 it is 0, for 1e170 infinite, and there is no quadratic any more.
+    A length of 1e100 makes the distance 4e-100 in units of d, which a smallest distance of 1e-4 discards. Scaled by
+    a power of two first, every direction keeps all its digits.
     """
     scene = world(ball((0, 0, 0), 1.0, MATTE))
     for s in (1e-170, 1e-100, 1e100, 1e170):
@@ -118,8 +118,8 @@ def lengths() -> Iterator[Reading]:
 
 @case("A8", "half a metre above the Earth, in metres")
 def earth() -> Iterator[Reading]:
-    """The squared radius is 4e13, and the hit is half a metre away: rounding of the squares alone is 0.004. The
-    textbook's distance has nine good digits here, and a tracer in single precision has none: it finds the other
+    """The squared radius is 4e13, and the hit is half a metre away: the rounding of the squares alone is 0.004. The
+    textbook's distance has nine right digits here, and a tracer in single precision has none: it finds the other
     side of the Earth.
     """
     for name, aim in (("down", (0, 0, -1)), ("slanting", (0.6, 0, -0.8)), ("flat", (0.9995, 0, -0.0316))):
@@ -128,9 +128,9 @@ def earth() -> Iterator[Reading]:
 
 @case("A9", "a tiny glass ball at distance 1: how thick it is")
 def tiny() -> Iterator[Reading]:
-    """c = f.f - r^2 is 1 for every r below 1e-8: the radius is gone before the discriminant is taken. Both roots
-    are then 1: the ball has no thickness, and rays that pass it by a few radii hit it too. Our ray starts on the
-    sphere and looks for the chord from there, -2 f.d, in which only the radius counts.
+    """c = f.f - r^2 is 1 for every r below 1e-8: the radius is lost before the discriminant is computed. Both roots are
+    then 1: the ball has no thickness, and rays that pass it at a few radii hit it, too. Our ray starts on the sphere
+    and computes the chord, -2 f.d, which depends only on the radius.
     """
     for radius in (1e-3, 1e-5, 1e-6, 1e-9, 1e-12, 1e-100, 1e-150):
         rows = path(world(ball((0, 0, 0), radius, glass(1.0))), (0, 0, 1), (0, 0, -1), depth=1).nodes

@@ -1,4 +1,4 @@
-"""Group C: where the next ray starts: close surfaces, thin gaps, and never the same surface again by rounding."""
+"""Group C: the start of the next ray: close surfaces, thin gaps, and rounding that must not hit the start again."""
 
 import math
 import random
@@ -19,7 +19,7 @@ GROUND = Material("ground", diffuse=1.0, reflect=0.5)
 
 
 def second_way(tree: RayTree, radius: float, inner: float) -> Decimal:
-    """From a ball of glass, n = 1.5, to the one inside, with 50 digits: both about the origin, the ray along -z."""
+    """From a ball of glass, n = 1.5, to the one inside, with 50 digits. Both are around the origin; the ray along -z."""
     x, r = decimal(float(tree.nodes[0]["origin"][0])), decimal(radius)
     s, c = DIGITS.divide(x, r), root(1 - DIGITS.divide(x, r) ** 2)
     sine = DIGITS.divide(s, Decimal("1.5"))
@@ -30,9 +30,9 @@ def second_way(tree: RayTree, radius: float, inner: float) -> Decimal:
 
 @case("C1", "glass over an opaque core, a gap of 1e-3 to 1e-15")
 def coat() -> Iterator[Reading]:
-    """A ray that has just entered the glass must not meet the surface it starts on, so the textbook throws away all
-    hits nearer than 1e-4. From a gap of 4e-5 on it throws the core away with them: the ray goes through the opaque
-    ball to its far side, 2 units on. Nothing is thrown away where the start is known by its name.
+    """A ray that has just entered the glass must not meet the surface that it starts on, so the textbook discards all
+    hits nearer than 1e-4. From a gap of 4e-5 on, it discards the core as well: the ray passes through the opaque
+    ball to its far side, 2 units on. Nothing is discarded if the ray knows the surface that it starts on.
     """
     for gap in (1e-3, 4e-5, 1e-6, 1e-9, 1e-12, 1e-15):
         radius = 1.0 + gap
@@ -49,7 +49,7 @@ def coat() -> Iterator[Reading]:
 
 
 def leaning(size: float) -> tuple[Vector, ...]:
-    """A square that lies along no axis, its normal up and to the side."""
+    """A square that is parallel to no axis, its normal up and to the side."""
     u, v = textbook.unit((0.8, -0.3, 0.1)), textbook.unit((0.1, 0.2, -0.9))
     return tuple(
         (size * (a * u[0] + b * v[0]), size * (a * u[1] + b * v[1]), size * (a * u[2] + b * v[2]))
@@ -59,9 +59,9 @@ def leaning(size: float) -> tuple[Vector, ...]:
 
 @case("C2", "a square in the light, from 1e-7 to 1e16 across")
 def lit_at_any_size() -> Iterator[Reading]:
-    """A smallest distance of 1e-4 fits scenes of size 1. At 1e-7 it throws the whole scene away; at 1e13 rounding
-    puts hits 1e-3 under the square, which then throws a shadow on itself in dots, the so-called acne. No number is
-    right for all sizes, so none is used.
+    """A smallest distance of 1e-4 fits scenes of size 1. At 1e-7 it discards the whole scene. At 1e13 rounding puts
+    hits 1e-3 under the square, which then casts a shadow on itself in dots, the so-called acne. No number is right
+    for all sizes, so none is used.
     """
     chance = random.Random(5)
     for size in (1e-7, 1.0, 1e4, 1e7, 1e13, 1e16):
@@ -88,8 +88,8 @@ def lit_at_any_size() -> Iterator[Reading]:
 
 @case("C4", "a thin clear layer above the ground")
 def thin_layer() -> Iterator[Reading]:
-    """From the last clear plane the ground is 7e-5 away or less, and the textbook takes everything below 1e-4 for
-    the plane it starts on. The ground is not met at all, and what lies behind it is seen.
+    """From the last clear plane the ground is at most 7e-5 away, and the textbook takes everything below 1e-4 for the
+    plane that it starts on. It misses the ground, and shows what is behind it.
     """
     for gap in (7e-5, 7e-7, 7e-10, 7e-13):
         low = -1.0 - gap
@@ -107,9 +107,9 @@ def thin_layer() -> Iterator[Reading]:
 
 @case("C5", "a mirror ball of any size, anywhere: it never meets itself")
 def never_again() -> Iterator[Reading]:
-    """The hit is rounded to the digits of its coordinates: 1e8 from the origin these are 1e-8. The reflected ray
-    then starts inside its ball as often as outside, and with no smallest distance (the count shown) many meet it
-    again. A smallest distance of 1e-4 hides that, and balls of radius 1e-4 with it.
+    """The hit is rounded to the digits of its coordinates: 1e8 from the origin these are 1e-8. The reflected ray then
+    starts inside its ball as often as outside, and without a smallest distance (the count shown) many meet it again.
+    A smallest distance of 1e-4 hides that, and balls of radius 1e-4 with it.
     """
     chance = random.Random(6)
     again = usual = count = 0
@@ -132,8 +132,8 @@ def never_again() -> Iterator[Reading]:
 
 @case("C7", "a sheet just above the floor throws its shadow")
 def thin_shadow() -> Iterator[Reading]:
-    """The shadow ray starts on the floor, and the sheet is 1e-5 away. With a smallest distance of 1e-4 the ray
-    passes through it, and the floor under the sheet is lit: shadows come loose from things that stand on the floor.
+    """The shadow ray starts on the floor, and the sheet is 1e-5 away. With a smallest distance of 1e-4 the ray passes
+    through it, and the floor under the sheet is lit: shadows are detached from objects that stand on the floor.
     """
     lamp, corners = (0.0, 5.0, 0.0), ((-1.0, 1e-5, -1.0), (-1.0, 1e-5, 1.0), (1.0, 1e-5, 1.0), (1.0, 1e-5, -1.0))
     for gap in (1e-3, 1e-5, 1e-9, 1e-15):
@@ -158,8 +158,8 @@ def thin_shadow() -> Iterator[Reading]:
 @case("C9", "a ray that grazes the floor on its way to a wall")
 def relay() -> Iterator[Reading]:
     """The other usual way is to start the next ray 1e-4 above the floor, along its normal. This ray comes down 1e-4
-    over a kilometre and goes up as much: the wall is met at twice the height, wrong by 100 %. The start must be
-    where the hit is.
+    over a kilometre and rises as much: the wall is met at twice the height, wrong by 100 %. The start must be where
+    the hit is.
     """
     scene = world(plane((0, 0, 0), (0, 1, 0), GROUND, "floor"), plane((1000, 0, 0), (-1, 0, 0), DARK, "wall"))
     tree = path(scene, (-1000, 1e-4, 0), textbook.unit((1, -1e-7, 0)), depth=1)
