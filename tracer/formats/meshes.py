@@ -77,7 +77,7 @@ def load_parts(path: Path) -> list[Part]:
     parts = [Part(name, _geometry(path, mesh, place), _material(mesh, glass)) for name, mesh, place in meshes]
     faces = sum(len(part.geometry.faces) for part in parts)
     if 0 < faces < promised:
-        raise MeshError(f"mesh {path.name} must have {promised} faces as its head says, got {faces}")
+        raise MeshError(f"mesh {path.name} must have {promised} faces as its header says, got {faces}")
     if not 0 < faces <= MOST_FACES:
         raise MeshError(f"mesh {path.name} must have from 1 to {MOST_FACES} triangles, got {faces}")
     return parts
@@ -97,7 +97,7 @@ def _load(path: Path) -> list[tuple[str, Any, np.ndarray]]:
     except Exception as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         if isinstance(error, IndexError):
-            reason = "something in it refers to what is not there, as a face to a corner beyond the last"
+            reason = "an index in it is out of range, like a face that names a vertex beyond the last"
         raise MeshError(f"mesh {path.name} cannot be read as {path.suffix[1:].upper()}: {reason[:120]}") from None
     return [item for item in found if isinstance(item[1], trimesh.Trimesh) and len(item[1].faces)]
 

@@ -165,7 +165,7 @@ def compare(client: Any) -> list[str]:
     notes: dict[str, list[str]] = {}
     for worker, found in sorted(client.run(described, on_error="return").items()):
         if not isinstance(found, tuple):
-            faults.setdefault(f"no raytree like this one: {_line(found)}", []).append(worker)
+            faults.setdefault(f"no compatible raytree: {_line(found)}", []).append(worker)
             continue
         for ours, theirs, lines in zip(described(), found, (faults, notes), strict=True):
             if text := difference(ours, theirs):

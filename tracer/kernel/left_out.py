@@ -85,7 +85,7 @@ def _which(objects: Sequence[Object], does: str, do: str) -> str:
 def _shadow_reason(lights: int, lit: int) -> str:
     if not lights:
         return "no light"
-    return _count(lights, "light") if lit else "no surface that light makes brighter"
+    return _count(lights, "light") if lit else "no material has a diffuse or specular part"
 
 
 def _filter_reason(scene: Scene, glass: Sequence[Object]) -> str:
@@ -97,7 +97,7 @@ def _filter_reason(scene: Scene, glass: Sequence[Object]) -> str:
 def _hierarchy(surfaces: int, nodes: int, blocks: int) -> str:
     count = _count(surfaces, "surface")
     if not nodes:
-        return f"{count}: up to {MAX_UNBOXED} with an end are quicker tried one by one"
+        return f"{count}: up to {MAX_UNBOXED} bounded ones are tested faster one by one"
     triangles = f" and {_count(blocks, 'block')} of triangles" if blocks else ""
     return f"{count} in {_count(nodes, 'node')} of {WIDTH} boxes{triangles}"
 

@@ -7,7 +7,7 @@ from tracer.kernel.nodes import NODES, SHADOW
 from tracer.tree.digits import degrees_text, number_text, rgb_text
 from tracer.tree.table import TreeTable
 
-HEADINGS = ("ray", "meets", "distance", "index", "angle", "weight", "sends up (r g b)", "why it ends")
+HEADINGS = ("ray", "meets", "distance", "index", "angle", "weight", "radiance (r g b)", "why it ends")
 
 END_REASONS = {
     None: "",
@@ -72,7 +72,9 @@ def _head(tree: TreeTable) -> list[str]:
     head.append(f"colour {rgb_text(tree.radiance)} (linear r g b); {cut_summary(tree)}")
     lost = [i for i in range(len(tree)) if tree.object_name(i) and tree.nodes["error"][i] > 0.0 and tree.digits(i) == 0]
     if lost:
-        head.append(f"from ray {lost[0]} on rounding has left no digit of where rays go: what follows may be otherwise")
+        head.append(
+            f"from ray {lost[0]} on, rounding has left no correct digit of directions: the rays below may be wrong"
+        )
     return head
 
 

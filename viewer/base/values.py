@@ -64,7 +64,7 @@ def _ray(text: str) -> tuple[float, ...]:
 
 def _ray_name(text: str) -> str:
     if re.fullmatch(r"L\d+", text, re.IGNORECASE):
-        raise Unreadable(f"a ray that meets a surface; {text} goes to a light: name the one before it")
+        raise Unreadable(f"a ray that meets a surface; {text} goes to a light: name its parent")
     if not re.fullmatch(r"(?:R|T|TIR)?\d+|E", text, re.IGNORECASE):
         raise Unreadable(f'a ray as in the tree like 4, T4 or E, got "{text}"')
     return text

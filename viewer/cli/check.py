@@ -22,10 +22,10 @@ NONE = "–"  # the textbook has nothing to compare with
 WIDTH = 100  # of running text
 HEADINGS = ("setting", "exact answer", "the textbook's", "error", "ours", "error", "")
 ABOUT = (
-    "Each line is a case at the setting where the textbook's formula does worst beside ours. Its error is relative;\n"
-    "ours is counted in units of rounding, 2^-53 of the answer times the case's condition number, with what is\n"
-    "allowed behind it. Where an answer has a bound of its own (some of E and F) the unit is that bound. A dash: the\n"
-    "textbook has no formula to compare with.\n"
+    "Each line is a case, at the setting where the textbook's formula is worst compared with ours. The textbook's\n"
+    "error is relative. Ours is in units of rounding: 2^-53 of the answer times the case's condition number, followed\n"
+    "by the allowed number. If an answer has a bound of its own (some of E and F), the unit is that bound. A dash:\n"
+    "the textbook has no formula to compare with.\n"
 )
 
 

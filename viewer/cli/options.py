@@ -23,12 +23,12 @@ def _model() -> Any:
 
 
 def _min_weight() -> Any:
-    return option(WEIGHT, "do not follow rays that weigh less", 0.0)
+    return option(WEIGHT, "do not follow rays of a smaller weight", 0.0)
 
 
 def _tolerance() -> Any:
     return option(
-        WEIGHT, "follow the heaviest rays first, to any depth, until those left weigh no more than T in sum",
+        WEIGHT, "trace best-first, to any depth, until the weights of the other rays sum up to at most T",
         metavar="T",
     )  # fmt: skip
 
@@ -45,7 +45,7 @@ class ViewOptions:
     pixel: tuple[int, int] | None = option(PIXEL, "pick this pixel, counted from the top left")
     depth: int | None = _depth()
     model: str | None = _model()
-    screenshot: Path | None = option(FILE, "draw the viewer into a file and leave", metavar="FILE.png")
+    screenshot: Path | None = option(FILE, "draw the viewer into a file, and exit", metavar="FILE.png")
     size: tuple[int, int] | None = _size("of the window or the screenshot")
 
 
@@ -62,7 +62,7 @@ class TraceOptions:
     tolerance: float | None = _tolerance()
     size: tuple[int, int] | None = _size()
     format: str = option(one_of(DATA), "text by default", "text")
-    rays: int = option(whole(0), f"text: show the N heaviest, {HEAVIEST} by default; 0 for all", HEAVIEST)
+    rays: int = option(whole(0), f"text: show the N rays of largest weight, {HEAVIEST} by default; 0: all", HEAVIEST)
     output: Path | None = option(FILE, "write there instead of the terminal", short="-o")
 
 
@@ -80,15 +80,17 @@ class RenderOptions:
     min_weight: float = _min_weight()
     tolerance: float | None = _tolerance()
     size: tuple[int, int] | None = _size()
-    samples: int | None = option(whole(1), "a pixel; 1, its centre, by default; at most, with one of these:")
-    sampler: str = option(one_of(SAMPLERS), "where they lie; jittered: N is a square", SAMPLERS[0])
-    until_error: float | None = option(POSITIVE, "samples where the error is, until it is estimated as E")
-    until_seconds: float | None = option(POSITIVE, "the same, until S seconds have passed", metavar="S")
-    threads: int | None = option(whole(1), "as many as processors by default", group="machine")
+    samples: int | None = option(
+        whole(1), "samples per pixel, 1 (its centre) by default; the most, with --until-error or --until-seconds"
+    )
+    sampler: str = option(one_of(SAMPLERS), "where they are; jittered needs a square number of samples", SAMPLERS[0])
+    until_error: float | None = option(POSITIVE, "adaptive sampling, until the estimated error (RMSE) is at most E")
+    until_seconds: float | None = option(POSITIVE, "adaptive sampling for S seconds", metavar="S")
+    threads: int | None = option(whole(1), "the number of processors by default", group="machine")
     dask: str | None = option(
         TEXT, "trace on the Dask cluster of this scheduler", metavar="tcp://HOST:PORT", group="machine"
     )
-    stats: Path | None = option(FILE, "times, ray counts and what was left out", metavar="FILE.json")
+    stats: Path | None = option(FILE, "write times, ray counts and what was left out", metavar="FILE.json")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,7 +99,7 @@ class ReportOptions:
 
     scene: str | None = argument("SCENE", TEXT, SCENE_HELP, nargs="?")
     all: bool = switch("every lesson, and stiff trees with exact answers")
-    size: tuple[int, int] | None = _size("of its images; some 240 pixels across by default")
+    size: tuple[int, int] | None = _size("of its images; about 240 pixels across by default")
     quick: bool = switch("fewer settings on smaller images: under a minute")
     output: str = option(TEXT, "for the page, its plots and its data", metavar="FOLDER", short="-o", required=True)
 
@@ -107,8 +109,8 @@ class PlanOptions:
     """`raytree plan`."""
 
     scene: str = argument("SCENE", TEXT, SCENE_HELP)
-    measure: bool = switch("with and without, in turn: rays and time; some 20 seconds")
-    json: bool = switch("for programs: one document")
+    measure: bool = switch("measure rays and time with and without each capability; about 20 seconds")
+    json: bool = switch("print JSON")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,8 +118,8 @@ class CheckOptions:
     """`raytree check`."""
 
     cases: tuple[str, ...] = argument("CASE", TEXT, "names like A1, or groups like A; all by default", nargs="*")
-    explain: bool = switch("what goes wrong in the textbook's way, every setting")
-    json: bool = switch("for programs: one document")
+    explain: bool = switch("explain what goes wrong in the textbook's way, and show every setting")
+    json: bool = switch("print JSON")
 
 
 @dataclass(frozen=True, kw_only=True)

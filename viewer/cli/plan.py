@@ -80,7 +80,7 @@ def _measured(image: Measured, width: int) -> Iterator[str]:
             yield f"{title:{width + 9}}{'rays':>5}{'ms':>15}{'times':>8}   {'without' if needed else 'with'}"
             yield from (_row(saving, image, width) for saving in savings)
         if any(s.times and s.times.is_significant and s.times.extra < 0.0 for s in savings):
-            yield f"{'':{width}}  (with a minus: what it saves)"
+            yield f"{'':{width}}  (a minus: it saves time)"
 
 
 def _row(saving: Saving, image: Measured, width: int) -> str:

@@ -156,13 +156,13 @@ def summary(image: Image, stats: RoundStats, options: RenderOptions) -> str:
     mean = f"{stats.samples:,.0f}" if stats.samples >= 100 else f"{stats.samples:.3g}"
     spread = f"{mean} samples a pixel" + (f", {stats.least} to {stats.most}" if stats.most > stats.least else "")
     if stats.error == 0.0:
-        end = "nothing is left to gain"
+        end = "no sample gains more"
     elif image.ended == "error":
         end = f"{options.until_error:g} was asked for"
     elif image.ended == "seconds":
         end = "time is up"
     else:
-        end = f"at most {options.samples or MAX_SAMPLES} of a pixel, and they double"
+        end = f"a pixel may have {options.samples or MAX_SAMPLES}, and they double"
     reach = f"{stats.error:.2g} (RMSE, linear light) after {stats.seconds:.2f} s and {stats.rays:,} rays"
     return f"estimated sampling error {reach}: {spread}; {end}"
 
@@ -193,7 +193,7 @@ def ordered(options: RenderOptions) -> list[Order]:
     if folder and not into.is_dir() and (into.exists() or (into.suffix.lower() in SUFFIXES and not slash)):
         unusable.append(f"raytree render: the images of several scenes need a folder, got {into}")
     if options.format and not folder:
-        unusable.append(f"raytree render: --format is for images in a folder; {into} says its own")
+        unusable.append(f"raytree render: --format is for images in a folder; {into} has a suffix")
     if unusable:
         raise Unusable(*unusable)
     if not folder:

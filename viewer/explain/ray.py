@@ -71,8 +71,8 @@ def ray_numbers(tree: RayTree, i: int) -> Section:
             section.add("1 − η²(1 − c₁²)", format_number(row["radicand"]))
     section.add("factor", format_weight(row["factor"]))
     section.add("weight", format_weight(row["weight"]))
-    section.add("sends up", format_rgb(row["radiance"], 4))
-    section.add("ends", END_REASONS[tree.end(i)] or "its children go on")
+    section.add("radiance", format_rgb(row["radiance"], 4))
+    section.add("ends", END_REASONS[tree.end(i)] or "no: its children follow")
     section.add("path", tree.path(i))
     return section
 
@@ -91,7 +91,7 @@ def explain_ray(tree: RayTree, world: World, i: int) -> list[Section]:
 def _sum(tree: RayTree, i: int) -> Section:
     """The ray's radiance, written as a sum."""
     row = tree.nodes[i]
-    section = Section("What it sends up", "I = local + Σ factor × child")
+    section = Section("Radiance", "I = local + Σ factor × child")
     if tree.end(i) == "background":
         section.add("background", format_rgb(row["radiance"], 4))
         return section

@@ -36,24 +36,24 @@ class ExportOptions:
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where")
     figure: str = option(one_of(FIGURE_NAMES), "tree by default", "tree")
     view: tuple[float, ...] | None = option(
-        ORBIT, "scene: degrees from its camera's side and above, distance in its radii, what is looked at"
+        ORBIT, "scene: azimuth and elevation in degrees, distance in radii of the scene, target"
     )
-    node: str | None = option(RAY_NAME, "hit: of this ray; the first by default")
-    depth: range | None = option(DEPTHS, "recursion depth, or a page a depth: 0..3")
+    node: str | None = option(RAY_NAME, "hit: at the end of this ray; the first by default")
+    depth: range | None = option(DEPTHS, "recursion depth, or one page per depth: 0..3")
     step: str = option(
-        one_of(STEPS), "a page a depth; a ray, as they are traced; or a hit, as colour flows back", STEPS[0]
+        one_of(STEPS), "one page per depth, per ray as they are traced, or per hit as the colour is summed up", STEPS[0]
     )
     model: str | None = option(one_of(MODELS), "the scene's own by default")
-    min_weight: float = option(WEIGHT, "do not follow rays that weigh less", 0.0)
+    min_weight: float = option(WEIGHT, "do not follow rays of a smaller weight", 0.0)
     size: tuple[int, int] | None = option(SIZE, "of the image, the scene's own by default")
     format: tuple[str, ...] = option(some_of(tuple(FORMATS)), f"of {', '.join(FORMATS)}; svg by default", ())
     theme: str = option(one_of(tuple(THEMES)), "light by default", "light")
-    swatches: bool = switch("the colour that each ray sends up, in its box")
-    fold: float = option(SHARE, "fold branches that weigh less into one box", 0.0)
+    swatches: bool = switch("show the radiance of each ray in its box")
+    fold: float = option(SHARE, "fold branches of a smaller weight into one box", 0.0)
     text_size: float = option(POINTS, f"points on a slide; {TEXT_SIZE:g} by default", TEXT_SIZE)
-    eye: str | None = option(one_of(EYES), f"tree: where it begins; on {EYES[0]} by default")
+    eye: str | None = option(one_of(EYES), f"tree: the side of the eye; {EYES[0]} by default")
     no_lights: bool = switch("leave out the rays to the lights")
-    ground: bool = switch("on the theme's ground; transparent by default")
+    ground: bool = switch("on the theme's background; transparent by default")
     width: int | None = option(PIXELS, "PNG: pixels across; 1920 by default")
     output: str = option(
         TEXT, "names in a folder: SCENE_X_Y_FIGURE_dD.EXT", metavar="FILE|FOLDER/", short="-o", required=True

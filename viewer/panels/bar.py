@@ -138,9 +138,9 @@ def _meaning(session: Session, kind: str) -> str:
         return f"does the light get there? Glass {glass}, straight through and unbent: a simplification"
     return {
         "camera": "from the eye through the pixel",
-        "reflection": "thrown back as by a mirror",
+        "reflection": "reflected as by a mirror",
         "refraction": "through the surface, bent by Snell's law",
-        "tir": "nothing can leave, all is thrown back",
+        "tir": "no light can leave, all is reflected",
     }[kind]
 
 

@@ -37,11 +37,11 @@ def draw(session: Session, canvas: Canvas) -> None:
         imgui.pop_text_wrap_pos()
 
 
-BEGUN = "The first rays are on their way: each pixel gets one, then one more."
+BEGUN = "The first rays are being traced: each pixel gets one, then one more."
 EMPTY = (
-    "The image has one ray a pixel, through its centre. Refine it: pixels get more rays, twice as many each time, and "
-    "how far their mean moves then says how far off it is. Try another depth or another way to place the rays: every "
-    "curve is kept."
+    "The image has one ray per pixel, through its centre. Refine it: pixels get more rays, twice as many each time, "
+    "and the change of their mean gives an estimate of the error. Try another depth, or another way to place the "
+    "rays: every curve is kept."
 )
 
 
@@ -68,7 +68,7 @@ def _controls(session: Session) -> None:
             if imgui.selectable(meaning, name == state.shows)[0]:
                 state.shows = name
         imgui.end_combo()
-    d.hint("what stands in the image's place")
+    d.hint("what the image panel shows")
 
 
 def _numbers(session: Session) -> None:
@@ -101,8 +101,8 @@ def _picked(session: Session, run: Run) -> str:
     return "" if math.isnan(error) else f"; the picked one {count}, {error:.2g} off"
 
 
-MEAN = "in the mean, and where they are fewest and most; of the picked pixel how many, and its own estimated error"
-FLOOR = "the error that no further sample takes away: what the rays that were not followed may be worth"
+MEAN = "the mean over all pixels, the least and the most; the samples of the picked pixel, and its estimated error"
+FLOOR = "the error that no sample removes: a bound on the light of the rays that were cut"
 
 
 def _outlook(run: Run) -> str:

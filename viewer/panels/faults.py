@@ -33,7 +33,7 @@ def draw(session: Session) -> None:
         kept = "; the last good scene stays" if session.world else ""
         opening = session.loader.opening
         is_there = opening is not None and opening.path.is_file()
-        again = " Save the file and it is read again." if is_there else ""
+        again = " Save the file, and it is read again." if is_there else ""
         imgui.push_text_wrap_pos(width - 20 * unit)
         imgui.text_colored(session.theme.fault, f"{said}{kept}.{again}")
         imgui.pop_text_wrap_pos()

@@ -118,7 +118,7 @@ def _head(session: Session) -> None:
             imgui.same_line()
             imgui.text(content)
         if imgui.is_item_hovered():
-            meaning = "red, green, blue: linear light, before it is made into sRGB for the screen"
+            meaning = "red, green, blue: linear light, before it is encoded as sRGB for the screen"
             if session.refinement.current:
                 meaning += f"\nof the ray through the pixel's centre{_refined(session)}"
             imgui.set_tooltip(f"{content}\n{meaning}")
@@ -191,12 +191,12 @@ def _waiting(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, roo
 
 def waiting_lines(session: Session) -> list[str]:
     if session.faults and not session.world:
-        return ["This scene cannot be shown.", "What is wrong stands below; save the file and it is read again."]
+        return ["This scene cannot be shown.", "Its faults are listed below. Save the file, and it is read again."]
     if not session.warmup.ready and session.warmup.compiles:
         seconds = session.warmup.seconds
         return [
-            f"Preparing the tracer: {seconds:.0f} s, of some twenty",
-            "Only this once: its formulas are compiled for this machine and kept.",
+            f"Preparing the tracer: {seconds:.0f} s of about 20",
+            "Only at the first start: its formulas are compiled for this machine.",
         ]
     return ["Loading ..."]
 

@@ -22,7 +22,7 @@ def draw(session: Session) -> bool:
         if imgui.begin_menu("File"):
             if imgui.menu_item_simple("Open ...", "Ctrl+O"):
                 session.requests.append(Request.OPEN_DIALOG)
-            if imgui.menu_item_simple("Read again", "F5", False, session.loader.opening is not None):
+            if imgui.menu_item_simple("Reload", "F5", False, session.loader.opening is not None):
                 session.loader.reload()
             imgui.separator()
             if imgui.menu_item_simple("Save the image as PNG", "", False, session.world is not None):
@@ -117,7 +117,7 @@ def _view_menu(session: Session) -> bool:
         if imgui.menu_item_simple(label, key, getattr(shown, field)):
             setattr(shown, field, not getattr(shown, field))
     imgui.separator()
-    if imgui.menu_item_simple("As it was at first", "F"):
+    if imgui.menu_item_simple("Reset", "F"):
         session.home()
     if imgui.menu_item_simple("Through the scene's camera", "V"):
         session.through_camera()
@@ -127,7 +127,7 @@ def _view_menu(session: Session) -> bool:
     if imgui.menu_item_simple("Lecture size", "Tab", session.is_lecture_size):
         session.toggle_lecture_size()
     imgui.separator()
-    return imgui.menu_item_simple("Panels back in place")
+    return imgui.menu_item_simple("Reset the panels")
 
 
 def _title(session: Session) -> None:

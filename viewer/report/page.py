@@ -38,11 +38,10 @@ def as_html(title: str, command: str, chapters: Sequence[Chapter], about: Mappin
 
 
 INTRODUCTION = (
-    "Each curve is a method, each marker a setting of it; lower left is better. Time is the least of several runs once "
-    "everything is warm; working out an error is not timed. Images are as large as the one taken for true can be had "
-    "in seconds, so sizes differ. What lies below the dotted line is no better than that image. RMSE is in linear "
-    "light, 1 is white; MRSE is relative to the pixel (pbrt's definition); FLIP is the difference a person sees who "
-    "flips between the two images."
+    "Each curve is a method, each marker one of its settings; lower left is better. The time is the least of several "
+    "warm runs. Sizes differ, since a reference image must take no more than some seconds. An error below the dotted "
+    "line is no better than that of the reference. RMSE is in linear light, 1 is white; MRSE is relative to the pixel "
+    "(pbrt's definition); FLIP is the difference seen by a person who flips between the two images."
 )
 
 
@@ -75,14 +74,15 @@ def _section(name: str, source: Source, plots: Sequence[bytes]) -> list[str]:
 def _judged(source: Source) -> str:
     """The reference of the errors, and the settings that have no place on the plots."""
     own = source.reference.own
-    said = f"{source.size[0]}x{source.size[1]} pixels. Judged against: {source.reference.how}"
+    said = f"{source.size[0]}x{source.size[1]} pixels. Reference: {source.reference.how}"
     apart = (
         f"differ by {own.rmse:.1e} (RMSE), {own.largest:.1e} at most" if own.largest else "are the same to the last bit"
     )
     said += "." if source.exact else f"; the two {apart}."
     exact = sum(p.errors.largest == 0.0 for curve in source.curves for p in curve.points)
     if exact:
-        said += f" {exact} setting{'s are' if exact > 1 else ' is'} exact to the last bit, and on no logarithmic axis."
+        are = "settings are" if exact > 1 else "setting is"
+        said += f" {exact} {are} exact to the last bit, which a logarithmic axis cannot show."
     return said
 
 

@@ -36,7 +36,11 @@ class Strategy(NamedTuple):
 
 STRATEGIES = (
     Strategy(
-        "where the error is", "adaptive", SOBOL, True, "more samples for pixels that still move when theirs double"
+        "where the error is",
+        "adaptive",
+        SOBOL,
+        True,
+        "more samples for pixels that still change when their samples are doubled",
     ),
     Strategy("evenly everywhere", "even", SOBOL, False, "Sobol's points: at edges the error falls as N^-3/4"),
     Strategy("at random", "random", RANDOM, False, "independent points: the error falls as N^-1/2"),

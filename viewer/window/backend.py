@@ -30,7 +30,7 @@ class NoWindow(Exception):
     """No window can be opened, or not even a picture can be drawn without one. The text says why."""
 
 
-NO_GRAPHICS = "OpenGL 3.3 is not to be had (on Debian: the packages libegl1, libgl1 and libgl1-mesa-dri)"
+NO_GRAPHICS = "OpenGL 3.3 is not available (on Debian: install the packages libegl1, libgl1 and libgl1-mesa-dri)"
 
 
 class Surface:

@@ -75,12 +75,12 @@ BINDINGS = (
             K.up_arrow: _nudge(0, -1), K.down_arrow: _nudge(0, 1),
         },
     ),
-    Binding("wheel, right-drag", "on the image: enlarge, move"),
+    Binding("wheel, right-drag", "on the image: zoom, move"),
     Binding(
         "0 1 2 3 ... 9", "recursion depth",
         typed={str(depth): lambda session, depth=depth: session.set_depth(depth) for depth in range(10)},
     ),
-    Binding("+  -", "one deeper, one less", typed={"+": _deeper(1), "=": _deeper(1), "-": _deeper(-1)}),
+    Binding("+  -", "one level deeper, one less", typed={"+": _deeper(1), "=": _deeper(1), "-": _deeper(-1)}),
     Binding("click", "on a ray, in 3D or in the tree: select it"),
     Binding(
         "Page Down, Page Up", "select the next ray, the one before",
@@ -88,7 +88,7 @@ BINDINGS = (
     ),
     Binding("drag", "in the scene: turn; with Shift or the right button: move"),
     Binding("wheel", "in the scene, on the tree: nearer and farther"),
-    Binding("F", "the 3D view as it was at first", {"f": Session.home}),
+    Binding("F", "reset the 3D view", {"f": Session.home}),
     Binding("V", "look through the scene's camera", {"v": Session.through_camera}),
     Binding(
         "C  L  N  B", "camera, lights, normals, names: show or hide",
@@ -100,7 +100,7 @@ BINDINGS = (
     Binding("Tab", "lecture size: everything larger", pressed={K.tab: Session.toggle_lecture_size}),
     Binding("Esc", "select nothing, pick nothing", pressed={K.escape: _escape}),
     Binding(
-        "F5", "read the scene's file again (it is, when it is saved)",
+        "F5", "reload the scene's file (done by itself when it is saved)",
         pressed={K.f5: lambda session: session.loader.reload()},
     ),
     Binding(

@@ -227,7 +227,7 @@ BOMB = [
         ("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "vertex 0 must be three finite numbers"),
         ("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "index.obj"),
         ("noise.stl", bytes(range(256)) * 4, "cannot be read as STL"),
-        ("cut.ply", ply()[:-20], "must have 12 faces as its head says, got 9"),
+        ("cut.ply", ply()[:-20], "must have 12 faces as its header says, got 9"),
         ("bomb.ply", ply(10**9), "must have no more elements than bytes, got 1000000000 of vertex"),
         ("noise.glb", b"glTF" + bytes(40), "cannot be read as GLB"),
         ("cut.glb", glb()[:200], "cannot be read as GLB"),

@@ -211,4 +211,4 @@ def test_workers_of_other_versions_are_refused(tmp_path: Path) -> None:
                 worker.wait()
     assert len(refused.value.faults) == 2
     assert any("has raytree 0.1.0/" in fault and "(here 0.1.0/" in fault for fault in refused.value.faults)
-    assert any("has no raytree like this one: ImportError('no such thing" in fault for fault in refused.value.faults)
+    assert any("has no compatible raytree: ImportError('no such thing" in fault for fault in refused.value.faults)

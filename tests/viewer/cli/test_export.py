@@ -162,7 +162,7 @@ def test_rays_to_lights_are_left_out_on_wish(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     (
-        (["--node", "L1"], "a ray that meets a surface; L1 goes to a light: name the one before it"),
+        (["--node", "L1"], "a ray that meets a surface; L1 goes to a light: name its parent"),
         (["--fold", "2"], 'a number from 0 to 1, got "2"'),
         (["--figur", "hit"], "unrecognized arguments: --figur"),
     ),

@@ -54,7 +54,7 @@ def test_signal_ends_a_command_that_leaves_nothing_behind(name: str, tmp_path: P
 def test_signal_ends_the_compiler(tmp_path: Path) -> None:
     """At the very first start; the next one begins anew, and nothing half-written is loaded."""
     with on_a_terminal(["trace", "two-lights", "--pixel", "1,1"], tmp_path, XDG_CACHE_HOME=str(tmp_path)) as terminal:
-        terminal.wait_for(r"only this once.*\([3-9] s\)")
+        terminal.wait_for(r"only at the first start.*\([3-9] s\)")
         terminal.process.send_signal(INT)
         assert terminal.wait() == 128 + INT
     assert "Traceback" not in terminal.said

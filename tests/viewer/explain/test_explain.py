@@ -63,7 +63,7 @@ def test_snell_and_the_transmission_direction(water: tuple) -> None:
 
 def test_sum_names_each_child_with_its_share(water: tuple) -> None:
     world, tree = water
-    total = section(explain_ray(tree, world, 0), "What it sends up")
+    total = section(explain_ray(tree, world, 0), "Radiance")
     parts = [np.array(values(text)) for text in total.values()]
     assert parts[-1] == pytest.approx(tree.radiance, abs=6e-5)
     assert sum(parts[:-1]) == pytest.approx(tree.radiance, abs=2e-4)

@@ -67,7 +67,7 @@ def with_media(scene: Scene) -> Variant | str:
 
     objects = tuple(filled(item) for item in scene.objects)
     if objects == scene.objects:
-        return "no object has an inside"
+        return "no closed object"
     blocks = all(item.material.transmit == 0.0 for item in scene.objects)
     shadows = SHADOWS[BLOCK] if blocks else scene.tracing.shadows
     return Variant(
@@ -77,7 +77,7 @@ def with_media(scene: Scene) -> Variant | str:
 
 def with_fresnel(scene: Scene) -> Variant | str:
     if any(item.material.transmit > 0.0 for item in scene.objects):
-        return Variant("Fresnel's law: another picture", with_tracing(scene, model=MODELS[FRESNEL]))
+        return Variant("Fresnel's equations: another picture", with_tracing(scene, model=MODELS[FRESNEL]))
     glass = with_glass(scene, UNSEEN, ior=1.5)
     other = with_tracing(glass, model=MODELS[FRESNEL], shadows=SHADOWS[BLOCK])
     return Variant("Fresnel's shares at every hit", other, UNFOLLOWED)
@@ -94,7 +94,7 @@ def with_shadow_rays(scene: Scene) -> Variant | str:
 
 def with_filtered_light(scene: Scene) -> Variant | str:
     if not scene.lights or not any(item.material.is_lit for item in scene.objects):
-        return "no shadow ray asks for it"
+        return "no shadow rays"
     if any(item.material.transmit > 0.0 for item in scene.objects):
         return Variant("glass dims shadows: another picture", with_tracing(scene, shadows=SHADOWS[FILTER]))
     return Variant(
@@ -113,13 +113,13 @@ def with_checker(scene: Scene) -> Variant | str:
 
 def with_hierarchy(scene: Scene) -> Variant | str:
     if all(item.shape.bounds() is None for item in scene.objects):
-        return "no surface has an end"
-    return Variant("a hierarchy of those few", scene, hierarchy=True)
+        return "no bounded surface"
+    return Variant("a hierarchy over the few surfaces", scene, hierarchy=True)
 
 
 def with_normals(scene: Scene) -> Variant | str:
     if not any(isinstance(item.shape, Mesh) for item in scene.objects):
-        return "no mesh whose vertices could have one"
+        return "no mesh"
     return Variant("faces' own normals", with_geometry(scene, _own_normals))
 
 

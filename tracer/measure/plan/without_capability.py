@@ -14,7 +14,7 @@ from tracer.scene import Scene
 
 def without_reflection(scene: Scene) -> Variant | str:
     other = with_tracing(with_materials(scene, lambda m: replace(m, reflect=0.0)), model=MODELS[WHITTED])
-    return Variant("no reflection but the total one", other)
+    return Variant("no reflection but total internal reflection", other)
 
 
 def without_refraction(scene: Scene) -> Variant | str:
@@ -42,7 +42,7 @@ def without_checker(scene: Scene) -> Variant | str:
 
 
 def without_hierarchy(scene: Scene) -> Variant | str:
-    return Variant("every ray tries every surface", scene, hierarchy=False)
+    return Variant("every ray tests every surface", scene, hierarchy=False)
 
 
 def without_normals(scene: Scene) -> Variant | str:

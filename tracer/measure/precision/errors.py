@@ -15,7 +15,7 @@ MEASURES = {
     "rmse": "root mean square error",
     "mrse": "mean relative square error",
     "largest": "largest error",
-    "flip": "FLIP, the error that is seen",
+    "flip": "FLIP, the visible error",
 }
 
 

@@ -133,7 +133,7 @@ def measured(method: Method, reference: Reference, done: Callable[[], None]) -> 
         done()
     for point in points:
         if not math.isfinite(point.errors.rmse):
-            failures.append(f"{method.name}, {point.label}: its image has pixels that are no numbers")
+            failures.append(f"{method.name}, {point.label}: its image has pixels that are not numbers")
     return Curve(
         method.name, tuple(points), method.slope, fitted(points, reference) if method.slope else None
     ), failures

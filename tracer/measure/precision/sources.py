@@ -67,9 +67,9 @@ def left_out(scene: Scene, effort: Effort) -> list[str]:
     found = ["soft lights, glossy mirrors, lens: every light is a point, every mirror is smooth, the eye is a pinhole"]
     found.append("wavelengths: every index is one number")
     if not effort.kernels:
-        found.append("kernels in other precision: they would have to be compiled; a report without --quick has them")
+        found.append("kernels in other precision: they take a minute to compile; a report without --quick has them")
     if not _branches(scene):
-        found.append("trees that are cut: no surface reflects or transmits, every tree is its camera ray")
+        found.append("cut trees: no surface reflects or transmits, so every tree is one ray")
     return found
 
 
@@ -148,12 +148,13 @@ def kernels(world: World, size: Size, step: Callable[[], None]) -> Source:
         ]
         curves.append(Curve(name, tuple(points), None, None))
         own = points[-1].errors if kind == "double" else own
-    how = "this program's own kernel at each depth, stable formulas in double precision. The second way: the textbook's"
+    how = "our kernel at each depth, with stable formulas in double precision. The second way: the textbook's formulas"
     return Source(
         "kernels",
         "Kernels in single and double precision",
-        "What rounding does to the whole image: the same trees by the textbook's formulas, with 53 and with 24 bits. "
-        "Edges move by less than a pixel, so what is off is mostly a few samples at edges, and all that is close.",
+        "The effect of rounding on the whole image: the same trees by the textbook's formulas, with 53 and with 24 "
+        "bits. Edges move by less than a pixel, so the error is mostly in a few samples at edges, and in close "
+        "surfaces.",
         Reference(ours[-1], how, own),
         tuple(curves),
         (),
@@ -165,11 +166,11 @@ def trees_cut(effort: Effort) -> Study:
         missing = (
             f"at most {true.bound:.1e}"
             if math.isfinite(true.bound)
-            else "bounded by nothing, for light may add up without end"
+            else "not bounded, for light may add up without end"
         )
         return (
-            f"trees followed, the heaviest ray first, until what is left weighs {TRUE:g} in sum or they have "
-            f"{MOST_NODES} rays: what is missing is {missing}. The second way is level by level, up to {DEEP} levels"
+            f"best-first trees, until the weights of the rest sum up to {TRUE:g} or they have {MOST_NODES} rays: the "
+            f"missing light is {missing}. The second way is level by level, up to {DEEP} levels"
         )
 
     def methods(made: Maker) -> Sequence[Method]:
@@ -177,8 +178,8 @@ def trees_cut(effort: Effort) -> Study:
 
     return Study(
         "trees",
-        "Trees that are cut",
-        "What the image lacks where rays are not followed on. Pixels are traced at their centres.",
+        "Cut trees",
+        "The light that an image lacks because rays were not followed. Pixels are traced at their centres.",
         {"tolerance": TRUE, "max_nodes": MOST_NODES},
         {"depth": DEEP, "min_weight": TRUE, "max_nodes": MOST_NODES},
         said,
@@ -198,15 +199,14 @@ def pixels_sampled(effort: Effort) -> Study:
         settings = [Setting(f"error {e:g}", e, made(until_error=e)) for e in effort.errors]
         return [*found, Method("where the error is", settings)]
 
-    how = f"{effort.true_samples} samples a pixel that fill it evenly (Sobol's). The second way is as many, jittered"
+    how = f"{effort.true_samples} Sobol samples per pixel. The second way has as many jittered ones"
     true = {"samples": effort.true_samples}
     return Study(
         "pixels",
-        "Pixels that are sampled",
-        "What the mean of a pixel's samples is off. Where a pixel has an edge in it, theory has N^-1/2 for samples at "
-        "random and N^-3/4 for jittered ones; smooth pixels do better than that. Where the error is: more samples only "
-        "for pixels that still change, until the image's error is estimated as what was asked for. The scene's own "
-        "depth.",
+        "Sampled pixels",
+        "The error of the mean of a pixel's samples. At edges, theory has N^-1/2 for random samples and N^-3/4 for "
+        "jittered ones; smooth pixels converge faster. Where the error is: adaptive sampling, until the estimated "
+        "error of the image is the requested one. The scene's own depth.",
         true,
         {**true, "sampler": "jittered"},
         lambda _: how,
@@ -227,15 +227,15 @@ def both_together(effort: Effort) -> Study:
         return [Method("depth and samples", settings), Method("samples and rays where they count", both)]
 
     how = (
-        f"{effort.true_samples} samples a pixel (Sobol's), every ray followed that weighs {FAINT:g}. The second way is "
-        "as many samples, jittered"
+        f"{effort.true_samples} Sobol samples per pixel, and every ray with a weight of at least {FAINT:g}. The second "
+        "way has as many jittered samples"
     )
     true = {"samples": effort.true_samples, "depth": DEEP, "min_weight": FAINT, "max_nodes": MOST_NODES}
     return Study(
         "together",
         "Both together",
-        "What an image is off that is cut and sampled: a larger depth and more samples from marker to marker; or "
-        "samples where the error is, of trees cut at a tenth of that error in the sum of weights.",
+        "The error of an image whose trees are cut and whose pixels are sampled: with a larger depth and more samples "
+        "from marker to marker; or by adaptive sampling of trees that are cut at a tenth of the requested error.",
         true,
         {**true, "sampler": "jittered"},
         lambda _: how,

@@ -101,9 +101,9 @@ GRAZING = math.radians(89.9)
 PROBLEMS = (
     Problem(
         "pile",
-        "Three plates head on",
-        "Six faces split every ray, and each ray's weight falls quickly, but not the number of rays: together what is "
-        "cut weighs more than any one of them. The pile throws back N / (24 + N) of the light, N = 6.",
+        "Three plates at normal incidence",
+        "Six faces split every ray. The weight of a ray falls quickly, but not the number of rays: together, the cut "
+        "rays weigh more than any one of them. The pile reflects N / (24 + N) of the light, N = 6.",
         lambda: pile(3),
         (0.1, 1000.0, 0.2),
         (0.0, -1.0, 0.0),
@@ -115,7 +115,7 @@ PROBLEMS = (
     Problem(
         "slab",
         "A slab at 89.9 degrees",
-        "What is inside stays inside and lets out a hundredth at each end: no ray weighs much, thousands count.",
+        "Light stays inside, and a hundredth leaves at each reflection: no ray weighs much, but thousands count.",
         under_dark,
         (0.1, 1.0 + math.cos(GRAZING), 0.2),
         (math.sin(GRAZING), -math.cos(GRAZING), 0.0),
@@ -125,7 +125,7 @@ PROBLEMS = (
     Problem(
         "drop",
         "A drop of water under a white sky",
-        "All orders of the rainbow's ray together bring back all the light: 1.",
+        "All orders of the rainbow's ray together carry all the light: 1.",
         drop,
         (-2.0, 0.8, 0.0),
         (1.0, 0.0, 0.0),
@@ -134,8 +134,8 @@ PROBLEMS = (
     ),
     Problem(
         "corridor",
-        f"Along two mirrors, {BOUNCES} times to and fro",
-        "One ray that hardly loses weight: no depth below its length sees any light, while a weight does no harm.",
+        f"Along two mirrors, {BOUNCES} times back and forth",
+        "One ray that hardly loses weight: a smaller depth finds no light, while a smallest weight does no harm.",
         corridor,
         (0.0, 0.5, 0.0),
         (0.25, 1.0, 0.0),
@@ -145,8 +145,8 @@ PROBLEMS = (
     ),
     Problem(
         "shell",
-        "Inside a shell that shines and throws back nine tenths",
-        "A geometric series, 10: what is cut at depth D is 10 times 0.9^(D+1), and that is also what the bound says.",
+        "Inside a shell that emits light and reflects nine tenths",
+        "A geometric series with the sum 10: a cut at depth D loses 10 times 0.9^(D+1), which is also the bound.",
         shell,
         (0.1, 0.2, -0.3),
         (1.0, 2.0, 3.0),

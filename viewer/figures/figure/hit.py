@@ -187,7 +187,7 @@ class _Drawing:
             name, fate = f"ray-{child}", self.tree.end(child) or ""
             title = ray_title(self.tree, child)
             out = turns[child][1]
-            title += f"; it leaves this plane by {format_angle(out)} and is turned into it" if out > IN_PLANE else ""
+            title += f"; it is out of this plane by {format_angle(out)} and rotated into it" if out > IN_PLANE else ""
             stroke = Stroke(color, style.width, BLOCKED_DASH if fate == "blocked" else style.dash)
             stop = point_along((CENTER, end), 1.0 - 0.5 * self.size / math.dist(CENTER, end))  # up to the sign
             self.marks.append(Line(name, CENTER, stop, stroke, title=title))
@@ -259,7 +259,7 @@ class _Drawing:
         section = local_light(self.tree, world, self.node)
         section.formula = LOCAL
         if self.turned:
-            section.add("each L turned into this plane about n")
+            section.add("each L rotated into this plane about n")
         return section
 
     def _lines(self, section: Section, vectors: bool) -> list[FormulaLine]:

@@ -19,7 +19,7 @@ GROUND = Material("ground", diffuse=1.0, reflect=0.5)
 
 
 def second_way(tree: RayTree, radius: float, inner: float) -> Decimal:
-    """From a ball of glass, n = 1.5, to the one inside, with 50 digits. Both are around the origin; the ray along -z."""
+    """From a glass ball, n = 1.5, to the one inside, with 50 digits. Both are around the origin, the ray along -z."""
     x, r = decimal(float(tree.nodes[0]["origin"][0])), decimal(radius)
     s, c = DIGITS.divide(x, r), root(1 - DIGITS.divide(x, r) ** 2)
     sine = DIGITS.divide(s, Decimal("1.5"))
