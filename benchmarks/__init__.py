@@ -1,4 +1,4 @@
-"""Speed, measured side by side with other programs, in one run on one machine: never part of the tests.
+"""Speed, measured side by side with other programs, in one run on one machine. Not part of the tests.
 
-`python -m benchmarks` runs it all; `__main__.py` lists the parts, a file each.
+`python -m benchmarks` runs all parts; `__main__.py` lists them, one file each.
 """

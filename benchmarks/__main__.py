@@ -1,7 +1,7 @@
 """`python -m benchmarks [PART...]`: measure, and write bench.json, bench.md and bench.svg.
 
-Exit status 0 also where a figure misses what is wanted: the table says so. 1 where a part could not be run, 2 for
-arguments that cannot be used.
+Exit status 0 even if a figure misses its target: the table says so. 1 if a part could not be run, 2 for invalid
+arguments.
 """
 
 import argparse
@@ -93,7 +93,7 @@ def part(name: str) -> str:
 
 
 def measure(tasks: Sequence[tuple[str, Task]]) -> tuple[list[Figure], dict[str, str]]:
-    """Every task's figures, and why tasks could not be run; one that fails does not stop the others."""
+    """The figures of every task, and the reasons for tasks that failed. A failure does not stop the others."""
     figures: list[Figure] = []
     failures: dict[str, str] = {}
     total = sum(task.seconds for _, task in tasks)
@@ -104,14 +104,14 @@ def measure(tasks: Sequence[tuple[str, Task]]) -> tuple[list[Figure], dict[str, 
             progress(done / total)
             try:
                 figures += task.measure()
-            except Exception as error:  # whatever it is, the others are still worth having
+            except Exception as error:  # any error: the other tasks still run
                 failures[f"{part}, {task.name}"] = reason(error)
             done += task.seconds
     return figures, failures
 
 
 def reason(error: Exception) -> str:
-    """In one line: a compiler's complaint has thousands."""
+    """The error in one line: a compiler's message has thousands."""
     first = str(error).strip().partition("\n")[0]
     return f"{type(error).__name__}: {first[:300]}"
 

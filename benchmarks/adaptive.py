@@ -1,8 +1,8 @@
-"""Samples where the error is, against as many everywhere: the rays, and the seconds, to the same true error.
+"""Adaptive sampling against the same number of samples in every pixel: rays and seconds to the same true error.
 
-The shipped lessons at their own size. The truth is an image of very many samples; the error is that of the image with
-N samples a pixel. Rounds of the adaptive one end when its own error is no larger; between two of them it is taken to
-fall as a power. Rays are the same in every run.
+The shipped lessons at their own size. The true image has very many samples; the goal is the error of the image with
+N samples a pixel. Rounds of the adaptive one end when its true error is no larger; between two rounds the error is
+interpolated as a power. Rays are the same in every run.
 """
 
 import math
@@ -49,7 +49,7 @@ def measure(name: str) -> list[Figure]:
 
 
 def to_each(world: tracer.World, goals: Sequence[float], true: np.ndarray) -> list[tuple[float, float]]:
-    """(rays, seconds) when the true error comes down to each of the goals, the largest first."""
+    """(rays, seconds) at which the true error reaches each of the goals, the largest first."""
     made = ConvergingImage(world, world.view(), make_limits(world, records=False), SOBOL)
     threads = processors()
     ahead, found = list(goals), []
@@ -68,5 +68,5 @@ def to_each(world: tracer.World, goals: Sequence[float], true: np.ndarray) -> li
 
 
 def between(a: float, b: float, share: float) -> float:
-    """On a logarithmic scale."""
+    """Interpolate on a logarithmic scale."""
     return b if share == 1.0 else a ** (1.0 - share) * b**share

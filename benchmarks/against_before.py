@@ -1,7 +1,7 @@
-"""What became slower, or faster, since figures that were kept.
+"""Figures that became slower or faster since an earlier report.
 
-A change counts where each median lies outside what the other one's runs spread over. Figures of one machine can be
-compared so; between machines ratios hold roughly, times do not.
+A change counts if each median lies outside the spread of the other's runs. This holds on one machine; between
+machines ratios are roughly comparable, times are not.
 """
 
 from collections.abc import Iterator, Sequence
@@ -11,7 +11,7 @@ from benchmarks.report import short
 
 
 def changes(before: Sequence[Figure], now: Sequence[Figure]) -> Iterator[str]:
-    """A line for each figure that changed, what became worse first, and one for those that did not."""
+    """A line for each figure that changed, those that became worse first, and one line for all others."""
     known = {(figure.part, figure.what): figure for figure in before}
     pairs = [(known[key], figure) for figure in now if (key := (figure.part, figure.what)) in known]
     changed = [(old, new) for old, new in pairs if is_changed(old, new)]

@@ -1,8 +1,8 @@
-"""First hits on a mesh of 327 680 triangles against Embree's, one ray at a time on one thread each.
+"""Closest hits on a mesh of 327 680 triangles against Embree's, one ray at a time, on one thread each.
 
 Embree (I. Wald et al., "Embree: A Kernel Framework for Efficient CPU Ray Tracing", SIGGRAPH 2014) by the package
-embreex. It counts in single precision, we in double. Both are told the same rays and corners, and must meet the same
-triangles.
+embreex. Embree computes in single precision, raytree in double. Both have the same rays and corners, and must hit
+the same triangles.
 """
 
 import time
@@ -16,7 +16,7 @@ from benchmarks.stone import LARGE, coherent_rays, scattered_rays, stone, stone_
 from benchmarks.task import Options, Task
 
 WANTED = 0.7
-DIFFERENT = 1e-3  # share of the rays that may meet another triangle: those that pass an edge within single precision
+DIFFERENT = 1e-3  # share of rays that may hit another triangle: those within single precision of an edge
 
 
 def rates(options: Options) -> list[Task]:
@@ -35,7 +35,7 @@ def rates(options: Options) -> list[Task]:
 
 
 def embree() -> Any:
-    """Its scene of the same mesh."""
+    """An Embree scene of the same mesh."""
     from embreex.mesh_construction import TriangleMesh  # pyright: ignore[reportMissingImports]
     from embreex.rtcore_scene import EmbreeScene  # pyright: ignore[reportMissingImports]
 

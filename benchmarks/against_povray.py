@@ -1,6 +1,6 @@
-"""Our time for an image against POV-Ray's: 512x512, depth 4, weights down to 1/255, scene by scene and together.
+"""Time for an image against POV-Ray's: 512x512, depth 4, weights down to 1/255, scene by scene and in total.
 
-And, as a part of its own, how many rays each program follows where nothing is cut.
+A second part counts the rays that each program follows if nothing is cut.
 """
 
 import statistics
@@ -25,7 +25,7 @@ def times(options: Options) -> list[Task]:
         return [compared("povray", entry.name, "s", ours, "POV-Ray", theirs, faster=True, wanted=EACH)]
 
     def together() -> list[Figure]:
-        """Over the scenes of one kind, run by run."""
+        """Total over the scenes of one kind, run by run."""
         return [
             Figure("povray", f"{kind}, geometric mean", "times as fast", spread, "POV-Ray", wanted=TOGETHER)
             for kind, rows in ratios.items()

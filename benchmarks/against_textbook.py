@@ -1,4 +1,4 @@
-"""What the stable formulas cost: images with them, in turn with images by the textbook's formulas in the same kernel.
+"""Cost of the stable formulas: images in turn with images by the textbook's formulas in the same kernel.
 
 `make bench-stable`. The textbook's formulas are those of `tracer.measure.precision.textbook_kernel`.
 """

@@ -11,9 +11,9 @@ from benchmarks.task import Options, Task
 from tracer.scene import Material
 
 CLICKS = 500  # a run
-PATIENCE = 3.0  # seconds: a run ends then, too
+PATIENCE = 3.0  # seconds, after which a run ends in any case
 DEPTH = 3
-MOST = 2.0  # milliseconds for 99 of 100 clicks
+MOST = 2.0  # milliseconds, for 99 of 100 clicks
 MATERIALS = (
     Material("mirror", diffuse=0.3, reflect=0.6),
     Material("glass", diffuse=0.1, reflect=0.1, transmit=0.8, ior=1.5),
@@ -41,7 +41,7 @@ def clicks(options: Options) -> list[Task]:
 
 
 def milliseconds(world: tracer.World, random: np.random.Generator) -> list[float]:
-    """Of clicks anywhere in the image."""
+    """Times of clicks at random pixels of the image."""
     image = world.scene.image
     took: list[float] = []
     end = time.perf_counter() + PATIENCE

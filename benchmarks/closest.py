@@ -1,4 +1,4 @@
-"""The first hits of many rays on one thread, by the very search that the tracer's kernel uses."""
+"""Closest hits of many rays on one thread, by the kernel's own traversal."""
 
 import time
 from typing import Any
@@ -15,7 +15,7 @@ from tracer.rays import make_ray
 
 @kernel
 def search_all(world: Any, origins: Any, directions: Any, space: Any, surfaces: Any) -> None:
-    """The number of the surface that each ray meets first, -1 for none."""
+    """The surface that each ray hits first, -1 for none."""
     for k in range(len(surfaces)):
         origin = vector(origins[k])
         reach = abs(origin[0]) + abs(origin[1]) + abs(origin[2])
@@ -24,14 +24,14 @@ def search_all(world: Any, origins: Any, directions: Any, space: Any, surfaces: 
 
 
 class Searcher:
-    """A world, and room for searching it."""
+    """A world with buffers for its traversal."""
 
     def __init__(self, world: tracer.World) -> None:
         self.world = world
         self.workspace = Workspace(world.solids_around((0.0, 0.0, 0.0)))
 
     def hits(self, rays: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-        """The surfaces met. The first call may compile."""
+        """The surfaces that were hit. The first call may compile."""
         origins, directions = (np.ascontiguousarray(part, np.float64) for part in rays)
         surfaces = np.zeros(len(origins), np.int64)
         search_all(self.world.arrays, origins, directions, self.workspace.space, surfaces)

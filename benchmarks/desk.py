@@ -1,8 +1,8 @@
-"""The viewer in a real window, watched: a process of its own that prints what it found as JSON.
+"""Frame times of the viewer in a real window: a process of its own that prints its results as JSON.
 
-`python -m benchmarks.desk SCENE RUNS`. The loop is the viewer's own (`App.run`); only its frames are timed. For frames
-without an image in the making a hand moves the mouse over the window, since the viewer draws none on its own, at the
-pace at which frames came while one was made.
+`python -m benchmarks.desk SCENE RUNS`. The loop is the viewer's own (`App.run`); only its frames are timed. The
+viewer draws no frame without an event, so for frames at rest xdotool moves the mouse over the window, at the rate of
+the frames during rendering.
 """
 
 import faulthandler
@@ -24,13 +24,13 @@ from viewer.window.backend import Window
 
 SIZE = (1280, 720)
 FEWEST = 10  # frames at rest
-SETTLED = 1.0  # seconds after which the last frames that anything asked for are drawn
-PATIENCE = 30.0  # seconds a run, which takes some six
+SETTLED = 1.0  # seconds, after which no frame is left to draw
+PATIENCE = 30.0  # seconds for a run, which takes about six
 IDLE = 3.0  # seconds
 
 
 class Desk(App):
-    """The viewer, noting how long its frames take; it leaves its loop when `enough` says so after a frame."""
+    """The viewer with a record of its frame times. It leaves its loop when `enough` says so after a frame."""
 
     def __init__(self, scene: Path) -> None:
         super().__init__(Window("raytree", SIZE), Session())
@@ -50,24 +50,24 @@ class Desk(App):
         return self.over
 
     def watch(self, enough: Callable[[], bool]) -> list[float]:
-        """Run until there is enough; the seconds of each frame."""
+        """Run until `enough`; return the seconds of each frame."""
         self.took, self.enough, self.over = [], enough, False
         self.run()
         return self.took
 
     def frames_at_rest(self, count: int, pause: float) -> float:
-        """The median frame while a hand moves the mouse every `pause` seconds and nothing else happens."""
+        """The median frame time while the mouse moves every `pause` seconds and nothing else happens."""
 
         def moved() -> bool:
             k = len(self.took)
-            time.sleep(pause)  # the hand's pace: nothing is waited for
+            time.sleep(pause)  # the pace of the mouse: nothing is waited for
             imgui.get_io().add_mouse_pos_event(600.0 + k % 2, 200.0)
             return k >= count
 
         return statistics.median(self.watch(moved))
 
     def image_in_window(self) -> tuple[float, list[float]]:
-        """(seconds of an image, the frames drawn meanwhile)."""
+        """(seconds of an image, times of the frames drawn meanwhile)."""
         session = self.session
         session.image.forget()
         session.update()
@@ -82,7 +82,7 @@ class Desk(App):
         return tracer.render(world, depth=self.session.depth, model=self.session.model).seconds["trace"]
 
     def share_at_rest(self) -> float:
-        """Of one core, while nothing happens."""
+        """CPU time at rest, as a share of one core."""
         over = threading.Event()
         times: list[tuple[float, float]] = []
 
@@ -106,16 +106,17 @@ class Desk(App):
 
 
 def main() -> None:
-    faulthandler.dump_traceback_later(PATIENCE * (int(sys.argv[2]) + 1), exit=True)  # says where it hangs
+    faulthandler.dump_traceback_later(PATIENCE * (int(sys.argv[2]) + 1), exit=True)  # prints where it hangs
     screen()
     desk = Desk(Path(sys.argv[1]))
     found: dict[str, list[float]] = {name: [] for name in ("rest", "busy", "windowed", "alone", "idle")}
     for run in range(int(sys.argv[2]) + 1):
         windowed, busy = desk.image_in_window()
-        pause = max(0.0, (windowed - sum(busy)) / len(busy))  # as while the image rendered: caches forget meanwhile
+        # the same rate of frames as during rendering, for the same state of the caches
+        pause = max(0.0, (windowed - sum(busy)) / len(busy))
         rest = desk.frames_at_rest(FEWEST + len(busy), pause)
         row = (rest, statistics.median(busy), windowed, desk.image_alone(), desk.share_at_rest())
-        if run:  # the first only warms up
+        if run:  # the first run only warms up
             for values, value in zip(found.values(), row, strict=True):
                 values.append(value)
     desk.close()

@@ -1,7 +1,8 @@
-"""Whose images are compared: the scenes made here, and a folder's NAME.nff with NAME.pov beside it or in `pov`.
+"""The scenes that are compared with POV-Ray: those generated here, and a folder's NAME.nff with NAME.pov beside it or
+in `pov`.
 
-A folder's POV-Ray source is taken for its language of version 3.1, with its defaults: five levels with the camera's,
-and rays that weigh less than 1/255 are not followed. Our own source for the made scenes says the same.
+A folder's POV-Ray source is read as version 3.1 with its defaults: five levels including the camera's, and rays of
+weight below 1/255 are not followed. Our own source for the generated scenes says the same.
 """
 
 import tempfile
@@ -24,17 +25,19 @@ EVERY_RAY = f"global_settings {{ max_trace_level {DEPTH} adc_bailout 0 }}\n"
 @dataclass(frozen=True)
 class Entry:
     name: str
-    file: Path | None = None  # of a folder's scene; None: made here
+    file: Path | None = None  # a scene of the folder; None: generated
 
     def race(self) -> Race:
-        """As both programs do by default."""
+        """A race with the defaults of both programs."""
         if self.file:
             return Race(tracer.load(self.file), self.pov_source(), SIZE, DEPTH, LEAST, ("+MV3.1",))
         scene = self.made()
         return Race(scene, povray.write_scene(scene, DEPTH, SIZE, LEAST), SIZE, DEPTH, LEAST)
 
     def count(self) -> Race:
-        """With nothing cut. POV-Ray also counts the rays that are too deep to be traced: it gets one level less."""
+        """A race without any cut. POV-Ray also counts the rays that are too deep to be traced, so it gets one level
+        less.
+        """
         if self.file:
             return Race(tracer.load(self.file), EVERY_RAY + self.pov_source(), SIZE, DEPTH, 0.0, ("+MV3.1",))
         scene = self.made()

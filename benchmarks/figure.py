@@ -1,4 +1,4 @@
-"""What a benchmark finds: medians with the lowest and the highest run, and what was wanted."""
+"""A measured figure: the median with the lowest and the highest run, and its target."""
 
 import dataclasses
 import statistics
@@ -9,7 +9,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Spread:
-    """Several runs of one thing."""
+    """Several runs of one measurement."""
 
     median: float
     low: float
@@ -22,17 +22,17 @@ class Spread:
 
 @dataclass(frozen=True)
 class Figure:
-    """One row of the table. The ratio, where there is one, is what counts; else our own value."""
+    """One row of the table. The target is one for the ratio if there is one, else for our own value."""
 
     part: str
     what: str
     unit: str  # of ours and theirs
     ours: Spread
-    than: str = ""  # what theirs is
+    than: str = ""  # name of theirs
     theirs: Spread | None = None
     ratio: Spread | None = None
     wanted: float | None = None
-    at_least: bool = True  # more is better; else the wanted value is the most there may be
+    at_least: bool = True  # more is better; otherwise the target is the most allowed
 
     @property
     def verdict(self) -> Spread:
@@ -40,7 +40,7 @@ class Figure:
 
     @property
     def met(self) -> bool | None:
-        """None where nothing was wanted."""
+        """None without a target."""
         if self.wanted is None:
             return None
         return self.verdict.median >= self.wanted if self.at_least else self.verdict.median <= self.wanted
@@ -57,7 +57,7 @@ class Figure:
 
 
 def in_turn(runs: int, *measures: Callable[[], float]) -> list[list[float]]:
-    """Each measure's values in `runs` runs. Each run asks all of them, one after the other; one more only warms up."""
+    """The values of each measure in `runs` runs. A run takes all measures in turn; an extra run warms up."""
     rounds = [[measure() for measure in measures] for _ in range(runs + 1)]
     return [list(values) for values in zip(*rounds[1:], strict=True)]
 
@@ -74,6 +74,6 @@ def compared(
     wanted: float | None = None,
     at_least: bool = True,
 ) -> Figure:
-    """A figure whose ratio is ours over theirs, run by run; theirs over ours where times say how much `faster`."""
+    """A figure of the ratio ours over theirs, run by run; theirs over ours if it states how much `faster` ours is."""
     ratios = [b / a if faster else a / b for a, b in zip(ours, theirs, strict=True)]
     return Figure(part, what, unit, Spread.of(ours), than, Spread.of(theirs), Spread.of(ratios), wanted, at_least)

@@ -1,7 +1,7 @@
-"""From how many surfaces on boxes pay: what `bvh.FLAT` is chosen by.
+"""The number of surfaces from which a BVH pays: the choice of `bvh.FLAT`.
 
-A few shapes of one kind over a floor, beside one another or through each other, as an image of one thread: with the
-hierarchy and without.
+A few shapes of one kind above a floor, side by side or overlapping, as an image of one thread: with a BVH and
+without.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""How cost grows with the scene: a ray in 64 times as many triangles, and building the hierarchy over them."""
+"""Growth of cost with the scene: a ray in 64 times as many triangles, and building their BVH."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""Our time for a shipped lesson's image against POV-Ray's: 640x480, depth 3, Whitted's model, nothing cut."""
+"""Time for a shipped lesson's image against POV-Ray's: 640x480, depth 3, Whitted's model, nothing cut."""
 
 import dataclasses
 
@@ -11,7 +11,7 @@ from viewer.lessons import lesson
 
 SIZE = (640, 480)
 DEPTH = 3
-UNSEEN = ("scale", "panes")  # smaller than what POV-Ray can see
+UNSEEN = ("scale", "panes")  # smaller than POV-Ray's epsilon
 
 
 def times(options: Options) -> list[Task]:

@@ -1,4 +1,4 @@
-"""On what the figures were found: without it they mean little."""
+"""The machine that figures were measured on. Without it they mean little."""
 
 import importlib.metadata
 import platform

@@ -1,6 +1,6 @@
-"""The figures as bars: a panel for each part and unit, with what is wanted as a line across each bar.
+"""The figures as bars: a panel for each part and unit, with the target as a line across each bar.
 
-Counts of rays are no speed and stand in the table alone.
+Counts of rays are no speed and appear in the table only.
 """
 
 import importlib.util
@@ -24,7 +24,7 @@ def has_library() -> bool:
 
 
 def as_svg(figures: Sequence[Figure]) -> bytes:
-    """Nothing where there is nothing to draw, or nothing to draw with."""
+    """An SVG, or None without figures or without matplotlib."""
     panels = grouped(figures)
     if not panels or not has_library():
         return b""
@@ -46,7 +46,7 @@ def as_svg(figures: Sequence[Figure]) -> bytes:
 
 
 def grouped(figures: Sequence[Figure]) -> dict[tuple[str, str], list[Figure]]:
-    """By part, and by what the bars are long."""
+    """Figures by part and unit."""
     panels: dict[tuple[str, str], list[Figure]] = {}
     for figure in figures:
         if figure.part not in LABELS:

@@ -1,6 +1,6 @@
-"""One scene's image by POV-Ray and by us: the same size, depth and cut-off, two threads each.
+"""One scene's image by POV-Ray and by raytree: the same size, depth and cut-off, two threads each.
 
-POV-Ray counts the camera ray as a level. Its "Trace Time" stands against our `seconds["trace"]`: neither includes
+POV-Ray counts the camera ray as a level. Its "Trace Time" is compared with our `seconds["trace"]`: neither includes
 reading the scene.
 """
 
@@ -20,14 +20,14 @@ THREADS = 2
 
 @dataclass(frozen=True)
 class Race:
-    """A scene in both programs' terms."""
+    """A scene for both programs."""
 
     scene: Scene
     source: str  # the same for POV-Ray
     size: tuple[int, int]
     depth: int
     min_weight: float = 0.0
-    options: Sequence[str] = ()  # more of POV-Ray's
+    options: Sequence[str] = ()  # further options of POV-Ray
 
     def times(self, runs: int) -> tuple[list[float], list[float]]:
         """(ours, theirs) in seconds, run by run."""

@@ -19,7 +19,7 @@ def as_json(figures: Sequence[Figure], failures: Mapping[str, str], about: Mappi
 
 
 def read_json(path: Path) -> list[Figure]:
-    """ValueError where this is no file of figures."""
+    """Read figures back. Raises ValueError if the file is not one of figures."""
     content = json.loads(path.read_text("utf-8"))
     if not isinstance(content, dict) or content.get("format") != FORMAT:
         raise ValueError(f"its format is not {FORMAT}")
@@ -61,7 +61,7 @@ def value(spread: Spread, unit: str) -> str:
 
 
 def short(number: float) -> str:
-    """Three digits; whole numbers as they are."""
+    """Three digits; integers as they are."""
     if number == int(number) or abs(number) >= 1000:
         return f"{number:.0f}"
     return f"{number:.3g}"

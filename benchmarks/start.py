@@ -1,6 +1,6 @@
-"""How long a start takes: the commands against processes that only import what they need, and the first start ever.
+"""Start times: commands against processes that only import the same libraries, and the first start on a machine.
 
-Whole processes by the clock on the wall. Only the first start ever compiles: with an empty cache folder.
+Wall-clock times of whole processes. Only the first start compiles: it runs with an empty cache folder.
 """
 
 import os
@@ -20,7 +20,7 @@ VIEW_MOST = 2.2
 TRACE_MOST = 2.0
 FIRST_MOST = 40.0  # seconds
 FIRST_RUNS = 2  # at most
-KEPT = {"PYTHONDONTWRITEBYTECODE": ""}  # as for users: Python keeps what it has compiled of our files, too
+KEPT = {"PYTHONDONTWRITEBYTECODE": ""}  # as for users: Python caches the bytecode of raytree's files, too
 VIEW_NEEDS = "numpy, numba, platformdirs, moderngl, imgui_bundle, glfw, PIL.Image"
 MESH_NEEDS = f"{VIEW_NEEDS}, trimesh"  # a lesson with a mesh file
 TRACE_NEEDS = "numpy, numba"
@@ -52,7 +52,7 @@ def starts(options: Options) -> list[Task]:
 
 
 def first_start() -> float:
-    """Seconds to the viewer with its first image, where nothing is compiled yet."""
+    """Seconds to the viewer's first image if nothing is compiled yet."""
     with tempfile.TemporaryDirectory() as folder:
         return seconds(raytree("view", LESSON, "--screenshot", f"{folder}/view.png"), {"XDG_CACHE_HOME": folder})
 

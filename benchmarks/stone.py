@@ -1,4 +1,4 @@
-"""A stone: a closed mesh of 20 * 4^level triangles, an icosphere with waves, and rays for it."""
+"""A closed mesh of 20 * 4^level triangles, an icosphere with waves, and rays towards it."""
 
 import numpy as np
 import trimesh
@@ -20,7 +20,7 @@ def stone(level: int) -> Geometry:
     points = np.asarray(ball.vertices)
     waves = np.sin(points @ np.array([(3.0, 1.0, 2.0), (-2.0, 4.0, 1.0), (5.0, -1.0, -6.0)]).T + (0.3, 1.1, 2.0))
     heights = 1.0 + waves @ np.array([0.08, 0.06, 0.03])
-    # In single precision from the start, so that a program that counts in it has the very same corners.
+    # In single precision from the start, so that a program in single precision has the same corners.
     return Geometry((heights[:, None] * points).astype(np.float32).astype(np.float64), np.asarray(ball.faces))
 
 
@@ -31,7 +31,7 @@ def stone_world(level: int, material: Material = MATTE) -> tracer.World:
 
 
 def coherent_rays(side: int = 512) -> tuple[np.ndarray, np.ndarray]:
-    """(origins, directions), float32 (side^2, 3): a camera's, in reading order; the stone fills most of the image."""
+    """(origins, directions), float32 (side^2, 3): camera rays row by row; the stone fills most of the image."""
     forward = -EYE / np.linalg.norm(EYE)
     right = np.cross(forward, (0.0, 1.0, 0.0))
     right /= np.linalg.norm(right)
@@ -42,7 +42,7 @@ def coherent_rays(side: int = 512) -> tuple[np.ndarray, np.ndarray]:
 
 
 def scattered_rays(count: int = 512 * 512, seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
-    """From anywhere in the box about the stone into any direction."""
+    """Rays from random points of the bounding box in random directions."""
     random = np.random.default_rng(seed)
     return _single(random.uniform(-1.2, 1.2, (count, 3)), random.normal(size=(count, 3)))
 

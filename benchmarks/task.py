@@ -1,4 +1,4 @@
-"""A benchmark as a row of tasks, so that the time left is known."""
+"""A benchmark as a list of tasks, so that the remaining time is known."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,5 +16,5 @@ class Options:
 @dataclass(frozen=True)
 class Task:
     name: str
-    seconds: float  # about how long: only for the time left
+    seconds: float  # expected time, for the display of the remaining time
     measure: Callable[[], list[Figure]]

@@ -1,6 +1,6 @@
-"""What the window and the image cost each other, in a real window on a screen without a monitor.
+"""Cost of the window for the image, and of the image for the window, on a screen without a monitor.
 
-The scene is a small sphereflake at 1600x1200, so that its image takes some seconds and hundreds of frames are drawn.
+The scene is a small sphereflake at 1600x1200: its image takes some seconds, in which hundreds of frames are drawn.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""`make gallery`: writes `docs/figures.md`, with figures of every lesson and the commands that made them."""
+"""`make gallery`: write `docs/figures.md`, with figures of every lesson and the commands that made them."""
 
 import sys
 from pathlib import Path

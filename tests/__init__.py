@@ -1,4 +1,4 @@
-"""Tests, in rooms that mirror those of the program."""
+"""Tests. The folders mirror the rooms of the program."""
 
 from pathlib import Path
 

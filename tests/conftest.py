@@ -1,4 +1,4 @@
-"""Shared by all tests: the shipped scenes, and numpy's floating point errors as exceptions."""
+"""Fixtures shared by all tests: the shipped scenes. numpy's floating point errors are raised as exceptions."""
 
 import signal
 from collections.abc import Iterator
@@ -16,14 +16,14 @@ LESSONS = lesson.names()
 
 @pytest.fixture(autouse=True)
 def _strict_numbers() -> Iterator[None]:
-    """A division by zero or an overflow that nobody expects must not pass as a number."""
+    """An unexpected division by zero or overflow fails the test instead of passing on as inf or NaN."""
     with np.errstate(divide="raise", over="raise", invalid="raise"):
         yield
 
 
 @pytest.fixture(scope="session")
 def worlds() -> dict[str, tracer.World]:
-    """Every shipped scene, prepared once."""
+    """All shipped scenes, each prepared once for the whole run."""
     return {name: tracer.prepare(tracer.load(lesson.read(name).scene)) for name in LESSONS}
 
 
@@ -35,7 +35,7 @@ def world(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> tr
 
 @pytest.fixture
 def scene_file(tmp_path: Path):
-    """Writes a scene file; gives its path."""
+    """A function that writes a scene file and returns its path."""
 
     def write(text: str, name: str = "scene.toml") -> Path:
         path = tmp_path / name
@@ -47,7 +47,7 @@ def scene_file(tmp_path: Path):
 
 @pytest.fixture(autouse=True, scope="session")
 def taken_once() -> Iterator[None]:
-    """No test is of how long something takes: what is measured is measured once."""
+    """Take each timing once: no test asserts a duration."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(precision, "RUNS", 1)
         yield
@@ -55,7 +55,9 @@ def taken_once() -> Iterator[None]:
 
 @pytest.fixture(autouse=True, scope="session")
 def heard():
-    """Shells let what they start in the background ignore Ctrl-C, and commands would go on ignoring it."""
+    """Restore the default handler of Ctrl-C: shells start background jobs with it ignored, and commands would inherit
+    that.
+    """
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)

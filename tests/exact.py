@@ -1,7 +1,7 @@
-"""Numbers, vectors and surfaces with 50 digits, for the judge. A new shape: a function, and a line in SURFACES.
+"""Vectors and surfaces in mpmath with 50 digits, for the judge. A new shape needs a function and a line in SURFACES.
 
-A vector is an array of three mpf. A surface is all p with q.M(q) + 2 g.q + h = 0, where q = p - at: M is the map of a
-quadric, 0 where the surface is flat. Half its gradient, M(q) + g, points outwards.
+A vector is an array of three mpf. A surface is all points p with q.M(q) + 2 g.q + h = 0, where q = p - at. M is the
+matrix of a quadric, and 0 for a flat surface. Half the gradient, M(q) + g, points outwards.
 """
 
 from collections.abc import Callable, Iterable
@@ -27,7 +27,7 @@ NOWHERE = np.array([NAN, NAN, NAN], object)
 
 
 def exact(values: Iterable[Any]) -> Vector:
-    """Floats as they are, to the last bit."""
+    """Convert float64 to mpf, without rounding."""
     return np.array([mpf(value) for value in values], object)
 
 
@@ -51,7 +51,7 @@ class Surface(NamedTuple):
 
 
 def surface(shape: Shape, row: np.void) -> Surface:
-    """The surface of the shape that a recorded ray met."""
+    """The surface of the shape that a recorded ray hit."""
     if shape.name not in SURFACES:
         raise ValueError(f"the judge does not know the shape {shape.name}: add it to SURFACES")
     return SURFACES[shape.name](shape, row)
@@ -62,14 +62,14 @@ def sphere(shape: Sphere, row: np.void) -> Surface:
 
 
 def box(shape: Box, row: np.void) -> Surface:
-    """The nearest face whose axis is that of the recorded normal."""
+    """The face of the box that is nearest to the recorded hit, among those with the axis of the recorded normal."""
     k = int(np.argmax(np.abs(row["normal"])))
     above = abs(row["point"][k] - shape.max[k]) < abs(row["point"][k] - shape.min[k])
     return Surface(exact(shape.max if above else shape.min), exact(np.eye(3)[k] * (1 if above else -1)))
 
 
 def cone(shape: Cone, row: np.void) -> Surface:
-    """All q from the base with |across|^2 = (r + slope along)^2, where across + along axis = q."""
+    """A cone: all q measured from the base with |across|^2 = (r + slope along)^2, where q = across + along axis."""
     axis = exact(shape.apex) - exact(shape.base)
     slope = (mpf(shape.apex_radius) - mpf(shape.base_radius)) / mp.norm(axis)
     u, r = unit(axis), mpf(shape.base_radius)
@@ -81,7 +81,7 @@ def mesh(shape: Mesh, row: np.void) -> Surface:
 
 
 def flat(corners: Any) -> Surface:
-    """The plane of a face with these corners."""
+    """The plane through the corners of a face."""
     return Surface(exact(corners[0]), area(corners))
 
 
@@ -98,7 +98,7 @@ SURFACES: dict[str, Callable[[Any, np.void], Surface]] = {
 
 
 def area(corners: Iterable[Iterable[float]]) -> Vector:
-    """Twice the area of a face along its normal, as Newell's sum: corners counter-clockwise from the normal's tip."""
+    """Twice the vector area of a polygon, by Newell's sum. It points to where the corners are counter-clockwise."""
     points = [exact(corner) for corner in corners]
     return sum((np.cross(a - points[0], b - points[0]) for a, b in pairwise(points)), exact((0, 0, 0)))
 
@@ -111,14 +111,15 @@ def placed(mesh: Mesh) -> np.ndarray:
 
 
 def face(mesh: Mesh, row: np.void) -> np.ndarray:
-    """The corners of the face at the recorded point with the recorded normal."""
+    """The corners of the mesh face with the recorded point and normal."""
     corners = placed(mesh)
     edges = np.roll(corners, -1, axis=1) - corners
     arms = row["point"] - corners
     n = np.cross(edges[:, 0], edges[:, 1])
     n /= np.linalg.norm(n, axis=1, keepdims=True)
     sizes = np.linalg.norm(edges, axis=2)
-    outside = -(np.cross(edges, arms) * n[:, None]).sum(axis=2) / sizes  # of each edge, how far
+    # for each edge, the distance of the point outside it
+    outside = -(np.cross(edges, arms) * n[:, None]).sum(axis=2) / sizes
     height = np.abs((arms[:, 0] * n).sum(axis=1))
     turned = np.linalg.norm(np.cross(n, row["normal"]), axis=1) * sizes.max(axis=1)
     return corners[np.argmin(height + turned + np.maximum(outside.max(axis=1), 0.0))]

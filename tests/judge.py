@@ -1,12 +1,13 @@
-"""The judge of accuracy: a tree of rays traced once more, in mpmath with 50 digits.
+"""The judge of accuracy: a recorded ray tree traced again in mpmath with 50 digits.
 
-exact_tree(tree)     the whole tree, from the eye's recorded ray on: what the rows hold if nothing is ever rounded
-exact_step(tree, i)  row i alone, each number of it from the recorded ones it was computed from: one step's rounding
+exact_tree(tree)     the whole tree from the recorded camera ray on: the rows without any rounding (forward error)
+exact_step(tree, i)  row i alone, each number from the recorded numbers it was computed from: the rounding of one
+step
 
-The author's numbers and the recorded ray from the eye are taken as exact. Which surface a ray meets and what it sends
-out is read from the tree, how far and whereto is worked out anew, from the textbook's formulas: with 50 digits they
-may cancel. Of several roots the one nearest to the recorded t is meant. NaN stands for absent: a ray that meets
-nothing, or that exactly taken is not there, because the surface is missed or all light is reflected.
+The scene's numbers and the recorded camera ray are taken as exact. Which surface a ray hits and which rays are sent
+out is read from the tree. Distances and directions are computed again, by the textbook's formulas: with 50 digits
+their cancellation does no harm. Of several roots the one nearest to the recorded t is taken. NaN means absent: a ray
+that hits nothing, or one that does not exist exactly, because the surface is missed or all light is reflected.
 """
 
 from typing import Any, NamedTuple
@@ -20,9 +21,9 @@ from tracer.tree.raytree import RayTree
 
 
 class Exact(NamedTuple):
-    """A row of the node table without rounding, fields as there; all three components of a factor are this one.
+    """A row of the node table without rounding; the fields have the same names. A factor is one number, equal for RGB.
 
-    A shadow ray has its direction, and t and point of its light, whatever stands in between.
+    A shadow ray has its direction, and the distance and position of its light, whether the light is blocked or not.
     """
 
     origin: Vector
@@ -38,7 +39,7 @@ class Exact(NamedTuple):
 
 
 def exact_tree(tree: RayTree) -> list[Exact]:
-    """Every row exactly, errors of the rows above it included: each ray starts where the exact one before it ends."""
+    """All rows with 50 digits. Each ray starts at the exact hit of its parent, so errors of earlier rows count too."""
     rows: list[Exact] = []
     for i, row in enumerate(tree.nodes):
         if row["parent"] < 0:
@@ -54,7 +55,7 @@ def exact_tree(tree: RayTree) -> list[Exact]:
 
 
 def exact_step(tree: RayTree, i: int) -> Exact:
-    """Row i with no error but its own.
+    """Row i with 50 digits, from recorded values.
 
     Direction and factor are exact for the parent's recorded point and direction, t and point for the row's recorded
     origin and direction, normal and angles for its recorded point and direction.
@@ -72,12 +73,12 @@ def exact_step(tree: RayTree, i: int) -> Exact:
 
 
 def off(value: Any, true: Any) -> mpf:
-    """How far a recorded number or vector is from the exact one (Euclidean)."""
+    """Euclidean distance of a recorded number or vector from the exact one."""
     return mp.norm(exact(value) - true) if isinstance(true, np.ndarray) else abs(mpf(value) - true)
 
 
 def met(tree: RayTree, i: int, origin: Vector, direction: Vector) -> tuple[mpf, Vector]:
-    """(t, point) where the ray meets the recorded object; where a shadow ray meets its light."""
+    """(t, point) at which the ray hits the recorded object. For a shadow ray, those of its light."""
     row = tree.nodes[i]
     if row["light"] >= 0:
         place = tree.scene.lights[row["light"]].position
@@ -93,7 +94,7 @@ def met(tree: RayTree, i: int, origin: Vector, direction: Vector) -> tuple[mpf, 
 
 
 def roots(a: mpf, b: mpf, c: mpf) -> list[mpf]:
-    """Of a t^2 + 2 b t + c = 0."""
+    """The real roots of a t^2 + 2 b t + c = 0."""
     if a == 0:
         return [-c / (2 * b) if b != 0 else NAN]
     s = root(b * b - a * c)
@@ -101,7 +102,7 @@ def roots(a: mpf, b: mpf, c: mpf) -> list[mpf]:
 
 
 def facing(tree: RayTree, i: int, point: Vector, d: Vector) -> tuple[Vector, mpf, mpf, mpf]:
-    """(normal, theta1, theta2, radicand) at a point of the surface that ray i met, on the side the ray comes from."""
+    """(normal, theta1, theta2, radicand) at a point of the surface that ray i hit, on the side the ray comes from."""
     row = tree.nodes[i]
     if row["light"] >= 0 or row["object"] < 0:
         return NOWHERE, NAN, NAN, NAN
@@ -114,7 +115,7 @@ def facing(tree: RayTree, i: int, point: Vector, d: Vector) -> tuple[Vector, mpf
 
 
 def sent(tree: RayTree, i: int, point: Vector, d: Vector, n: Vector) -> tuple[Vector, mpf]:
-    """(direction, factor) of ray i, sent out by a ray along d that met a surface with normal n."""
+    """(direction, factor) of ray i, sent out by a ray along d that hit a surface with normal n."""
     row, kind = tree.nodes[i], tree.kind(i)
     if row["light"] >= 0:
         return to_light(tree.scene.lights[row["light"]], point), NAN
@@ -134,7 +135,7 @@ def sent(tree: RayTree, i: int, point: Vector, d: Vector, n: Vector) -> tuple[Ve
 
 
 def reflectance(c1: mpf, c2: mpf, n1: mpf, n2: mpf) -> mpf:
-    """The mean of both polarisations; all of it on total internal reflection."""
+    """Fresnel reflectance, the mean of both polarisations; 1 for total internal reflection."""
     if mp.isnan(c2):
         return mpf(1)
     along = (n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2)

@@ -1,7 +1,7 @@
-"""The same scene for an independent program: POV-Ray (the Debian package povray), by Whitted's model.
+"""Translate a scene for an independent program, POV-Ray (Debian package povray), and render it there.
 
-Its finish has our terms under its own names: ambient, diffuse, phong, reflection, and transmit of the pigment, by
-which it scales ambient and diffuse down. It counts the camera ray as a level.
+POV-Ray's finish has the terms of Whitted's model under the same names: ambient, diffuse, phong, reflection. The
+pigment's transmit scales ambient and diffuse down. POV-Ray counts the camera ray as a level.
 """
 
 import math
@@ -28,7 +28,7 @@ def available() -> bool:
 
 
 def write_scene(scene: Scene, depth: int, size: tuple[int, int], min_weight: float = 0.0) -> str:
-    """The scene in POV-Ray's language; each texture once, by a name, however many objects have it."""
+    """The scene in POV-Ray's language. Each texture is declared once, by a name, and shared by its objects."""
     view = prepare(scene).view(size)
     aspect = size[0] / size[1]
     angle = 2.0 * math.degrees(math.atan(math.hypot(*view.up) * aspect))
@@ -38,7 +38,7 @@ def write_scene(scene: Scene, depth: int, size: tuple[int, int], min_weight: flo
         f"global_settings {{ assumed_gamma 1 max_trace_level {depth + 1} adc_bailout {min_weight!r}",
         f"  ambient_light {_rgb(scene.tracing.ambient)} }}",
         f"background {{ {_rgb(scene.background.color)} }}",
-        # Right-handed: its x axis runs the other way.
+        # POV-Ray's camera is left-handed: its x axis is turned over.
         f"camera {{ location {_v(view.eye)} sky {_v(scene.camera.up)} up y right -{aspect!r}*x",
         f"  angle {angle!r} look_at {_v(look_at)} }}",
     ]
@@ -52,7 +52,7 @@ def write_scene(scene: Scene, depth: int, size: tuple[int, int], min_weight: flo
 
 
 def _object(item: Object, textures: dict[str, str]) -> str:
-    """One object; a texture that `textures` does not know gets a name there."""
+    """One object in POV-Ray's language. A texture that is not in `textures` yet gets a name there."""
     texture = _texture(item.shape, item.material)
     finish = f"texture {{ {textures.setdefault(texture, f'T{len(textures)}')} }}"
     if item.material.transmit > 0.0:
@@ -77,7 +77,7 @@ def _polygon(shape: Polygon) -> tuple[str, str]:
     return "polygon", f"{len(corners)}, {', '.join(map(_v, corners))}"
 
 
-# The name of each shape in POV-Ray's language, and its numbers.
+# For each shape: its name in POV-Ray's language, and its numbers.
 WRITERS: dict[str, Callable[[Any], tuple[str, str]]] = {
     "sphere": lambda shape: ("sphere", f"{_v(shape.center)}, {shape.radius!r}"),
     "plane": _plane,
@@ -96,7 +96,7 @@ def _faces(mesh: Mesh) -> Iterator[str]:
         for face in mesh.placed():
             yield f"triangle {{ {', '.join(map(_v, face))} }}"
     else:
-        for face in np.stack([mesh.placed(), normals], axis=2):  # each corner, then its normal
+        for face in np.stack([mesh.placed(), normals], axis=2):  # each corner, followed by its normal
             yield f"smooth_triangle {{ {', '.join(map(_v, face.reshape(6, 3)))} }}"
 
 
@@ -121,8 +121,8 @@ def _texture(shape: Shape, material: Material) -> str:
 
 
 def _into_a_cell(plane: tuple[Vector, Vector], size: float) -> np.ndarray:
-    """POV-Ray's checker is one of cubes. Move it along the normal, an axis, so that the face lies in the middle of the
-    cubes whose third number is even.
+    """Translation for a checkered plane. POV-Ray's checker is one of cubes: move it along the normal, an axis, so that
+    the plane lies in the middle of cubes with an even third number.
     """
     point, normal = plane
     axis = int(np.abs(normal).argmax())
@@ -133,7 +133,7 @@ def _into_a_cell(plane: tuple[Vector, Vector], size: float) -> np.ndarray:
 def render(
     source: str, size: tuple[int, int], folder: Path, threads: int = 2, options: Sequence[str] = ()
 ) -> tuple[np.ndarray, float, dict[str, int]]:
-    """(linear image (height, width, 3) clipped to 0..1, its trace time in seconds, rays by kind)."""
+    """(linear image (height, width, 3) clipped to 0..1, trace time in seconds, number of rays by kind)."""
     scene, image = folder / "scene.pov", folder / "scene.ppm"
     scene.write_text(source)
     run = subprocess.run(
@@ -158,7 +158,7 @@ def render(
 
 
 def read_ppm(path: Path) -> np.ndarray:
-    """A 16-bit PPM as numbers from 0 to 1."""
+    """Read a 16-bit PPM file as numbers from 0 to 1."""
     found = re.match(rb"P6\s+(?:#.*\s+)*(\d+)\s+(\d+)\s+(\d+)\s", content := path.read_bytes())
     assert found
     width, height, highest = map(int, found.groups())

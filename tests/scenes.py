@@ -1,4 +1,4 @@
-"""Small scenes with answers that are known in advance."""
+"""Small scenes whose results are known in advance."""
 
 import dataclasses
 from collections.abc import Iterable, Sequence
@@ -59,7 +59,7 @@ def cone(
 
 
 def random_cone(random: np.random.Generator, k: int) -> Cone:
-    """In turn a cylinder, a cone with a tip, one upside down, and frusta of any slope."""
+    """A random cone; in turn a cylinder, a cone with a tip, one upside down, and frusta of any slope."""
     base = random.normal(size=3)
     apex = base + random.normal(size=3) * 10.0 ** random.uniform(-2, 1)
     r, s = 10.0 ** random.uniform(-1.5, 0.5, 2)
@@ -74,7 +74,7 @@ def disc(
 
 
 def world_of(*objects: Object, lights: Sequence[Light] = (), **options: object) -> tracer.World:
-    """A prepared scene of these; options: background, ambient, model, shadows, depth, camera, image."""
+    """Prepare a scene. Options: background, ambient, model, shadows, depth, camera, image."""
     tracing = Tracing()
     for name in ("ambient", "model", "shadows", "depth"):
         if name in options:
@@ -101,6 +101,6 @@ def polygon(corners: Iterable[Iterable[float]], material: Material = MATTE, name
 
 
 def sheet(height: float, material: Material) -> Object:
-    """A thin level square about the y axis."""
+    """A thin horizontal square sheet about the y axis."""
     corners = ((-9.0, height, -9.0), (-9.0, height, 9.0), (9.0, height, 9.0), (9.0, height, -9.0))
     return Object(Polygon(corners), material, "sheet", thin=True)

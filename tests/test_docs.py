@@ -1,4 +1,4 @@
-"""What the README and docs/ show is what the program does."""
+"""The README and docs/ agree with what the program does."""
 
 import re
 import shlex
@@ -21,7 +21,7 @@ FORMAT = (ROOT / "docs" / "scene-format.md").read_text(encoding="utf-8")
 
 
 def blocks(start: str) -> list[str]:
-    """The README's indented blocks that begin so."""
+    """The README's indented blocks whose first line starts with `start`."""
     found = re.findall(r"(?:^    .*\n|^\n(?=    ))+", README, re.MULTILINE)
     dedented = [textwrap.dedent(block).strip("\n") for block in found]
     return [block for block in dedented if block.startswith(start)]
@@ -49,14 +49,14 @@ def test_python_example(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     (tmp_path / "scene.toml").write_text(blocks("format = 1")[0])
     monkeypatch.chdir(tmp_path)
     space: dict = {}
-    exec(example, space)  # it is the README's own
+    exec(example, space)  # the README's own example
     assert space["image"].pixels.shape == (480, 640, 3)
     assert not np.any(space["image"].pixels)  # the README calls it a black ball before a black background
     assert len(space["tree"]) == 1
 
 
 def test_scene_format_is_read_and_its_defaults_are_those(tmp_path: Path) -> None:
-    """The example loads; what it marks as a default is one."""
+    """The example in docs/scene-format.md loads, and each value that it calls a default is one."""
     example = FORMAT.split("```toml\n")[1].split("```")[0]
     (tmp_path / "scene.toml").write_text(example)
     scene = tracer.load(tmp_path / "scene.toml")

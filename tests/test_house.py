@@ -1,4 +1,4 @@
-"""Rules of the house that a program can check: order of rooms, no cycles, homes of libraries, sizes."""
+"""Rules of the house that a program can check: order of rooms, no import cycles, homes of libraries, sizes of files."""
 
 import ast
 import os
@@ -13,8 +13,7 @@ import pytest
 
 from tests import ROOT
 
-# Each room may import from the rooms below it, and within itself. `tracer` and `viewer` are one house: the tracer's
-# rooms are the lower floors.
+# Each room may import from itself and from the rooms listed before it. `tracer` and `viewer` are in one list.
 ORDER = (
     "viewer.cli", "viewer.report", "viewer.window", "viewer.panels", "viewer.gl", "viewer.session", "viewer.lessons",
     "viewer.figures", "viewer.explain", "viewer.base",
@@ -26,13 +25,13 @@ ORDER = (
 PUBLIC = ("tracer", "tracer.optics", "tracer.nodes", "tracer.cluster")
 
 SOURCES = [path for top in ("tracer", "viewer") for path in sorted((ROOT / top).rglob("*.py"))]
-REFERENCE = re.compile(r"((?:tracer|viewer)(?:\.\w+)+):[\w.]+")  # "module:function", imported when it is first used
+REFERENCE = re.compile(r"((?:tracer|viewer)(?:\.\w+)+):[\w.]+")  # "module:function", imported on first use
 MAX_FILES = 16  # in a folder
 MAX_LINES = 330
 
 
 def module(path: Path) -> str:
-    """The name of a file's module."""
+    """The module name of a file."""
     parts = path.relative_to(ROOT).with_suffix("").parts
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
@@ -41,14 +40,16 @@ NAMES = {module(path): path for path in SOURCES}
 
 
 def room(name: str) -> str:
-    """The room that a module stands in."""
+    """The room of a module."""
     found = [room for room in ORDER if name == room or (room != "tracer" and name.startswith(f"{room}."))]
     assert found, f"{name} stands in no room"
     return max(found, key=len)
 
 
 def imports(path: Path, references: bool = False) -> set[str]:
-    """All modules that a file imports, also in functions and for types; with `references` also those named in texts."""
+    """All modules that a file imports, also inside functions and for type checking; with `references` also those named
+    in strings.
+    """
     found = set()
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         if isinstance(node, ast.Import):
@@ -75,7 +76,7 @@ def test_rooms_import_from_rooms_below_them() -> None:
 
 
 def test_no_imports_in_a_circle() -> None:
-    """graphlib raises CycleError."""
+    """The import graph has no cycle; graphlib raises CycleError if it has one."""
     graph = {name: (imports(path) & set(NAMES)) - {name} for name, path in NAMES.items()}
     assert len(list(TopologicalSorter(graph).static_order())) == len(NAMES)
 
@@ -135,7 +136,7 @@ def test_every_file_says_what_it_is_and_stays_short(path: Path) -> None:
 
 
 def test_kernels_are_compiled_for_one_set_of_types() -> None:
-    """However a scene was written - with whole numbers, tuples, arrays - nobody waits for a second compilation."""
+    """One compilation serves a scene whether its numbers are written as int, as tuples or as arrays."""
     program = (
         "import tracer, numpy as np\n"
         "from tests.scenes import *\n"
@@ -151,7 +152,7 @@ def test_kernels_are_compiled_for_one_set_of_types() -> None:
 
 
 def test_machine_code_is_kept_where_it_can_be_written(tmp_path: Path) -> None:
-    """A home that cannot be written to is no reason to fail: the code then lives in a temporary folder."""
+    """If the cache folder cannot be written to, compiled code is kept in a temporary folder instead."""
     program = "from tracer.compile.kernel_cache import cache_folder; print(cache_folder())"
     for home, expected in ((tmp_path, str(tmp_path)), (Path("/dev/null"), "")):
         environment = {**os.environ, "XDG_CACHE_HOME": str(home), "TMPDIR": str(tmp_path)}

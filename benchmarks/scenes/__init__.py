@@ -1,8 +1,8 @@
-"""Scenes made up on the spot, of the kinds that ray tracers have been compared on since 1987.
+"""Generated scenes, of the kinds that ray tracers have been compared on since 1987.
 
-After the kinds of E. Haines' Standard Procedural Databases ("A Proposal for Standard Graphics Environments", IEEE CG&A
-7(11), 1987), each built anew here. A generator returns the text of an NFF file; its arguments make it
-smaller for tests.
+After the kinds of E. Haines' Standard Procedural Databases ("A Proposal for Standard Graphics Environments", IEEE
+CG&A 7(11), 1987), each written anew. A generator returns the text of an NFF file; its arguments make it smaller for
+tests.
 """
 
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""The lines of an NFF file: each function gives one entity, numbers to twelve digits."""
+"""The lines of an NFF file: one function for each entity, numbers with twelve digits."""
 
 from collections.abc import Iterable, Sequence
 
@@ -10,7 +10,7 @@ SKY = (0.1, 0.35, 0.7)
 
 
 def view(eye: Point, at: Point, up: Point, angle: float, size: tuple[int, int] = (512, 512)) -> str:
-    """The camera, and the sky behind everything."""
+    """The camera and the background."""
     return (
         f"b {numbers(SKY)}\nv\nfrom {numbers(eye)}\nat {numbers(at)}\nup {numbers(up)}\n"
         f"angle {angle:.12g}\nhither 0.01\nresolution {size[0]} {size[1]}"
@@ -48,7 +48,7 @@ def patch(corners: Iterable[Point], normals: Iterable[Point]) -> str:
 
 
 def floor(half: float, height: float) -> str:
-    """A level square, z up."""
+    """A horizontal square, z up."""
     return face([(half, half, height), (-half, half, height), (-half, -half, height), (half, -half, height)])
 
 

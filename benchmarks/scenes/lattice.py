@@ -1,4 +1,4 @@
-"""A cubic lattice: a ball at every point with whole coordinates of a cube, rods along its edges."""
+"""A cubic lattice: a ball at every point of a cube with integer coordinates, rods along its edges."""
 
 import numpy as np
 

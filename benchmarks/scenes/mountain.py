@@ -1,14 +1,15 @@
-"""A fractal mountain of small triangles, and four glass balls that hang over it.
+"""A fractal mountain of small triangles, and four glass balls above it.
 
-Heights by halving: every new point is the mean of its neighbours plus chance, and chance shrinks with the distance
-(Fournier, Fussell & Carpenter, "Computer Rendering of Stochastic Models", CACM 25(6), 1982; here diamonds and squares).
+Heights by midpoint displacement: every new point is the mean of its neighbours plus a random number that shrinks
+with the distance (Fournier, Fussell & Carpenter, "Computer Rendering of Stochastic Models", CACM 25(6), 1982; here
+by diamonds and squares).
 """
 
 import numpy as np
 
 from benchmarks.scenes.entities import ball, face, fill, light, text, view
 
-ROUGHNESS = 0.5  # what is left of chance at half the distance
+ROUGHNESS = 0.5  # factor of the random part at half the distance
 RADIUS = 0.17
 
 
@@ -32,13 +33,13 @@ def mountain(cells: int = 64, seed: int = 1987) -> str:
 
 
 def glass() -> np.ndarray:
-    """Four balls at the corners of a regular tetrahedron, a gap between them."""
+    """Four balls at the corners of a regular tetrahedron, with gaps between them."""
     corners = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], float)
     return np.array([-0.75, 0.75, 1.0]) + 0.15 * corners
 
 
 def heights(cells: int, random: np.random.Generator) -> np.ndarray:
-    """A surface (cells + 1, cells + 1) that wraps at its ends while it is made, highest in the middle."""
+    """A periodic surface (cells + 1, cells + 1), highest in the middle."""
     z = np.zeros((cells, cells))
     step, swing = cells, 0.5
     while step > 1:

@@ -1,4 +1,4 @@
-"""Two linked tori of smooth patches over a chequered floor: each corner has the true surface's normal."""
+"""Two linked tori of smooth patches above a checkered floor: each corner has the normal of the true surface."""
 
 import math
 
@@ -12,7 +12,7 @@ TILES = 6
 
 
 def patches(round_: int = 48, across: int = 24) -> str:
-    """2 round_ across patches and TILES^2 / 2 squares of the floor in either colour."""
+    """2 round_ across patches, and TILES^2 / 2 squares of the floor in either colour."""
     lines = [
         view((3.4, 5.6, 4.0), (0.0, 0.0, -0.1), (0.0, 0.0, 1.0), 42.0),
         light((-3.0, 10.0, 12.0)),

@@ -8,12 +8,12 @@ from benchmarks.scenes.entities import ball, fill, floor, light, rod, text, view
 
 JOINTS = 24
 WIRE = 0.08  # of a ring's radius
-APART = 1.25  # from ring to ring, in the same measure: less than two, so that they hold each other
+APART = 1.25  # distance of neighbouring rings in ring radii: less than two, so that they are linked
 TILT = math.radians(35.0)
 
 
 def rings(count: int = 13) -> str:
-    """count x count rings; every other row stands half a step aside, else rings would run through each other."""
+    """count x count rings. Every other row is shifted by half a step, so that rings do not intersect."""
     middle = 0.5 * APART * (count - 1)
     lines = [
         view((0.1 * middle, -2.5 * middle, 2.1 * middle), (0.0, -0.1 * middle, 0.0), (0.0, 0.0, 1.0), 41.0),
@@ -31,7 +31,7 @@ def rings(count: int = 13) -> str:
 
 
 def ring(center: np.ndarray, tilt: float) -> list[str]:
-    """A ring of radius 1, turned about the x axis."""
+    """A ring of radius 1, rotated about the x axis."""
     turns = 2.0 * math.pi * np.arange(JOINTS) / JOINTS
     circle = np.stack([np.cos(turns), math.cos(tilt) * np.sin(turns), math.sin(tilt) * np.sin(turns)], axis=1)
     places = center + circle

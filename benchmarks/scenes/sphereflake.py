@@ -1,7 +1,7 @@
 """Sphereflake: a mirror ball with nine balls of a third of its radius on it, each of those with nine, and so on.
 
-The nine sit where in the closest packing of equal balls the neighbours are (six about the middle, three on top), so
-that none meets another of the nine, and the side towards the parent is free. Level L has 9^L balls.
+The nine are placed as in the closest packing of equal balls (six around the middle, three on top), so that they do
+not intersect and the side towards the parent is free. Level L has 9^L balls.
 """
 
 import math
@@ -28,7 +28,7 @@ def sphereflake(level: int = 4, size: tuple[int, int] = (512, 512)) -> str:
 
 
 def flake(center: np.ndarray, radius: float, frame: np.ndarray, level: int) -> Iterator[tuple[np.ndarray, float]]:
-    """(centre, radius) of a ball and of all that grow on it; the frame's last row points away from the parent."""
+    """(centre, radius) of a ball and of all that grow on it. The frame's last row points away from the parent."""
     yield center, radius
     if level == 0:
         return
@@ -47,7 +47,7 @@ NINE = np.concatenate([around(6, math.pi / 2, 0.0), around(3, math.asin(1.0 / ma
 
 
 def frame_along(z: np.ndarray) -> np.ndarray:
-    """Three unit vectors square to each other, as rows; the last one is z."""
+    """Three orthogonal unit vectors, as rows; the last one is z."""
     aside = np.eye(3)[np.abs(z).argmin()]
     x = np.cross(aside, z)
     x /= np.linalg.norm(x)

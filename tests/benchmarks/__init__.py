@@ -1,1 +1,1 @@
-"""Tests of what the benchmarks measure with; never of how fast anything is."""
+"""Tests of the tools of the benchmarks, never of speed."""

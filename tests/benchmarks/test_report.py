@@ -1,4 +1,4 @@
-"""Figures: medians, ratios of neighbouring runs, the table, and what changed since kept ones."""
+"""Figures: medians, ratios of neighbouring runs, the table, and changes since an earlier report."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Made scenes: as many objects as said, in the places that closed forms give them, and the same for POV-Ray."""
+"""Generated scenes: the stated number of objects, at places known in closed form, and the same for POV-Ray."""
 
 from collections.abc import Callable
 from itertools import pairwise
@@ -25,7 +25,7 @@ from tracer.shapes.sphere import Sphere
 DIGITS = 1e-11  # twelve digits are written
 SIZE = (96, 96)
 SAME = 1.5 / 65535  # half a step of POV-Ray's 16 bits, and as much for its single-precision colours
-EDGES = 1 / 500  # share of the pixels that an edge may pass within rounding; in images this small a few are many
+EDGES = 1 / 500  # share of pixels at an edge within rounding; in such small images a few are many
 
 
 @pytest.fixture
@@ -47,7 +47,7 @@ def test_sphereflake_balls_touch_the_ball_they_grow_on_and_no_sibling(read) -> N
     balls = shapes(scene, Sphere)
     assert len(scene.objects) == 1 + len(balls) == 1 + (9**4 - 1) // 8
     parents: list[Sphere] = []
-    for parent, ball in pairwise(balls):  # in the order of the branches: a ball, then all that grows on it
+    for parent, ball in pairwise(balls):  # in depth-first order: a ball, then all that grows on it
         if ball.radius < 0.9 * parent.radius:
             parents.append(parent)
         while parents[-1].radius < 2.9 * ball.radius:
@@ -74,7 +74,7 @@ def test_mountain_is_one_closed_sheet_below_four_balls_that_do_not_meet(read) ->
     ups = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     assert (ups[:, 2] == pytest.approx((2 / 16) ** 2)) and np.ptp(corners[..., 2]) > 0.3
     assert np.abs(corners[..., :2]).max() == 1.0
-    assert 0.5 * ups[:, 2].sum() == pytest.approx(4.0)  # all of the square, nothing twice
+    assert 0.5 * ups[:, 2].sum() == pytest.approx(4.0)  # the whole square, nothing twice
     centers = np.array([ball.center for ball in shapes(scene, Sphere)])
     assert all(ball.radius == RADIUS for ball in shapes(scene, Sphere))
     apart = np.linalg.norm(centers[:, None] - centers, axis=2)[~np.eye(4, dtype=bool)]
@@ -98,7 +98,7 @@ def test_rings_are_closed_and_hold_their_neighbours(read) -> None:
         assert np.linalg.norm(places - places.mean(axis=0), axis=1) == pytest.approx(1.0, rel=DIGITS)
     shares = np.linspace(0.0, 1.0, 9)[:, None]
     along = np.array([(1.0 - shares) * rod.base + shares * rod.apex for rod in rods]).reshape(9, -1, 3)
-    for k, one in enumerate(along):  # they hang, and do not run through each other
+    for k, one in enumerate(along):  # rings are linked and do not intersect
         others = np.delete(along, k, axis=0)
         assert np.linalg.norm(one[:, None] - others.reshape(-1, 3), axis=2).min() > 2.5 * WIRE
         assert np.linalg.norm(one.mean(axis=0) - others.mean(axis=1), axis=1).min() < 2.0
@@ -144,7 +144,7 @@ def test_stone_is_closed_and_its_rays_are_of_length_one() -> None:
 def test_search_of_many_rays_meets_what_a_tree_of_one_meets(monkeypatch: pytest.MonkeyPatch) -> None:
     from benchmarks import closest
 
-    monkeypatch.setattr(closest, "search_all", closest.search_all.py_func)  # not to wait for a compiler
+    monkeypatch.setattr(closest, "search_all", closest.search_all.py_func)  # without waiting for the compiler
     world = stone_world(2)
     origins, directions = (part.astype(float) for part in scattered_rays(200))
     met = closest.Searcher(world).hits((origins, directions))
@@ -173,7 +173,7 @@ def test_povray_is_told_the_same_scene(name: str, read, tmp_path: Path) -> None:
 
 
 def test_povray_is_told_smooth_patches(read, tmp_path: Path) -> None:
-    """Camera rays alone: at a mirror's rim, whether it sees itself depends on what a program takes for inside."""
+    """Camera rays only: at a mirror's rim, programs differ in what they take for the inside."""
     scene = read(patches(24, 16))
     theirs, _, _ = povray.render(povray.write_scene(scene, 0, SIZE), SIZE, tmp_path)
     ours = np.clip(tracer.render(tracer.prepare(scene), SIZE, depth=0, model="whitted").pixels, 0.0, 1.0)

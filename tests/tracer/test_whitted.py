@@ -1,4 +1,4 @@
-"""The lecture's recursion on one page against the kernel, pixel by pixel."""
+"""The recursion of tracer/whitted.py against the kernel, pixel by pixel."""
 
 from dataclasses import replace
 
@@ -11,23 +11,23 @@ from tracer import whitted
 from tracer.choices import MODELS
 from tracer.formulas.camera import pixel_direction
 
-# Per component: 3 levels, each with a direction and a factor that are good to 16 units (tests/tracer/kernel/
-# test_against_exact.py), at slopes of up to 8 of the light over the angle.
+# Per component: 3 levels, each with a direction and a factor accurate to 16 units (test_against_exact.py), at slopes of
+# up to 8 of the light over the angle.
 ROUNDINGS = 3 * 16 * 8 * 2.0**-53
-# An epsilon must fail where the scene is not much larger: `scale` is, as a whole, smaller than it, and so is the gap
-# between the panes.
+# An epsilon must fail if the scene is not much larger than it: all of `scale` is smaller, and so is the gap of `panes`.
 FAILS = ("scale", "panes")
 
 
 def differences(world: tracer.World, model: str) -> np.ndarray:
-    """On a grid of pixels, the largest difference of a component, relative to the brightest."""
+    """The largest difference of a component on a grid of pixels, relative to the brightest component."""
     world = tracer.prepare(replace(world.scene, tracing=replace(world.scene.tracing, model=model)))
     view = world.view()
     found = []
     for y in range(7, view.height, 71):
         for x in range(5, view.width, 71):
             tree = tracer.trace(world, (x, y), depth=3)
-            medium = float(np.nan_to_num(tree.nodes["n1"][0], nan=1.0))  # of the eye: it may be under water
+            # of the medium around the eye: it may be under water
+            medium = float(np.nan_to_num(tree.nodes["n1"][0], nan=1.0))
             color = whitted.radiance(world, view.eye, pixel_direction(view, x + 0.5, y + 0.5), 3, medium)
             found.append(np.abs(color - tree.radiance).max() / max(tree.radiance.max(), 1e-300))
     return np.array(found)

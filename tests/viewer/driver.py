@@ -1,4 +1,4 @@
-"""Drives the viewer as a hand does, without a screen: real GL, real panels, events put into imgui's own queue."""
+"""Drives the viewer without a screen: real GL, real panels, events put into imgui's own queue."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,7 +15,7 @@ from viewer.window.backend import Offscreen
 
 
 class Driver:
-    """One viewer. Every act ends with enough frames for it to have taken effect."""
+    """One viewer. Every action draws enough frames to take effect."""
 
     def __init__(self, size: tuple[int, int] = (1280, 720)) -> None:
         self.app = App(Offscreen(size), Session())
@@ -75,7 +75,7 @@ class Driver:
             self.frames()
 
     def press(self, *keys: imgui.Key) -> None:
-        """Keys together, the last one pressed and released."""
+        """Hold all keys but the last, press and release the last one, then release the others."""
         io = imgui.get_io()
         for key in keys:
             io.add_key_event(key, True)
@@ -85,18 +85,18 @@ class Driver:
         self.frames(2)
 
     def aims_at(self, x: int, y: int) -> bool:
-        """Whether the picked pixel is this one, as nearly as a mouse in whole steps can aim at it."""
+        """True if the picked pixel is within a mouse step of (x, y)."""
         picked = self.session.pixel
         step = max(0.5, 0.5 / self.canvas.image_place[2]) + 0.5
         return picked is not None and max(abs(picked[0] - x), abs(picked[1] - y)) <= 2 * step - 0.5
 
     def pixel_at(self, x: int, y: int) -> tuple[float, float]:
-        """Where the middle of an image's pixel is on the screen."""
+        """The screen position of the centre of an image's pixel."""
         left, top, scale = self.canvas.image_place
         return left + (x + 0.5) * scale, top + (y + 0.5) * scale
 
     def ray_at(self, row: int, share: float = 0.5) -> tuple[float, float]:
-        """Where a place of a ray is on the screen in the 3D view."""
+        """The screen position of a point of a ray in the 3D view, `share` of its way along."""
         line = next(line for line in self.canvas.lines if line.row == row)
         left, top, width, height = self.canvas.stage_place
         matrix = self.session.orbit.matrix(width / height)
@@ -105,7 +105,7 @@ class Driver:
         return left + places[0, 0], top + places[0, 1]
 
     def lone_place(self, row: int) -> tuple[float, float] | None:
-        """A place on a ray in the 3D view where no other ray is near, if it has one."""
+        """A screen position on a ray in the 3D view that no other ray is near, or None."""
         left, top, width, height = self.canvas.stage_place
         shares = np.linspace(0.0, 1.0, 200)
         matrix = self.session.orbit.matrix(width / height)

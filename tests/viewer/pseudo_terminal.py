@@ -1,4 +1,4 @@
-"""A program on a terminal of its own, to be waited for by what it says."""
+"""A program on a pseudo-terminal; tests wait for its output."""
 
 import contextlib
 import os
@@ -13,7 +13,7 @@ RAYTREE = str(Path(sys.executable).parent / "raytree")
 
 
 class Terminal:
-    """What a raytree command says on a terminal, in the order in which it comes."""
+    """The output of a raytree command on a terminal, in order."""
 
     def __init__(self, arguments: list[str], cwd: Path, environment: dict[str, str]) -> None:
         self.end, far = pty.openpty()
@@ -25,10 +25,10 @@ class Terminal:
         self.said = ""
 
     def read(self) -> str:
-        """More of it; nothing once the program has ended."""
+        """The next part of the output; empty once the program has ended."""
         try:
             more = os.read(self.end, 4096).decode("utf-8", "replace")
-        except OSError:  # how Linux says that the other end is closed
+        except OSError:  # on Linux: the other end is closed
             return ""
         self.said += more
         return more

@@ -1,4 +1,4 @@
-"""A screen for tests: an X server without a monitor, a window manager, and a hand that really moves the mouse."""
+"""A screen for tests: an X server without a monitor, a window manager, and xdotool to move the mouse."""
 
 import os
 import shutil
@@ -17,14 +17,13 @@ def missing() -> list[str]:
 
 @cache
 def screen(width: int = 1600, height: int = 1000) -> str:
-    """A display of our own, made the default one; its name. It lives as long as this process.
+    """Start a display, make it the default one, and return its name. It lives as long as this process.
 
-    Not a moment shorter: the GL library keeps a connection to it that cannot be closed, and Xlib ends a process whose
-    server has gone. The window manager is at work when this returns: for a window that is mapped while a manager takes
-    over, glfw may wait without end.
+    The GL library keeps a connection to it that cannot be closed, and Xlib ends a process whose server is gone. The
+    window manager runs when this returns: if a window is mapped while a manager takes over, glfw may wait forever.
     """
     read_end, write_end = os.pipe()
-    # Without -noreset the server starts afresh when its last window closes, and the next one may not find it.
+    # Without -noreset the server restarts when its last window closes, and the next window may not find it.
     options = ["-displayfd", str(write_end), "-screen", "0", f"{width}x{height}x24", "-noreset", "-nolisten", "tcp"]
     with_us("Xvfb", *options, keep=[write_end])
     os.close(write_end)
@@ -40,15 +39,15 @@ def screen(width: int = 1600, height: int = 1000) -> str:
 
 
 def with_us(*command: str, keep: Sequence[int] = ()) -> None:
-    """Start a program that ends when we do.
+    """Start a program that ends when this process does.
 
-    It holds none of our streams: whoever reads what this process says waits until nobody can say any more.
+    It inherits none of our streams: a reader of our output would wait until every process has closed them.
     """
     none = subprocess.DEVNULL
     subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *command], pass_fds=keep, stdin=none, stdout=none, stderr=none)
 
 
 def hand(*arguments: object) -> str:
-    """One xdotool command: the X server itself then sends the events."""
+    """One xdotool command: the X server itself sends the events."""
     run = subprocess.run(["xdotool", *map(str, arguments)], capture_output=True, text=True, check=True)
     return run.stdout.strip()

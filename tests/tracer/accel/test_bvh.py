@@ -1,4 +1,4 @@
-"""The hierarchy against trying all surfaces."""
+"""The BVH against testing every surface."""
 
 import math
 from fractions import Fraction
@@ -31,7 +31,7 @@ spread = st.floats(-10, 10)
     st.lists(st.tuples(spread, spread, spread, spread, spread, spread), min_size=5, max_size=5),
 )
 def test_hierarchy_finds_what_trying_all_surfaces_finds(balls: list, rays: list) -> None:
-    """The same table with and without it, to the last bit."""
+    """The node table is equal with and without the BVH, bit for bit."""
     objects = [ball((x, y, z), r, MATTE, f"ball {k}") for k, (x, y, z, r) in enumerate(balls)]
     world = world_of(*objects)
     assert len(world.arrays.nodes) > 0
@@ -49,8 +49,11 @@ def test_hierarchy_finds_what_trying_all_surfaces_finds(balls: list, rays: list)
 @pytest.mark.parametrize("power", [0, -300, 200])
 @pytest.mark.parametrize("away", [0.0, 1e3, 1e7])
 def test_blocks_of_triangles_drop_none_that_is_met(power: int, away: float) -> None:
-    """The same trees with them and without, to the last bit, for rays aimed at corners, at edges and between, and for
-    those that go on from there; tiny and huge, and where coordinates have lost digits."""
+    """Trees are equal with and without the SIMD test of triangle blocks, bit for bit.
+
+    Rays are aimed at corners, at edges and between them, and go on from there. The meshes are tiny, huge, and far
+    from the origin, where coordinates have lost digits.
+    """
     random = np.random.default_rng(power + 1000)
     unit = 2.0**power
     glass, mirror = Material("glass", transmit=0.6, reflect=0.3, ior=1.5), Material("mirror", reflect=0.5, diffuse=0.5)
@@ -82,7 +85,7 @@ def test_hierarchy_holds_every_surface_once_inside_its_boxes() -> None:
     corners = random.uniform(-5, 5, (3000, 1, 3)) + random.exponential(0.3, (3000, 3, 3))
     corners[:200] = corners[0]  # many at one place
     bounds = np.stack([corners.min(axis=1), corners.max(axis=1)], axis=1)
-    corners[1000:2000] = np.nan  # no triangles
+    corners[1000:2000] = np.nan  # not triangles
     tree = build(bounds, corners)
     for scaled in (2.0**-900, 2.0**800):
         same = build(bounds * scaled, corners * scaled)
@@ -110,14 +113,16 @@ def test_hierarchy_holds_every_surface_once_inside_its_boxes() -> None:
                 placed = block["anchor"] + block["corners"].reshape(3, 3, WIDTH).transpose(2, 0, 1)[: len(inside)]
                 assert np.abs(placed - corners[inside] / tree.unit).max() <= block["rounding"]
             seen += list(inside)
-            assert (bounds[inside, 0] > box_low * tree.unit).all()  # by a float32 at least
+            assert (bounds[inside, 0] > box_low * tree.unit).all()  # by at least one float32 step
             assert (bounds[inside, 1] < box_high * tree.unit).all()
     assert sorted(seen) == list(range(3000))
     assert deepest < MAX_LEVELS
 
 
 def test_of_surfaces_at_one_distance_the_files_first_is_met() -> None:
-    """Twelve sheets in one plane, each on its own side of the ray, so that the hierarchy parts them."""
+    """Of several surfaces at one distance the first in the file is hit. Twelve coplanar sheets, ordered otherwise in
+    the BVH.
+    """
     turn = np.linspace(0.0, 6.0, 12)
     square = [(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)]
     sheets = [
@@ -132,7 +137,9 @@ def test_of_surfaces_at_one_distance_the_files_first_is_met() -> None:
 
 
 def test_no_box_is_missed_that_a_ray_meets() -> None:
-    """At its edges, and flat ones too: whatever rounding does, what is met exactly is met. From its border on, at 0."""
+    """A box that a ray hits exactly is never missed, whatever rounding does: at its edges, flat boxes, and from its
+    border on.
+    """
     random = np.random.default_rng(3)
     met = 0
     for k in range(1500):

@@ -1,4 +1,4 @@
-"""A Numba newer than the tested ones: its private parts are left out, a note says so, and the bits are the same."""
+"""Under a Numba newer than the tested ones its private parts are not used, a note says so, and results are equal."""
 
 import os
 import subprocess
@@ -37,7 +37,7 @@ print(hashlib.sha256(tracer.render(world, (160, 120)).pixels.tobytes()).hexdiges
 
 
 def newer(program: str, folder: Path) -> list[str]:
-    """The lines that a program prints under a Numba of version 99."""
+    """The lines that a program prints under a Numba that calls itself version 99."""
     environment = {**os.environ, "XDG_CACHE_HOME": str(folder)}
     script = folder / "program.py"
     script.write_text(NEWER + program)
@@ -47,7 +47,7 @@ def newer(program: str, folder: Path) -> list[str]:
 
 
 def test_private_parts_are_left_out_and_a_note_says_so(tmp_path: Path) -> None:
-    assert numba_private.USES_PRIVATE and not numba_private.NOTE  # in the version that is installed
+    assert numba_private.USES_PRIVATE and not numba_private.NOTE  # in the installed version
     result, note = newer(SMALL, tmp_path)
     assert result == "42.0 False {} {}"
     assert note.startswith("numba 99.0.0 is newer than the versions that raytree was tested with")

@@ -1,4 +1,4 @@
-"""Lanes: what the processor does with eight numbers at once is what Python does with them one by one."""
+"""SIMD operations against the same operations in Python, lane by lane."""
 
 import math
 from typing import Any

@@ -1,4 +1,4 @@
-"""Mesh files: what comes out of good ones, and one line for every bad one."""
+"""Mesh files: the scenes that good files give, and one line for every fault."""
 
 import json
 import struct
@@ -89,13 +89,13 @@ def test_cube_in_every_format(tmp_path: Path, name: str, content: str | bytes, s
     tree = tracer.trace(world, ray=((shift + 0.25, 0.5, 5), (0, 0, -1)), depth=0)
     assert tree.nodes["t"][0] == 4.0
     assert tree.nodes["normal"][0].tolist() == [0.0, 0.0, 1.0]
-    # With no camera of its own the whole mesh is seen, and lit.
+    # A mesh file has no camera: the default one shows the whole mesh, lit.
     image = tracer.render(world, (64, 48))
     assert image.rays["shadow"] > 300
 
 
 def test_obj_materials(tmp_path: Path) -> None:
-    """Two materials become two objects; glass by its dissolve and index, a mirror by its illumination model."""
+    """Two materials become two objects: glass by dissolve and index, a mirror by its illumination model."""
     write(
         tmp_path / "two.mtl",
         "newmtl glass\nKd 0.2 0.4 0.6\nKs 0.5 0.5 0.5\nNs 90\nNi 1.5\nd 0.1\nillum 7\n"
@@ -126,7 +126,7 @@ def test_material_of_the_scene_file_comes_before_that_of_the_mesh(tmp_path: Path
 
 
 def test_glb_glass_survives(tmp_path: Path) -> None:
-    """Transmission and index live in extensions that the mesh library leaves out."""
+    """Transmission and index stand in extensions that the mesh library does not read."""
     material = {
         "name": "window",
         "pbrMetallicRoughness": {"baseColorFactor": [0.9, 0.8, 0.7, 1.0], "metallicFactor": 0, "roughnessFactor": 0},
@@ -141,7 +141,7 @@ def test_glb_glass_survives(tmp_path: Path) -> None:
 def test_placement_scales_then_turns_then_moves() -> None:
     point = Geometry(np.array([[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]]), np.array([[0, 1, 2]]))
     mesh = Mesh(point, "made", scale=2.0, rotate=(90.0, 0.0, 90.0), translate=(10.0, 0.0, 0.0))
-    # x stays under the first turn and becomes y under the second; y becomes z and stays; z becomes -y and then x.
+    # x stays in the first rotation and becomes y in the second; y becomes z and stays; z becomes -y and then x.
     expected = [[10.0, 2.0, 0.0], [10.0, 0.0, 2.0], [12.0, 0.0, 0.0]]
     assert mesh.placed()[0].tolist() == expected
 
@@ -160,7 +160,7 @@ def test_vertex_normals_are_kept(tmp_path: Path) -> None:
 
 
 def test_a_trimesh_without_its_private_part_is_noted() -> None:
-    """Then nobody can tell whether the file has normals: the faces are flat, and the world says so."""
+    """Without it nobody knows whether the file has normals: faces are flat, and a note says so."""
     bare = SimpleNamespace(vertices=np.eye(3), faces=np.array([[0, 1, 2]]))
     geometry = meshes._geometry(Path("face.obj"), bare, np.eye(4))
     assert geometry.normals is None
@@ -169,7 +169,7 @@ def test_a_trimesh_without_its_private_part_is_noted() -> None:
 
 
 def test_no_light_comes_through_a_face_that_its_vertex_normals_turn_towards_it() -> None:
-    """Normal (0.8, 0.6, 0) on a level face: a light far right and low is before the normal, behind the face."""
+    """Normal (0.8, 0.6, 0) on a horizontal face: a light far right and low is before the normal and behind the face."""
     tilted = np.tile([0.8, 0.6, 0.0], (3, 1))
     corners = np.array([[-3.0, 0, 3], [3, 0, 3], [0, 0, -3]])
     mesh = Mesh(Geometry(corners, np.array([[0, 1, 2]]), tilted), "leaf")
@@ -183,7 +183,7 @@ def test_no_light_comes_through_a_face_that_its_vertex_normals_turn_towards_it()
 
 
 def test_vertex_normals_that_point_backwards_are_left_alone() -> None:
-    """The face itself says where its front is: it is lit from there, with its own normal."""
+    """The geometry decides where the front of a face is: it is lit from there, with the geometric normal."""
     corners = np.array([[-3.0, 0, 3], [3, 0, 3], [0, 0, -3]])
     mesh = Mesh(Geometry(corners, np.array([[0, 1, 2]]), np.tile([0.6, -0.8, 0.0], (3, 1))), "leaf")
     lamp = Light("lamp", position=(0.0, 5.0, 0.0))
@@ -206,10 +206,10 @@ def test_a_hundred_thousand_triangles_are_no_trouble() -> None:
     rows, columns = np.nonzero(image.pixels[:, :, 0])
     inside = np.s_[rows.min() + 2 : rows.max() - 1, columns.min() + 2 : columns.max() - 1]
     assert image.pixels[inside].size > 3 * 700
-    assert (image.pixels[inside] > 0.0).all()  # a full square: not one leak in it
+    assert (image.pixels[inside] > 0.0).all()  # a full square, without a leak
     tree = tracer.trace(world, ray=((0.1, 0.2, 3), (0, 0, -1)), depth=0)
     expected = 3 - 0.1 * np.sin(0.7) * np.cos(1.0)
-    assert tree.nodes["t"][0] == pytest.approx(expected, abs=1e-3)  # of the facets, not the surface
+    assert tree.nodes["t"][0] == pytest.approx(expected, abs=1e-3)  # of the facets, not of the ball
 
 
 BOMB = [

@@ -1,4 +1,4 @@
-"""Haines' Neutral File Format: every entity, every fault by its line, and the same image as the scene in TOML."""
+"""Haines' Neutral File Format: every entity, every fault with its line, and the same image as the scene in TOML."""
 
 import math
 from pathlib import Path
@@ -135,7 +135,7 @@ material = "glass"
 
 
 def test_concave_polygon_has_its_notch(tmp_path: Path) -> None:
-    """An L of three unit squares, as printed with six digits, turned so that no digit is exact."""
+    """An L of three unit squares, printed with six digits and rotated so that no digit is exact."""
     corners = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
     u, v, n = np.array([0.8, 0, 0.6]), np.array([0.36, 0.8, -0.48]), np.array([-0.48, 0.6, 0.64])
     lines = "\n".join(" ".join(f"{x:.6g}" for x in a / 7 * u + b / 7 * v) for a, b in corners)

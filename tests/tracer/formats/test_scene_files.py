@@ -1,4 +1,4 @@
-"""Scene files: what they may hold, and every fault they can have, all in one go as lines a person can act on."""
+"""Scene files: everything that they may contain, and every fault, all reported at once and in one line each."""
 
 import re
 from pathlib import Path
@@ -129,7 +129,7 @@ def test_every_key_is_read(scene_file) -> None:
 
 
 def test_format_and_one_object_are_enough(scene_file) -> None:
-    """The camera then frames the scene: the ball is seen whole, and fills a good part of the image."""
+    """The default camera frames the scene: the ball is in view as a whole and fills a good part of the image."""
     world = tracer.prepare(tracer.load(scene_file(f"format = 1\n{BALL}")))
     assert world.scene.objects[0].material == Material()
     assert world.scene.tracing.depth == 3

@@ -1,4 +1,4 @@
-"""Numbers of twice the digits against fractions: what is said to be without an error has none, the rest 2^-104."""
+"""Double-double arithmetic against fractions: error-free operations have no error, the others 2^-104 relative."""
 
 import math
 import random
@@ -27,7 +27,7 @@ def exact(a: DD) -> Fraction:
 
 
 def numbers(seed: int) -> Iterator[tuple[float, float]]:
-    """Of either sign, often so close that they cancel, or far apart."""
+    """Pairs of either sign, often so close that their difference cancels, or of very different size."""
     draw = random.Random(seed)
     for k in range(300):
         a = draw.choice((-1.0, 1.0)) * 2.0 ** draw.uniform(-60, 60)
@@ -49,7 +49,7 @@ def test_sum_and_product_of_floats_have_no_error() -> None:
 
 
 def test_sums_and_products_of_pairs() -> None:
-    """A sum's error is of its larger number, as it may cancel."""
+    """The error of a sum is relative to its larger operand, because the sum may cancel."""
     for a, b in pairs(2):
         x, y = exact(a), exact(b)
         most = max(abs(x), abs(y))
@@ -59,7 +59,7 @@ def test_sums_and_products_of_pairs() -> None:
 
 
 def test_quotient_is_the_nearest_float() -> None:
-    """But where the exact one lies within a millionth of the middle between two."""
+    """Except for quotients within a millionth of the midpoint between two floats."""
     for a, b in pairs(3):
         true = exact(a) / exact(b)
         assert abs(Fraction(dd_divide(a, b)) - true) <= Fraction(math.ulp(float(true))) * (
@@ -76,7 +76,7 @@ def test_root() -> None:
 
 
 def test_products_of_vectors() -> None:
-    """Each of the three products may be much larger than the sum."""
+    """Relative to the sum of the absolute products, because each product may be much larger than their sum."""
     found = iter(pairs(5))
     for (ax, bx), (ay, by), (az, bz) in zip(found, found, found, strict=True):
         a, b = [exact(x) for x in (ax, ay, az)], [exact(x) for x in (bx, by, bz)]

@@ -1,4 +1,4 @@
-"""The lecture's formulas against exact values, worked out to 25 digits."""
+"""The lecture's formulas against exact values, known to 25 digits."""
 
 import math
 import random
@@ -12,7 +12,7 @@ U = 2.0**-53
 
 
 def normal_at(angle: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-    """(v, n): a ray that comes in at this angle to the normal (0, 1, 0)."""
+    """(v, n): a ray that arrives at this angle to the normal (0, 1, 0)."""
     return (math.sin(angle), -math.cos(angle), 0.0), (0.0, 1.0, 0.0)
 
 
@@ -44,7 +44,7 @@ def test_critical_angle(n1: float, n2: float, degrees: float) -> None:
 
 @pytest.mark.parametrize("k", [10, 30, 50])
 def test_critical_angle_of_nearly_equal_indices(k: int) -> None:
-    """n1 = 1 + 2^-k: its cosine is sqrt((n1 - 1) (n1 + 1)) / n1, of which n1^2 - 1 would keep 53 - k binary digits."""
+    """n1 = 1 + 2^-k: the cosine is sqrt((n1 - 1) (n1 + 1)) / n1. From n1^2 - 1 it would keep only 53 - k bits."""
     critical = optics.critical_angle(1.0 + 2.0**-k, 1.0)
     assert critical is not None
     from_level = math.atan(math.sqrt(2.0**-k * (2.0 + 2.0**-k)))
@@ -59,7 +59,7 @@ def test_length_of_a_vector_is_no_matter(size: float) -> None:
 
 
 def test_refraction_of_3_4_5() -> None:
-    """sin 0.8 in air to sin 0.6 in n = 4/3: every number rational."""
+    """From air (sin 0.8) to n = 4/3 (sin 0.6): every number is rational."""
     t = optics.refract((0.8, -0.6, 0.0), (0.0, 1.0, 0.0), 1.0, 4 / 3)
     assert t == pytest.approx((0.6, -0.8, 0.0), abs=2 * U)
     back = optics.refract((0.6, -0.8, 0.0), (0.0, 1.0, 0.0), 4 / 3, 1.0)
@@ -82,7 +82,7 @@ def test_refraction_needs_no_unit_vector_and_no_tuple() -> None:
     ],
 )
 def test_approach_to_the_critical_angle(delta: float, cosine: float, reflectance: float) -> None:
-    """Glass to air at theta_c - delta: digits are lost as 1/cos^2, and no faster."""
+    """Glass to air at theta_c - delta: the error may grow as 1/cos^2, and no faster."""
     critical = optics.critical_angle(1.5, 1.0)
     assert critical is not None
     v, n = normal_at(critical - delta)
@@ -95,7 +95,7 @@ def test_approach_to_the_critical_angle(delta: float, cosine: float, reflectance
 
 @pytest.mark.parametrize("k", [3, 10, 25, 30, 40, 52])
 def test_radicand_keeps_its_digits_next_to_the_critical_angle(k: int) -> None:
-    """s2 = 1 - 2^-k: 1 - s2^2 = 2^(1-k) - 2^(-2k), of which 1 less a rounded square has 53 - k binary digits."""
+    """s2 = 1 - 2^-k: the radicand is 2^(1-k) - 2^(-2k). One minus a rounded square would keep only 53 - k bits."""
     for n in (1.0, 4.0):
         found = optics.radicand((1.0 - 2.0**-k) / n, n, 1.0)
         assert found == pytest.approx(2.0 ** (1 - k) * (1.0 - 2.0 ** (-k - 1)), rel=2 * U, abs=0.0)
@@ -128,12 +128,12 @@ def test_angle_near_the_normal_keeps_its_digits(angle: float, refracted: float) 
     ],
 )
 def test_nearly_matched_indices(k: int, deviation: float, reflectance: float) -> None:
-    """n2 = 1 + 10^-k at 60 degrees: the bend itself is exact, not the difference of two angles."""
+    """n2 = 1 + 10^-k at 60 degrees: the deviation has full relative accuracy; a difference of two angles would not."""
     n2 = 1.0 + 10.0**-k
     v, n = normal_at(math.radians(60))
     t = optics.refract(v, n, 1.0, n2)
     assert t is not None
-    # The deviation of two nearly equal unit vectors is known to a unit of rounding of 1.
+    # The directions are nearly equal unit vectors: their angle is known to a rounding unit of 1.
     assert abs(optics.angle(v, t) - deviation) <= 4 * U
     r, _ = optics.fresnel(0.5, 1.0, n2)
     assert r == pytest.approx(reflectance, rel=1e-9 if k < 12 else 1e-3, abs=0.0)
@@ -160,7 +160,7 @@ def test_normal_incidence(n: float, reflectance: float) -> None:
 
 
 def test_brewster_angle_reflects_one_polarisation_only() -> None:
-    """tan = 1.5: the parallel half vanishes, R = 25/338."""
+    """tan theta = 1.5: the parallel polarisation is not reflected, R = 25/338."""
     r, _ = optics.fresnel(math.cos(math.atan(1.5)), 1.0, 1.5)
     assert r == pytest.approx(25 / 338, rel=8 * U, abs=0.0)
 
@@ -170,7 +170,7 @@ def test_total_internal_reflection_reflects_all() -> None:
 
 
 def test_energy_and_reciprocity() -> None:
-    """R + T = 1, and the way back reflects as much."""
+    """R + T = 1, and the reflectance is the same in the opposite direction."""
     draw = random.Random(1)
     for _ in range(2000):
         n1, n2, cos1 = draw.uniform(1, 3), draw.uniform(1, 3), draw.uniform(0.001, 1)
@@ -186,7 +186,7 @@ def test_energy_and_reciprocity() -> None:
 
 
 def test_path_through_a_prism_of_root_two() -> None:
-    """A = 60 degrees, n = sqrt 2: in at 45, symmetric through it, out turned by 30 degrees exactly."""
+    """A = 60 degrees, n = sqrt 2: in at 45 degrees, a symmetric path, and a deviation of exactly 30 degrees."""
     n = math.sqrt(2)
     first, second = (-math.cos(math.radians(30)), 0.5, 0.0), (math.cos(math.radians(30)), 0.5, 0.0)
     along = math.radians(45 - 30)  # below the horizontal: 45 to the first face's normal

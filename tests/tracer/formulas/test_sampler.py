@@ -1,4 +1,4 @@
-"""Where samples lie, and how fast their means come near: slopes that theory knows."""
+"""Positions of samples, and the rates at which their means converge, which are known from theory."""
 
 import math
 from typing import Any
@@ -11,7 +11,7 @@ from tracer.choices import JITTERED, RANDOM, SAMPLERS, SOBOL
 from tracer.compile.jit import kernel
 from tracer.formulas.sampler import Sampler, make_samples, sample_offset
 
-RUNS = 600  # pixels: the slope of their error's root mean square is then sure to about 0.02
+RUNS = 600  # pixels: enough to know the slope of the RMSE to about 0.02
 
 
 @kernel
@@ -27,7 +27,7 @@ def points(sampler: int, count: int, pixel: int) -> np.ndarray:
 
 
 def slope(sampler: int, error) -> float:
-    """Of log RMSE against log N, over random pixels."""
+    """Slope of log RMSE over log N, for random pixels."""
     counts = (4, 16, 64, 256)
     spread = [math.sqrt(np.mean([error(points(sampler, n, i), i) ** 2 for i in range(RUNS)])) for n in counts]
     return float(np.polyfit(np.log(counts), np.log(spread), 1)[0])
@@ -40,7 +40,7 @@ def smooth(at: np.ndarray, i: int) -> float:
 
 
 def edge(at: np.ndarray, i: int) -> float:
-    """The share of the square on one side of a line y = m x + c, which runs from its left to its right."""
+    """The part of the square on one side of a line y = m x + c that runs from its left to its right edge."""
     m, c = np.random.default_rng(i).uniform((-0.4, 0.4), (0.2, 0.6))
     return float((at[:, 1] < m * at[:, 0] + c).mean()) - (0.5 * m + c)
 

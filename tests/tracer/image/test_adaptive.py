@@ -1,4 +1,6 @@
-"""Adaptive sampling: every pixel is one of a plain image, the estimate is no lower than the error, rays are saved."""
+"""Adaptive sampling: a pixel of N samples has the bits of a plain image, the estimate is not below the error, rays are
+saved.
+"""
 
 import math
 from concurrent.futures import ThreadPoolExecutor
@@ -18,19 +20,19 @@ from tracer.kernel.limits import make_limits
 from tracer.measure.precision.errors import rmse
 
 SIZE = (64, 48)
-DRAWS = 0.07  # of an error that is estimated from the edge scene's 100 pixels with an edge: 1 / sqrt(2 * 100)
+DRAWS = 0.07  # spread of an error estimated from the 100 pixels on the edge: 1 / sqrt(2 * 100)
 
 
 @pytest.mark.parametrize("sampler", ("sobol", "random"))
 def test_pixels_are_those_of_plain_images(worlds: dict[str, tracer.World], sampler: str) -> None:
-    """A pixel of N samples has the bits of the image of N samples a pixel: on any number of threads."""
+    """A pixel of N samples has the bits of an image with N samples a pixel, on any number of threads."""
     world = worlds["glass-ball"]
     image = tracer.render(world, SIZE, until_error=0.02, sampler=sampler)
     assert image.counts is not None
     counts = np.unique(image.counts)
     assert len(counts) > 3
     for n in counts.tolist():
-        # One of Sobol's points is an image's own case, the centre: two are the least here.
+        # Sobol with one sample is a special case, the pixel's centre: two samples are the least here.
         plain = tracer.render(world, SIZE, samples=n, sampler=sampler)
         here = image.counts == n
         assert image.pixels[here].tobytes() == plain.pixels[here].tobytes()
@@ -52,7 +54,7 @@ def test_what_is_cut_is_counted_as_in_plain_images(worlds: dict[str, tracer.Worl
 
 
 def test_the_estimate_of_a_lesson_is_no_lower_than_its_error(worlds: dict[str, tracer.World]) -> None:
-    """Some thousand pixels with edges: one that stops for a lucky draw must not make the whole look better."""
+    """Some thousand pixels on edges: a few that stop early by a lucky draw must not lower the estimate of the image."""
     world, size = worlds["mirror-balls"], (160, 120)
     true = tracer.render(world, size, samples=512).pixels
     for sampler in ("sobol", "random"):
@@ -63,7 +65,9 @@ def test_the_estimate_of_a_lesson_is_no_lower_than_its_error(worlds: dict[str, t
 
 
 def test_an_edge_in_closed_form_with_a_quarter_of_the_rays() -> None:
-    """Where one pixel in some hundred has an edge in it, the others need no more than the two that show that."""
+    """One pixel in some hundred has an edge. The others need no more than the two samples that show that they have
+    none.
+    """
     world, true = edge_scene(), edge_image()
     plain = tracer.render(world, (ACROSS, ACROSS), samples=64)
     wanted = rmse(plain.pixels, true)
@@ -81,8 +85,8 @@ def test_an_edge_in_closed_form_with_a_quarter_of_the_rays() -> None:
 
 @pytest.mark.parametrize(
     ("sampler", "law"),
-    # At an edge the square error is v(N) = c N^-3/2. A mean whose two halves are off by v(N/2) each moves by
-    # v(N/2) - v(N) in the square; independent halves have v(N/2) = 2 v(N), renewed samples v(N/4) + v(N).
+    # At an edge the squared error is v(N) = c N^-3/2. Of two halves with error v(N/2) each the mean moves by v(N/2) -
+    # v(N), squared; independent halves have v(N/2) = 2 v(N), renewed samples v(N/4) + v(N).
     (("sobol", math.sqrt(2.0**1.5 - 1.0)), ("random", 1.0), ("jittered", math.sqrt((4.0**1.5 + 1.0) / RESTART_FACTOR))),
 )
 def test_the_estimate_is_theory_s(sampler: str, law: float) -> None:
@@ -103,7 +107,7 @@ def test_the_estimate_is_theory_s(sampler: str, law: float) -> None:
 
 
 def test_time_ends_it(worlds: dict[str, tracer.World]) -> None:
-    """However short the time, every pixel has two samples: fewer say nothing of their error."""
+    """Every pixel has two samples, however short the time: fewer give no estimate of their error."""
     image = tracer.render(worlds["mirror-balls"], SIZE, until_seconds=1e-9)
     assert image.ended == "seconds"
     assert image.stats
@@ -126,7 +130,7 @@ def test_a_flat_image_needs_two_samples() -> None:
 
 
 def test_broken_off_and_gone_on_with(worlds: dict[str, tracer.World]) -> None:
-    """A round that is stopped between two tiles loses none, and what comes of it is the same."""
+    """A round that is stopped between two tiles loses none, and continuing gives the same image."""
     world = worlds["two-lights"]
     limits = make_limits(world, records=False)
 
@@ -151,7 +155,7 @@ def test_broken_off_and_gone_on_with(worlds: dict[str, tracer.World]) -> None:
 
 
 def test_gains_by_hand() -> None:
-    """Of three pixels the one that moved most by its samples goes on, the others stay."""
+    """Of three pixels the one whose samples changed most is refined, the others stay."""
     sampled = PixelStatistics(3, 1, RANDOM, adaptive=True)
     tile = Tile(0, 0, 3, 1)
     for count, colors in ((1, (0.5, 0.5, 0.5)), (2, (1.0, 1.1, 3.0))):
@@ -160,7 +164,7 @@ def test_gains_by_hand() -> None:
         sums[:, 0] = colors
         sampled.update(tile, sums)
         assert (sampled.counts == count).all()
-    # Means went from 0.5 to 0.5, 0.55 and 1.5 in one component of three.
+    # The means changed from 0.5 to 0.5, 0.55 and 1.5 in one component of three.
     assert sampled.moved[0] == pytest.approx([0.0, 0.05**2 / 3, 1.0 / 3], rel=1e-12)
     assert sampled.error == pytest.approx(math.sqrt((0.05**2 + 1.0) / 9), rel=1e-12)
     assert sampled.plan_round(64)

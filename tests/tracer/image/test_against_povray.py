@@ -1,10 +1,9 @@
-"""An independent program on the shipped scenes: POV-Ray, told of the same surfaces, lights and weights.
+"""The shipped scenes against an independent program, POV-Ray, with the same surfaces, lights and weights.
 
-Both take a pixel's centre, Whitted's model, depth 3. POV-Ray writes 16 bits a colour, so the same light differs by at
-most half a step of 1/65535, and by as much again where its single-precision colours were rounded. At most one pixel
-in 5000 may differ by more: beside an edge that passes within rounding of its centre, and where a ray meets the next
-surface nearer than POV-Ray can see (its shadow rays leave out the first 0.001, a constant of its source; ours leave
-out nothing).
+Both sample a pixel's centre, with Whitted's model and depth 3. POV-Ray writes 16 bits a colour, so the same light
+differs by at most half a step of 1/65535, and by as much again where its single-precision colours were rounded. At
+most one pixel in 5000 may differ by more: at an edge within rounding of the pixel's centre, and at shadow rays whose
+occluder is nearer than POV-Ray's epsilon of 0.001, a constant of its source. Ours have no epsilon.
 """
 
 import dataclasses
@@ -23,7 +22,7 @@ SIZE = (320, 240)
 STEP = 1 / 65535
 SAME = 1.5 * STEP
 EDGE_SHARE = 1 / 5000
-BLIND = 1e-3  # what POV-Ray leaves out at the start of a shadow ray
+BLIND = 1e-3  # POV-Ray's epsilon for shadow rays
 
 
 ROUND = """
@@ -100,7 +99,7 @@ material = "glass"
 """
 
 
-# It cannot see the other two: all of `scale` is smaller than its smallest distance, and so is the gap of `panes`.
+# POV-Ray cannot render the other two: all of `scale` is smaller than its epsilon, and so is the gap of `panes`.
 @pytest.mark.parametrize("name", [name for name in LESSONS if name not in ("scale", "panes")])
 def test_image_agrees_with_povray(name: str, tmp_path: Path) -> None:
     agrees(tracer.load(lesson.read(name).scene), tmp_path)

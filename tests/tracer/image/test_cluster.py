@@ -1,4 +1,4 @@
-"""Past one machine, on a real cluster of two processes: the same bits, whatever happens to a worker."""
+"""Images on a real cluster of two processes: the same bits, also when a worker dies."""
 
 import os
 import pickle
@@ -45,7 +45,7 @@ def cluster() -> Iterator[Any]:
 
 @pytest.fixture(scope="module")
 def world() -> tracer.World:
-    """A smooth mesh under a glass ball, seen from inside another: everything that has to travel."""
+    """A smooth mesh below a glass ball, seen from inside another ball: every kind of data that is sent to workers."""
     n = 40
     x, z = np.meshgrid(np.linspace(-3, 3, n + 1), np.linspace(-3, 3, n + 1))
     vertices = np.stack([x, 0.2 * np.sin(3 * x) * np.cos(2 * z) - 1.5, z], axis=-1).reshape(-1, 3)
@@ -64,7 +64,7 @@ def world() -> tracer.World:
 
 
 def kernels() -> int:
-    """On a worker: for how many sets of types the kernel was compiled."""
+    """Run on a worker: for how many sets of types the kernel was compiled."""
     from tracer.kernel.entry import trace_pixels
 
     return len(trace_pixels.signatures)
@@ -89,7 +89,7 @@ def test_cluster_traces_the_same_bits(cluster: Any, world: tracer.World, options
 
 
 def test_an_image_that_converges_has_the_same_bits_there(cluster: Any, world: tracer.World) -> None:
-    """Each tile's sums travel there and back, round by round."""
+    """The sums of each tile are sent to a worker and back, round by round."""
     size = (96, 72)
     here = tracer.render(world, size, until_error=0.006)
     with connect(cluster.scheduler_address) as workers:
@@ -102,7 +102,7 @@ def test_an_image_that_converges_has_the_same_bits_there(cluster: Any, world: tr
 
 
 def test_what_came_over_a_wire_is_traced_as_it_is(world: tracer.World) -> None:
-    """Arrays may then be read-only and lie at odd addresses: aligned they must be, and nothing is compiled for it."""
+    """Arrays from a message may be read-only. They are aligned, and nothing is compiled for them."""
     task = Task.of(world, world.view(), make_limits(world, records=False), PIXEL_CENTER.sampler)
     sent: list[pickle.PickleBuffer] = []
     head = pickle.dumps(task, protocol=5, buffer_callback=sent.append)
@@ -161,7 +161,7 @@ class Assassin(SchedulerPlugin):
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_killed_worker_costs_no_pixel(world: tracer.World, workers: int) -> None:
-    """Of two, the other takes over; an only one takes the world with it, and has it again when it is started anew."""
+    """The other worker takes over. If it was the only one, it is started again and receives the scene again."""
     with (
         local_cluster(workers) as cluster,
         connect(cluster.scheduler_address) as executor,
@@ -182,7 +182,7 @@ def test_what_is_no_address_is_said(address: str) -> None:
 
 
 def test_workers_of_other_versions_are_refused(tmp_path: Path) -> None:
-    """One whose sources are not ours, one that cannot load them: a line each, before anything is traced."""
+    """A worker with other sources and one that cannot load them: one line each, before anything is traced."""
     for name, more in (("other", "# not the same\n"), ("none", "raise ImportError('no such thing here')\n")):
         shutil.copytree(ROOT / "tracer", tmp_path / name / "tracer", ignore=shutil.ignore_patterns("__pycache__"))
         with (tmp_path / name / "tracer" / "__init__.py").open("a") as file:

@@ -1,20 +1,22 @@
-"""Every number of the tree against the same tree traced with 50 digits.
+"""Every number of a ray tree against the same tree traced with 50 digits.
 
-An error is stated in units u = 2^-53 times a condition number, which says how much the answer itself moves when what
-it is computed from does by u. For a ray with origin o that meets, under the angle theta, a surface at a (|a| + r for
-a ball) after the way t; c1, c2 the cosines before and behind it, eta = n1/n2:
+An error is stated in units u = 2^-53 times a condition number: the change of the answer, in u, when its inputs
+change by u. Consider a ray with origin o that hits a surface at angle theta after the distance t. The surface has
+position a (|a| + r for a ball); c1 and c2 are the cosines of incidence and refraction, eta = n1/n2:
 
-normal      `sharp`. A ball's is (p - c) / r from a p near c + r n: (|c| + r) / r. A face's is a cross product of edges:
+normal      `sharp`. A ball's is (p - c) / r from a p near c + r n: (|c| + r) / r. A face's is a cross product of
+edges:
             longest^2 / area. A plane's and a box's: 1.
-point, t    sharp (|o| + |a| + t) / c1: a height over the surface is a difference of such numbers, and an error in it
-            is that much longer along the ray. A box has its planes as they are, its t is one difference: |o| + t.
-radicand    sharp (1 + eta)^2: 1 - s2^2, where s2 = eta s1 can be as large as eta.
-theta2      sharp (1 + eta) / c2, as d(theta2) = eta c1/c2 d(theta1), and c2 is the root of the radicand.
-direction   mirrored: sharp. Refracted: sharp (1 + eta) / c2, for theta2's reason.
-factor      kt sharp 2 n1 n2 (1/A^2 + 1/B^2) (c2 + c1 (1 + eta) / c2) + 1, where A = n1 c1 + n2 c2, B = n2 c1 + n1 c2:
+point, t    sharp (|o| + |a| + t) / c1: the height above the surface is a difference of such numbers, and along the
+ray
+            its error is longer by 1 / c1. The t of a box is one difference with a given plane: |o| + t.
+radicand    sharp (1 + eta)^2: 1 - s2^2, where s2 = eta s1 can be as large as eta. theta2      sharp (1 + eta) / c2,
+as d(theta2) = eta c1/c2 d(theta1), and c2 is the root of the radicand. direction   reflected: sharp. Refracted:
+sharp (1 + eta) / c2, for theta2's reason. factor      kt sharp 2 n1 n2 (1/A^2 + 1/B^2) (c2 + c1 (1 + eta) / c2) + 1,
+where A = n1 c1 + n2 c2, B = n2 c1 + n1 c2:
             the derivatives of Fresnel's amplitudes (n1 c1 - n2 c2) / A and (n2 c1 - n1 c2) / B by c1 and c2.
 
-Near the critical angle c2 goes to 0, at grazing incidence c1: the conditions grow as the answers lose their digits.
+Near the critical angle c2 goes to 0, at grazing incidence c1: there the condition numbers grow without bound.
 """
 
 import math
@@ -43,7 +45,7 @@ from tracer.tree.raytree import RayTree
 
 U = mpf(2) ** -53
 
-# In these units; the most met in some thousands of random scenes is about half of each.
+# In these units. The largest error seen in some thousands of random scenes is about half of each.
 ALLOWED = {
     "direction": 16,
     "factor": 4,
@@ -58,7 +60,7 @@ ALLOWED = {
 
 
 def units(tree: RayTree, i: int) -> Iterator[tuple[str, mpf]]:
-    """For each field of row i how far it is off one exact step, in u times its condition number."""
+    """For each field of row i its error in one exact step, in u times its condition number."""
     row, true = tree.nodes[i], exact_step(tree, i)
     if row["parent"] >= 0:
         direction, factor = leaving(tree, i)
@@ -84,7 +86,7 @@ def units(tree: RayTree, i: int) -> Iterator[tuple[str, mpf]]:
 
 
 def meeting(tree: RayTree, i: int, true: Exact) -> mpf:
-    """Condition of the point that ray i meets."""
+    """Condition number of the hit of ray i."""
     row = tree.nodes[i]
     shape = tree.scene.objects[row["object"]].shape
     if isinstance(shape, Box):
@@ -95,7 +97,7 @@ def meeting(tree: RayTree, i: int, true: Exact) -> mpf:
 
 
 def sharpness(tree: RayTree, i: int) -> mpf:
-    """Condition of the normal where ray i meets a surface."""
+    """Condition number of the normal where ray i hits a surface."""
     row = tree.nodes[i]
     shape = tree.scene.objects[row["object"]].shape
     match shape:
@@ -109,7 +111,7 @@ def sharpness(tree: RayTree, i: int) -> mpf:
 
 
 def leaving(tree: RayTree, i: int) -> tuple[mpf, mpf]:
-    """Conditions of the direction and of the factor of a ray that another one sends out."""
+    """Condition numbers of the direction and of the factor of a reflected or transmitted ray."""
     k = int(tree.nodes["parent"][i])
     above, true = tree.nodes[k], exact_step(tree, k)
     item = tree.scene.objects[above["object"]]
@@ -121,7 +123,7 @@ def leaving(tree: RayTree, i: int) -> tuple[mpf, mpf]:
     n1, n2 = mpf(above["n1"]), mpf(item.material.ior if item.thin else above["n2"])
     c1 = mp.cos(true.theta1)
     square = 1 - (n1 / n2) ** 2 * (1 - c1**2)
-    if square <= 0:  # a thin sheet's: it has no other side
+    if square <= 0:  # a thin sheet: the same medium on both sides
         return sharp, mpf(1)
     c2 = mp.sqrt(square)
     slopes = 2 * n1 * n2 * ((n1 * c1 + n2 * c2) ** -2 + (n2 * c1 + n1 * c2) ** -2)
@@ -131,10 +133,12 @@ def leaving(tree: RayTree, i: int) -> tuple[mpf, mpf]:
 
 
 def chain_units(tree: RayTree) -> Iterator[tuple[int, str, mpf]]:
-    """The first two levels against the exact tree from the eye on: what the first hit's error does to the second.
+    """Errors of the first two levels against the exact tree: the second level also has the propagated error of the
+    first.
 
-    Moved by `drift` along a ball of radius r the normal turns by drift / r; the ray sent out turns by as much times
-    `stretch`, that is 1 in a mirror and (1 + eta) / c2 behind glass. At the next hit this is (drift + t turn) / c1.
+    A hit that moves by `drift` along a ball of radius r turns the normal by drift / r. It turns the ray that is sent
+    out by `stretch` times as much: 1 for a reflection, (1 + eta) / c2 for a refraction. The next hit moves by (drift
+    + t turn) / c1.
     """
     rows = exact_tree(tree)
     for i, (row, true) in enumerate(zip(tree.nodes, rows, strict=True)):
@@ -187,7 +191,7 @@ MATERIALS = st.sampled_from(
 
 
 def vectors(size: float) -> st.SearchStrategy[tuple[float, float, float]]:
-    """Also simple numbers and zeros, which a uniform draw never has."""
+    """Vectors that include simple numbers and zeros, which a uniform distribution never yields."""
     number = st.floats(-size, size).map(lambda x: round(x, 12))
     return st.tuples(number, number, number)
 
@@ -223,7 +227,7 @@ def test_random_scenes(
     lamp: tuple[float, float, float],
     model: str,
 ) -> None:
-    """Rays towards the first object, past its middle by up to 1 along each axis."""
+    """Rays towards the first object, offset by up to 1 along each axis."""
     aim = objects[0].shape
     boxes = aim.bounds()
     if boxes is None:
@@ -239,7 +243,9 @@ def test_random_scenes(
 
 
 def test_judge_against_a_ball_with_a_closed_form() -> None:
-    """A ball of radius 5 met 4 above its centre: cos = 3/5. Inside, chords of 10 c2; Fresnel's law in its angles."""
+    """A ball of radius 5, hit 4 above its centre: cos = 3/5. Inside, chords of length 10 c2; Fresnel's law in its
+    angles.
+    """
     world = world_of(Object(Sphere((0.0, 0.0, 0.0), 5.0), Material("glass", transmit=1.0, ior=1.5)), model="fresnel")
     tree = tracer.trace(world, ray=((-7.0, 4.0, 0.0), (1.0, 0.0, 0.0)), depth=2)
     rows = {tree.kind(i): true for i, true in reversed(list(enumerate(exact_tree(tree))))}  # the first of each kind
@@ -260,7 +266,7 @@ SIZES = (1e-9, 1e-3, 1.0, 1e3, 1e6, 1e9, 1e12)
 
 @pytest.mark.parametrize("size", SIZES)
 def test_large_and_small_and_far_away(size: float) -> None:
-    """What the conditions allow is enough for any size, near the surface and far from it, also where it is much."""
+    """The condition numbers hold for any size, and near the surface as well as far from it."""
     corners = ((-size, 0.25 * size, -size), (0.0, 0.125 * size, size), (size, 0.5 * size, -size))
     far = (size, -0.75 * size, 0.5 * size)
     for shape, eye in (

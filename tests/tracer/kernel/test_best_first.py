@@ -1,4 +1,4 @@
-"""Trees to a tolerance: exact answers, a bound that holds at every stop, and a ledger that balances."""
+"""Best-first trees to a tolerance: exact results, a bound that holds at every stop, and weights that add up."""
 
 import itertools
 import math
@@ -23,7 +23,9 @@ WHITE = (1.0, 1.0, 1.0)
 
 
 def plates(count: int, n: float = 1.5, background: tuple = WHITE) -> tracer.World:
-    """A pile of clear plates. What goes through to the floor below is black, what comes back is the sky's white."""
+    """A pile of clear plates above a black floor, under a white sky: reflected light is white, transmitted light is
+    lost.
+    """
     glass = Material("clear", transmit=1.0, ior=n)
     pile = [box((-1e3, 2.0 * k, -1e3), (1e3, 2.0 * k + 1.0, 1e3), glass, f"plate {k}") for k in range(count)]
     floor = plane((0, -1, 0), (0, 1, 0), Material("black"), "floor")
@@ -40,7 +42,7 @@ def reflectance(faces: int, n: float = 1.5) -> float:
 
 
 def test_slab_to_1e_12_takes_twenty_rays() -> None:
-    """Two rays an interface: what is left inside is worth 1/25 less each time."""
+    """Each interface sends out two rays. What stays inside is multiplied by 1/25 at each."""
     tree = down(plates(1), tolerance=1e-12)
     assert len(tree) == 20
     assert tree.residual == pytest.approx(0.96 * 0.04**9, rel=64 * U, abs=0.0)
@@ -50,7 +52,7 @@ def test_slab_to_1e_12_takes_twenty_rays() -> None:
 @pytest.mark.parametrize("count", [1, 2, 3, 5, 10])
 @pytest.mark.parametrize("n", [1.5, 4 / 3, 2.4])
 def test_pile_of_plates_is_bounded_at_every_stop(count: int, n: float) -> None:
-    """N faces reflect N R / (1 + (N - 1) R); the bound holds wherever tracing stops, and only ever falls."""
+    """N faces reflect N R / (1 + (N - 1) R). The bound holds wherever tracing stops, and never increases."""
     world, exact = plates(count, n), reflectance(2 * count, n)
     last = math.inf
     for max_nodes in (1, 2, 3, 10, 100, 1000, 5000):
@@ -58,7 +60,7 @@ def test_pile_of_plates_is_bounded_at_every_stop(count: int, n: float) -> None:
         assert len(tree) <= max_nodes
         assert exact - tree.radiance[0] <= tree.bound + 8 * U
         assert tree.radiance[0] <= exact + 8 * U
-        assert tree.bound == tree.residual <= last * (1 + 8 * U)  # R + T is 1 but for rounding
+        assert tree.bound == tree.residual <= last * (1 + 8 * U)  # R + T is 1 up to rounding
         last = tree.residual
 
 
@@ -79,9 +81,9 @@ def test_residual_comes_down_to_what_was_asked_for(tolerance: float) -> None:
 
 
 def test_tracing_stops_at_the_very_tolerance() -> None:
-    """Asked for what any stop has left, it stops there, and not for less: the sum does not drift as rays come and go.
+    """Given the residual of any stop as tolerance, tracing stops exactly there: the running sum does not drift.
 
-    A row that sends out two rays adds up what is cut of both: one rounding of the residual.
+    A row that sends out two rays adds the weights that are cut of both: one rounding of the residual.
     """
     world = plates(3, 1.37)
     for count in range(1, 600, 7):
@@ -99,7 +101,7 @@ def test_slab_aslant(degrees: float, exact: float) -> None:
     a = math.radians(degrees)
     world = plates(1)
     tree = tracer.trace(world, ray=((0, 2, 0), (math.sin(a), -math.cos(a), 0)), tolerance=1e-14)
-    # The share thrown back is 1/cos wrong for an angle a unit of rounding wrong.
+    # One rounding unit of the angle changes the reflected share by 1/cos units.
     assert tree.radiance[0] == pytest.approx(exact, rel=32 * U / math.cos(a), abs=2e-14)
 
 
@@ -112,7 +114,7 @@ def test_rows_come_heaviest_first_with_their_shadows_behind_them() -> None:
     for i, k in enumerate(rays):
         shadows = np.arange(k + 1, rays[i + 1] if i + 1 < len(rays) else len(tree))
         assert (kind[shadows] == 4).all() and (parent[shadows] == k).all()
-    # A ray is never lighter than one that was already waiting when it was taken.
+    # A ray never has more weight than one that was in the queue when it was taken.
     for a, b in itertools.pairwise(rays):
         assert weight[b] <= weight[a] or parent[b] == a
     assert (tree.nodes["id"] == np.arange(len(tree))).all()
@@ -154,7 +156,7 @@ def test_image_to_a_tolerance_is_made_of_the_same_trees() -> None:
 
 
 def test_where_light_adds_up_without_end_nothing_is_claimed() -> None:
-    """Perfect mirrors face to face with a lamp between them; with less than perfect ones there is a bound."""
+    """No bound is claimed where light can add up without limit: between perfect mirrors face to face, with a lamp."""
     lamp = Light("lamp", position=(0.5, 0.5, 0.0))
     for reflect, ambient, expected in ((1.0, 0.1, math.inf), (0.5, 0.1, 0.2), (1.0, 0.0, 0.0), (0.99, 0.0, 0.0)):
         mirror = Material("mirror", ambient=ambient, reflect=reflect)
@@ -174,7 +176,10 @@ def test_surface_that_sends_on_more_than_it_gets_has_a_bound_only_in_the_dark(sk
 
 
 def test_the_most_a_ray_can_bring_counts_every_light_and_the_brighter_square() -> None:
-    """Green: ambient 1/4 of 1/2, from lights of 2 and 1 an eighth and a highlight of a quarter; half is passed on."""
+    """The bound on radiance counts every light, and the brighter square of a checker.
+
+    Green: ambient 1/4 of 1/2; from lights of 2 and 1 an eighth, and a highlight of a quarter; half is passed on.
+    """
     tiles = Material(
         "tiles", (0.0, 0.5, 0.0), 0.25, 0.125, 0.25, reflect=0.25, transmit=0.25, checker=Checker((0.0, 1.0, 0.0), 1.0)
     )
@@ -223,14 +228,14 @@ def random_world(seed: int) -> tracer.World:
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(st.integers(0, 10**9), st.sampled_from([0, 1, 3, 6]), st.sampled_from([None, 0.3, 1e-2]), st.booleans())
 def test_ledger_balances_and_the_bound_holds(seed: int, depth: int, tolerance: float | None, thin_out: bool) -> None:
-    """Leaves + cut + absorbed = 1 to the rounding of the longest path; no tree lacks more than its bound."""
+    """Leaves + cut + absorbed = 1 up to the rounding of the longest path. No tree misses more light than its bound."""
     world = random_world(seed)
     random = np.random.default_rng(seed)
     ray = (tuple(random.uniform(-4, 4, 3)), tuple(random.normal(size=3)))
     min_weight = 0.02 if thin_out else 0.0
     limits = {"min_weight": min_weight, "max_nodes": 20000}
     tree = tracer.trace(world, ray=ray, depth=None if tolerance else depth, tolerance=tolerance, **limits)
-    # A factor and a weight are rounded a few times each; R + T = 1 to 8 u / c for a cosine c that is not tiny here.
+    # A factor and a weight are rounded a few times each; R + T = 1 up to 8 u / c for a cosine c that is not tiny here.
     deepest = int(tree.nodes["depth"].max()) + 1
     assert abs(sum(tree.ledger) - 1.0) <= 64 * U * deepest
     deeper = tracer.trace(world, ray=ray, tolerance=1e-4, max_nodes=20000)

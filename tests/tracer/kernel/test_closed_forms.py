@@ -1,4 +1,4 @@
-"""Scenes with answers in closed form. Tolerances: units of rounding error times a stated condition number."""
+"""Scenes with results in closed form. Tolerances are rounding units times a stated condition number."""
 
 import math
 
@@ -15,7 +15,9 @@ U = 2.0**-53
 @pytest.mark.parametrize("n", [1.0003, 4 / 3, 1.5, 2.42, 100.0])
 @pytest.mark.parametrize("depth", [2, 3, 7])
 def test_ray_through_the_centre_of_a_ball_goes_straight_on(n: float, depth: int) -> None:
-    """P. Shirley's first test: down the z axis through a unit ball, in at (0,0,1), out at (0,0,-1), any index."""
+    """Down the z axis through a unit ball, in at (0,0,1), out at (0,0,-1), for any index. Source: P. Shirley's first
+    test.
+    """
     world = world_of(ball(material=Material("glass", transmit=1.0, ior=n)), background=(0.25, 0.5, 0.75))
     tree = tracer.trace(world, ray=((0, 0, 5), (0, 0, -1)), depth=depth)
     assert kinds(tree) == ["camera", "refraction", "refraction"]
@@ -30,7 +32,7 @@ def test_ray_through_the_centre_of_a_ball_goes_straight_on(n: float, depth: int)
 
 
 def test_pole_of_a_ball_has_no_sideways_component() -> None:
-    """A ray along a coordinate axis is where some tracers nudge the hit aside."""
+    """A ray along a coordinate axis: tracers that offset the hit by an epsilon move it sideways here."""
     tree = tracer.trace(world_of(ball(material=GLASS)), ray=((0, 0, -5), (0, 0, 1)), depth=3)
     assert (tree.nodes["point"][:2, :2] == 0.0).all()
     assert tree.nodes["t"][:2].tolist() == [4.0, 2.0]
@@ -38,7 +40,7 @@ def test_pole_of_a_ball_has_no_sideways_component() -> None:
 
 @pytest.mark.parametrize("degrees", [1, 30, 53.13010235415598, 80, 89])
 def test_slab_shifts_a_ray_and_keeps_its_direction(degrees: float) -> None:
-    """Through a slab of thickness 1: the same direction, moved aside by sin(t1) (1 - cos t1 / (n cos t2))."""
+    """A slab of thickness 1 keeps the direction and shifts the ray by sin(t1) (1 - cos t1 / (n cos t2))."""
     n = 4 / 3
     a = math.radians(degrees)
     slab = box((-1000, 0, -1000), (1000, 1, 1000), Material("glass", transmit=1.0, ior=n))
@@ -51,14 +53,14 @@ def test_slab_shifts_a_ray_and_keeps_its_direction(degrees: float) -> None:
     expected = math.sin(a) * (1.0 - math.cos(a) / (n * cos2))
     across = np.array([math.cos(a), math.sin(a), 0.0])
     shift = float((tree.nodes["point"][0] - tree.nodes["point"][1]) @ across)
-    # The slab's exit lies tan(t2) along it: that many units of rounding, and as many again of the entry.
+    # The exit lies tan(t2) further along the slab: as many rounding units, and those of the entry.
     assert abs(shift - expected) <= 16 * U * (1.0 + math.tan(a))
 
 
 @pytest.mark.parametrize("aside", [1e-14, 1e-12, 1e-9, 1e-3])
 @pytest.mark.parametrize("model", ["whitted", "fresnel"])
 def test_critical_angle_of_water_is_decided_on_the_right_side(aside: float, model: str) -> None:
-    """asin(1 / 1.33), the lecture's 48.75 degrees: below it two rays leave, beyond it one, with all the weight."""
+    """asin(1 / 1.33), the lecture's 48.75 degrees: below it two rays leave, above it one, with the whole weight."""
     critical = tracer.optics.critical_angle(1.33, 1.0)
     assert critical is not None
     assert math.degrees(critical) == pytest.approx(48.75346663132723, rel=4 * U, abs=0.0)
@@ -75,7 +77,7 @@ def test_critical_angle_of_water_is_decided_on_the_right_side(aside: float, mode
 
 @pytest.mark.parametrize("model", ["whitted", "fresnel"])
 def test_at_the_critical_angle_itself_all_light_is_reflected(model: str) -> None:
-    """sin 3/5 against an index of 5/3: the radicand is 0 to the last bit, and there is one ray."""
+    """sin 3/5 and n = 5/3: the radicand is exactly 0, and there is one ray."""
     dense = Material("dense", reflect=0.25, transmit=0.75, ior=5 / 3)
     world = world_of(plane((0, 0, 0), (0, 1, 0), dense), model=model)
     tree = tracer.trace(world, ray=((0, -1, 0), (3, 4, 0)), depth=1)
@@ -85,7 +87,7 @@ def test_at_the_critical_angle_itself_all_light_is_reflected(model: str) -> None
 
 
 def test_parallel_mirrors_are_met_at_equal_steps() -> None:
-    """Between x = 0 and x = 1, rising 2^-10 a crossing: y_N = (N - 1/2) / 1024, to the rounding of N bounces."""
+    """Between x = 0 and x = 1, rising 2^-10 a crossing: y_N = (N - 1/2) / 1024, up to the rounding of N reflections."""
     world = world_of(plane((0, 0, 0), (1, 0, 0), MIRROR, "left"), plane((1, 0, 0), (-1, 0, 0), MIRROR, "right"))
     tree = tracer.trace(world, ray=((0.5, 0, 0), (1, 2.0**-10, 0)), depth=100)
     hits = tree.nodes["point"]
@@ -113,7 +115,7 @@ def test_shadow_of_a_ball_ends_where_the_cone_of_light_does() -> None:
 
 @pytest.mark.parametrize("depth", [0, 1, 2, 10, 40])
 def test_white_furnace(depth: int) -> None:
-    """Inside a ball that shines 1 and mirrors 1/2: 2 - 2^-D, bit for bit, whichever way one looks."""
+    """Inside a ball with emission 1 and reflectance 1/2: 2 - 2^-D, bit for bit, in every direction."""
     shell = ball((0, 0, 0), 1.0, Material("shell", ambient=1.0, reflect=0.5))
     world = world_of(shell)
     for direction in ((1, 0, 0), (1, 2, 3), (-0.3, 0.1, 0.9)):
@@ -132,7 +134,7 @@ def test_mirror_of_weight_one_has_one_child() -> None:
 
 @pytest.mark.parametrize("n", [1.0, 1.5])
 def test_equal_indices_send_one_ray_straight_on(n: float) -> None:
-    """Where the medium changes but not its index there is nothing to bend and nothing to throw back."""
+    """Where the medium changes but not the index of refraction, the ray goes straight on and nothing is reflected."""
     same = Material("same", reflect=0.3, transmit=0.7, ior=n)
     outer = box((-2, -2, -2), (2, 2, 2), same, "outer")
     inner = box((-1, -1, -1), (1, 1, 1), same, "inner", priority=1)
@@ -146,7 +148,7 @@ def test_equal_indices_send_one_ray_straight_on(n: float) -> None:
 
 
 def test_concave_mirror_sends_rays_through_the_closed_form_of_its_axis() -> None:
-    """Radius 1, a ray parallel to the axis at height h crosses it 1 / (2 cos a) from the centre, sin a = h."""
+    """Radius 1: a ray parallel to the axis at height h crosses it 1 / (2 cos a) from the centre, sin a = h."""
     world = world_of(ball(material=MIRROR))
     for h, crossing in ((0.6, 0.625), (0.8, 5 / 6)):
         tree = tracer.trace(world, ray=((0, h, 0), (1, 0, 0)), depth=1)
@@ -156,18 +158,18 @@ def test_concave_mirror_sends_rays_through_the_closed_form_of_its_axis() -> None
 
 
 def test_no_epsilon_swallows_near_surfaces() -> None:
-    """A coat so thin that any usual offset would jump it: the core is hit, at the gap's own distance."""
+    """A coat thinner than any usual epsilon: the core is hit, at the distance of the gap."""
     for gap in (1e-3, 1e-6, 1e-9, 1e-12):
         coat = ball((0, 0, 0), 1.0 + gap, Material("coat", transmit=1.0, ior=1.5), "coat")
         world = world_of(coat, ball((0, 0, 0), 1.0, DARK, "core"))
         tree = tracer.trace(world, ray=((0.2, 0, 5), (0, 0, -1)), depth=1)
         assert [tree.object_name(i) for i in range(2)] == ["coat", "core"]
-        # The gap itself is known to about 8 units of rounding of 1; the chord through it is a little longer.
+        # The gap is known to about 8 rounding units of 1. The chord through it is a little longer.
         assert abs(tree.nodes["t"][1] - gap * tree_length(gap)) <= 16 * U + 1e-3 * gap
 
 
 def tree_length(gap: float) -> float:
-    """Length of the refracted path through a coat of thickness 1, impact 0.2, n = 1.5, to first order."""
+    """Length of the refracted path through a coat of thickness 1, impact parameter 0.2, n = 1.5, to first order."""
     return 1.0 / math.sqrt(1.0 - (0.2 / 1.5) ** 2)
 
 
@@ -187,7 +189,7 @@ def test_two_panes_with_a_hair_between_them_are_four_surfaces() -> None:
 
 
 def test_scaling_a_scene_by_a_power_of_two_scales_its_tree_and_nothing_else() -> None:
-    """No length is built in: 2^-200 and 2^200 give the same bits."""
+    """No length is built in: a scene times 2^-200 or 2^200 has the same bits."""
 
     def tree_at(k: int) -> tracer.RayTree:
         s = 2.0**k
@@ -214,7 +216,7 @@ def test_scaling_a_scene_by_a_power_of_two_scales_its_tree_and_nothing_else() ->
 
 @pytest.mark.parametrize("k", [-1074, -600, 490])
 def test_length_of_a_direction_is_no_matter(k: int) -> None:
-    """Normal, light's direction and camera's up, however small or large: the same bits."""
+    """Lengths of the normal, of the light's direction and of the camera's up vector do not change a bit."""
 
     def tree_with(s: float) -> tracer.RayTree:
         slope = plane((0, 0, 0), (0, s, 0), Material("floor", diffuse=0.5, reflect=0.25), "floor")

@@ -1,4 +1,4 @@
-"""The rules of DESIGN's "what the numbers mean": limits, cuts, thin sheets, media, Fresnel's shares."""
+"""The rules of the recursion: limits, cuts, thin sheets, media, Fresnel weights."""
 
 import math
 from dataclasses import replace
@@ -33,7 +33,7 @@ def test_depth_limit_cuts_and_says_so() -> None:
 def test_weight_limit_cuts_what_weighs_less() -> None:
     world = world_of(ball(material=HALF_MIRROR))
     tree = tracer.trace(world, ray=((0, 0, 0), (1, 2, 3)), depth=100, min_weight=0.25)
-    assert ends(tree) == [None, None, "weight"]  # 1, 1/2, 1/4; 1/8 is below
+    assert ends(tree) == [None, None, "weight"]  # 1, 1/2, 1/4; 1/8 is below the limit
     assert tree.residual == 0.125
 
 
@@ -47,7 +47,7 @@ def test_node_limit_never_cuts_silently(most: int) -> None:
 
 @pytest.mark.parametrize("limits", [{"depth": 5}, {"depth": 40, "min_weight": 1e-3}, {"depth": 40, "max_nodes": 300}])
 def test_what_is_missing_is_within_the_residual(limits: dict) -> None:
-    """Where nothing shines but the background, the cut rays can bring at most their weights times its colour."""
+    """If nothing emits light but the background, cut rays lose at most their weights times its colour."""
     world = plates(2)
     ray = ((0.3, 0.1, 9), (0.1, 0.05, -1))
     cut = tracer.trace(world, ray=ray, **limits)
@@ -68,7 +68,7 @@ def test_node_limit_is_used_to_the_last_row() -> None:
 
 
 def test_phong_highlight() -> None:
-    """ks (R.V)^p at 45 degrees in and straight up out: cos(45)^2 = 1/2."""
+    """ks (R.V)^p, in at 45 degrees and out along the normal: cos(45)^2 = 1/2."""
     shiny = Material("shiny", specular=0.5, shininess=2.0)
     lamp = Light("lamp", position=(4.0, 4.0, 0.0))
     tree = tracer.trace(
@@ -95,7 +95,7 @@ def test_thin_sheet_transmits_unbent(model: str) -> None:
 
 @pytest.mark.parametrize("sine", [0.8, 0.95])
 def test_thin_sheet_of_less_index_than_where_it_lies_reflects_all(sine: float) -> None:
-    """Fresnel's law for a sheet of air in glass of 1.5, beyond its critical angle: nothing gets through."""
+    """A sheet of air in glass of index 1.5, beyond the critical angle: nothing is transmitted."""
     gap = sheet(0.0, Material("gap", reflect=0.25, transmit=0.5, ior=1.0))
     world = world_of(box((-9, -9, -9), (9, 9, 9), GLASS), gap, model="fresnel")
     tree = tracer.trace(world, ray=((0, 1, 0), (sine, -math.sqrt(1 - sine * sine), 0)), depth=1)
@@ -104,7 +104,7 @@ def test_thin_sheet_of_less_index_than_where_it_lies_reflects_all(sine: float) -
 
 
 def test_grazing_ray_lets_through_what_the_formula_says() -> None:
-    """At c1 = 2^-40 on n = 3/2 next to nothing is transmitted; as 1 - R it would keep 4 digits.
+    """At c1 = 2^-40 on n = 3/2 almost nothing is transmitted. Computed as 1 - R, T would keep 4 digits.
 
     T = 2 c1 n c2 (1 / (c1 + n c2)^2 + 1 / (n c1 + c2)^2), with n c2 = sqrt(n^2 - 1 + c1^2).
     """
@@ -144,7 +144,7 @@ def test_eye_under_water_that_is_a_half_space() -> None:
 
 
 def test_water_in_glass_with_touching_faces() -> None:
-    """air | glass | water | air at 60 degrees: the angles of a plane stack, no spurious total reflection."""
+    """air | glass | water | air at 60 degrees: the angles of a stack of plane layers, no false total reflection."""
     glass = Material("glass", transmit=1.0, ior=1.5)
     water = Material("water", transmit=1.0, ior=4 / 3)
     expected = [60.0, 35.264389682754654, 40.505350327418596, 60.0]
@@ -174,7 +174,10 @@ def test_the_same_glass_twice_is_met_once() -> None:
 
 
 def test_what_was_entered_unseen_is_still_around_after_a_reflection() -> None:
-    """Into glass at z = 0, into water within it at z = 1, unseen; back from z = 2, and out of the glass at its side."""
+    """A medium that was entered inside another, without a visible surface, still counts after a reflection.
+
+    Into glass at z = 0, into water within it at z = 1, hidden; reflected at z = 2, and out of the glass at its side.
+    """
     glass = box((-1, -9, 0), (1, 9, 2), Material("glass", reflect=0.5, transmit=0.5, ior=1.5), "glass", priority=1)
     water = box((-5, -9, 1), (5, 9, 5), Material("water", transmit=1.0, ior=1.33), "water")
     tree = tracer.trace(world_of(glass, water), ray=((-1.3, 0, -1), (1, 0, 1)), depth=2)
@@ -238,7 +241,7 @@ def test_pixels_outside_the_image_are_refused() -> None:
 
 
 def test_mirrored_scene_has_the_mirrored_tree() -> None:
-    """x turned to -x everywhere: the same bits but for that sign."""
+    """x negated everywhere: the same bits except for that sign."""
 
     def tree(sign: int) -> tracer.RayTree:
         objects = (
@@ -264,7 +267,9 @@ def test_mirrored_scene_has_the_mirrored_tree() -> None:
 
 
 def test_solid_that_another_hides_is_named() -> None:
-    """Water in a glass box that outranks it shows nowhere, and the author is told; with a higher priority it shows."""
+    """Water in a glass box of higher priority is never visible, and a note says so. With a higher priority it is
+    visible.
+    """
     glass, water = Material("glass", transmit=1.0, ior=1.5), Material("water", transmit=1.0, ior=1.33)
     outer = box((-1, -1, -1), (1, 1, 1), glass, "glass box")
     for more, said in (({}, ["water ball"]), ({"priority": 1}, [])):
@@ -277,7 +282,9 @@ def test_solid_that_another_hides_is_named() -> None:
 
 
 def test_open_surface_of_glass_is_named() -> None:
-    """Light that enters a cylinder of a cone and two discs through one of them is in glass for good."""
+    """A cylinder closed by discs that are objects of their own: light that enters through a disc never leaves the
+    glass.
+    """
     glass = Material("glass", transmit=1.0, ior=1.5)
     side = cone((0, 0, 0), 1.0, (0, 1, 0), 1.0, glass, "side")
     lids = disc((0, 1, 0), (0, 1, 0), 1.0, glass, "top"), disc((0, 0, 0), (0, -1, 0), 1.0, glass, "bottom")

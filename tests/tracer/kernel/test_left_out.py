@@ -1,7 +1,7 @@
-"""Nothing needless: an image traces the rays that its picture needs, and not one more. Counts in closed form.
+"""An image traces the rays that can change its pixels, and no others. Counts in closed form.
 
-A tree shows a shadow ray from every hit to every light, those that add nothing, too; of the rays that are sent out
-image and tree have the same.
+A tree has a shadow ray from every hit to every light, also to those that add nothing. Reflected and transmitted rays
+are the same in the image and in the tree.
 """
 
 import numpy as np
@@ -20,7 +20,7 @@ SUN, NADIR = Light("sun", direction=(0.0, -1.0, 0.25)), Light("nadir", direction
 
 
 def counted(*objects: Object, lights: tuple[Light, ...] = (), depth: int = 5, model: str = "whitted") -> dict[str, int]:
-    """An image's rays by kind, those there are; checked against the trees of all its pixels."""
+    """An image's rays by kind, without zeros; checked against the trees of all its pixels."""
     world = world_of(*objects, lights=lights, camera=ABOVE, image=Image(*SIZE), depth=depth, model=model)
     rays = {kind: count for kind, count in tracer.render(world).rays.items() if count}
     trees = [tracer.trace(world, (x, y)) for y in range(SIZE[1]) for x in range(SIZE[0])]
@@ -63,7 +63,7 @@ def test_nothing_is_traced_for_a_light_behind_the_surface(light: Light) -> None:
 
 
 def test_half_of_a_ball_faces_its_light() -> None:
-    """Lit from the side, all of the ball seen: rays to the light from where it faces it, and from nowhere else."""
+    """Lit from the side, with the whole disc of the ball in view: half of the hits send a ray to the light."""
     side = Light("side", direction=(-1.0, 0.0, 0.0))
     world = world_of(ball(), lights=(side,), image=Image(64, 48))
     image = tracer.render(world)
@@ -81,19 +81,19 @@ def test_no_light_is_asked_for_where_none_is_shown(material: Material) -> None:
 @pytest.mark.parametrize("depth", [0, 1, 2, 6])
 @pytest.mark.parametrize("model", ["whitted", "fresnel"])
 def test_mirror_of_weight_1_has_one_child(depth: int, model: str) -> None:
-    """And that one no second: between two parallel mirrors a ray a level."""
+    """A mirror of weight 1 sends out one ray and no other: between two parallel mirrors there is one ray a level."""
     once = {"camera": PIXELS} | ({"reflection": PIXELS} if depth else {})
     assert counted(floor(MIRROR), depth=depth, model=model) == once
     ceiling = plane((0, 5, 0), (0, -1, 0), MIRROR)
     levels = {"camera": PIXELS} | ({"reflection": depth * PIXELS} if depth else {})
     assert counted(floor(MIRROR), ceiling, depth=depth, model=model) == levels
     lit = counted(floor(MIRROR), sheet(-1.0, MATTE), lights=(OVER,), depth=depth, model=model)
-    assert lit == once  # a mirror without a diffuse part asks for no light
+    assert lit == once  # a mirror without a diffuse part sends no shadow ray
 
 
 @pytest.mark.parametrize("model", ["whitted", "fresnel"])
 def test_matched_indices_spawn_no_reflection(model: str) -> None:
-    """Straight on, whatever the surface's own weight of reflection is; on to the matte floor, and the light there."""
+    """Equal indices: no reflected ray, whatever the surface's own reflectance. The ray goes on to the matte floor."""
     for clear in (CLEAR, Material("clear", transmit=0.5, reflect=0.5, ior=1.0)):
         rays = counted(box((-9, 1, -9), (9, 2, 9), clear), floor(), lights=(OVER,), model=model)
         assert rays == {"camera": PIXELS, "refraction": 2 * PIXELS, "shadow": PIXELS}

@@ -1,4 +1,4 @@
-"""The one idea: the tree on the screen is the computation of the pixel. To the last bit, on every shipped scene."""
+"""The recorded tree is the computation of the pixel: equal to the last bit, on every shipped scene."""
 
 import itertools
 import os
@@ -37,7 +37,7 @@ def grid(size: tuple[int, int]) -> list[tuple[int, int]]:
 
 
 def same_bits(a: np.ndarray, b: np.ndarray) -> bool:
-    """Equal bit for bit, NaN and the sign of zero included."""
+    """Equal bit for bit, including NaN and the sign of zero."""
     return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
 
 
@@ -55,7 +55,9 @@ def test_tree_is_the_pixel(world: tracer.World, model: str) -> None:
 
 
 def test_tree_is_the_pixel_where_rays_are_passed_on_whole() -> None:
-    """Perfect mirrors and clear glass take no row in an image, and no light from it; and what was cut there counts."""
+    """Perfect mirrors and clear glass take no row in an image and add no light to it, and their counts and cuts are the
+    same.
+    """
     clear, mirror = Material("clear", transmit=1.0, ior=1.5), Material("mirror", reflect=1.0)
     half, both = Material("half", reflect=0.5), Material("both", reflect=1.0, transmit=0.125, ior=1.25)
     lit = Material("lit", ambient=0.5, color=(0.0, 0.5, 1.0), reflect=1.0)
@@ -74,7 +76,7 @@ def test_tree_is_the_pixel_where_rays_are_passed_on_whole() -> None:
 
 
 def check_sums(tree: tracer.RayTree) -> None:
-    """A node's radiance is its local term plus factor times radiance over its rays, in row order, to the last bit."""
+    """A node's radiance is its local term plus factor times radiance of its rays, in row order, to the last bit."""
     nodes = tree.nodes
     for i in range(len(tree)):
         total = nodes["local"][i].copy()
@@ -86,7 +88,7 @@ def check_sums(tree: tracer.RayTree) -> None:
 
 
 def check_prefix(shallow: tracer.RayTree, deep: tracer.RayTree) -> None:
-    """The rows of depth d are the first rows of depth d+1, equal but for `end` and `radiance`."""
+    """The rows of depth d are the first rows of depth d+1, equal except for `end` and `radiance`."""
     rows = len(shallow)
     assert rows <= len(deep)
     for field in shallow.nodes.dtype.names or ():
@@ -130,7 +132,7 @@ def test_several_samples_are_the_mean_of_single_ones(world: tracer.World) -> Non
 
 
 def test_image_traces_the_rays_of_its_trees(world: tracer.World) -> None:
-    """All of them, but for shadow rays that cannot add light: those a tree alone has, for whoever reads it."""
+    """An image traces all rays of its trees, except shadow rays that cannot add light."""
     image = tracer.render(world, (64, 48), depth=3)
     rays = dict.fromkeys(image.rays, 0)
     for y in range(48):
@@ -143,7 +145,7 @@ def test_image_traces_the_rays_of_its_trees(world: tracer.World) -> None:
 
 
 def may_add_light(tree: RayTree, i: int) -> bool:
-    """Whether shadow row i goes to a light in front of a surface that light changes."""
+    """True if shadow row i goes to a light in front of a surface whose material light can change."""
     at = tree.nodes[tree.nodes["parent"][i]]
     material = tree.scene.objects[at["object"]].material
     n_l = dot(vector(at["normal"]), vector(tree.nodes["direction"][i]))
@@ -151,7 +153,7 @@ def may_add_light(tree: RayTree, i: int) -> bool:
 
 
 def test_one_compiled_kernel_serves_every_scene(worlds: dict[str, tracer.World]) -> None:
-    """Nobody is to wait for a compiler when another scene is opened: with glass, without, with much of it."""
+    """No recompilation when another scene is opened: one without glass, with glass, with much of it."""
     glass = Material("glass", transmit=1.0, ior=1.5)
     many = world_of(*(ball((3.0 * k, 0, 0), 1, glass, f"ball {k}") for k in range(80)))
     for world in (*worlds.values(), many, world_of(ball())):
@@ -162,7 +164,7 @@ def test_one_compiled_kernel_serves_every_scene(worlds: dict[str, tracer.World])
 
 
 def test_formulas_run_as_plain_python() -> None:
-    """One source of the physics: without a compiler the same functions give the same bits."""
+    """The kernel's functions run as plain Python, with the same bits."""
     program = (
         "import sys, numpy as np, tracer; from viewer.lessons import lesson; np.seterr(all='ignore')\n"
         "for name in lesson.names():\n"
@@ -190,7 +192,7 @@ def test_background_rows_are_leaves_with_its_colour(world: tracer.World) -> None
 
 
 def test_a_table_too_short_grows() -> None:
-    """A tree larger than a thread's table at first is traced all the same, in images and clicks."""
+    """A tree that is larger than a thread's first table is traced, in images and in clicks."""
     glass = Material("glass", reflect=0.2, transmit=0.8, ior=1.5)
     plates = [box((-9, -9, z), (9, 9, z + 0.5), glass) for z in (0.0, 1.0, 2.0)]
     world = world_of(*plates, background=(0.2, 0.4, 0.8), image=Image(8, 6))

@@ -1,4 +1,6 @@
-"""What an image leaves out of its table: rays passed on whole, shadow rays. Colour, counts and ends are the tree's."""
+"""Rows that an image leaves out of its table: rays with factor 1, shadow rays. Colour, counts and ends equal the
+tree's.
+"""
 
 import numpy as np
 import pytest
@@ -15,7 +17,9 @@ from tracer.scene import Camera, Light, Material
 
 
 def test_ray_that_passes_on_all_it_gets_keeps_what_was_cut_beside_it() -> None:
-    """A perfect mirror that lets a little through: too little to follow, and counted, in a tree as in an image."""
+    """A perfect mirror that also transmits a little: too little to follow, and counted as cut, in a tree and in an
+    image.
+    """
     pane = Material("pane", reflect=1.0, transmit=2.0**-10, ior=1.5)
     world = world_of(plane((0, 0, 0), (0, 0, 1), pane), background=WHITE)
     limits = {"depth": 2, "min_weight": 0.5}
@@ -28,13 +32,14 @@ def test_ray_that_passes_on_all_it_gets_keeps_what_was_cut_beside_it() -> None:
 def test_dark_surface_that_passes_on_a_part_takes_its_part_in_an_image_too() -> None:
     world = world_of(plane((0, 0, 0), (0, 0, 1), Material("half", reflect=0.5)), background=(0.5, 0.75, 1.0))
     assert (tracer.render(world).pixels == (0.25, 0.375, 0.5)).all()
-    for color in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)):  # nor is one dark that shines in one colour
+    # a surface that is black but for one colour of emission counts too
+    for color in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)):
         shining = Material("shining", color, ambient=0.5, reflect=1.0)
         assert (tracer.render(world_of(plane((0, 0, 0), (0, 0, 1), shining))).pixels == np.multiply(0.5, color)).all()
 
 
 def test_mirrors_face_to_face_take_no_room_but_where_they_are_recorded() -> None:
-    """100 000 bounces as an image and as a tree: the same colour and counts, and the image's table stays short."""
+    """100 000 reflections between two mirrors, as an image and as a tree: equal, and the image's table stays short."""
     end = ball((0.5, 100.0, 0), 1.0, Material("end", ambient=1.0, color=(0.3, 0.5, 0.7)), "end")
     walls = (plane((0, 0, 0), (1, 0, 0), MIRROR, "left"), plane((1, 0, 0), (-1, 0, 0), MIRROR, "right"))
     world = world_of(*walls, end, lights=[Light("lamp", position=(0.5, 0.0, 5.0))])
@@ -57,7 +62,7 @@ def test_mirrors_face_to_face_take_no_room_but_where_they_are_recorded() -> None
 
 @pytest.mark.parametrize("max_nodes", [1, 7, 20, 60, 10**6])
 def test_an_image_ends_where_the_tree_of_its_pixel_ends(max_nodes: int) -> None:
-    """Also at the limit of rays: those of a tree that an image does not trace are spoken for in both."""
+    """At the limit of rays, too: shadow rays that only a tree traces count in both."""
     glass = Material("glass", transmit=0.9, reflect=0.1, diffuse=0.2, ior=1.5)
     lamps = [Light("near", position=(1.0, 4.0, 4.0)), Light("behind", position=(0.0, -5.0, -3.0))]
     world = world_of(
@@ -71,7 +76,7 @@ def test_an_image_ends_where_the_tree_of_its_pixel_ends(max_nodes: int) -> None:
 
 
 def test_rays_are_counted_once_where_the_table_has_to_grow() -> None:
-    """A mirror's row gives way to the next; then the tree outgrows the table, and the pixel begins anew."""
+    """A mirror's row is reused by the next one. Then the tree outgrows the table, and the pixel is traced again."""
     mirror = plane((0, 100, 0), (0, -1, 0), MIRROR, "mirror")
     upwards = Camera(position=(0.0, 50.0, 0.0), look_at=(0.0, 100.0, 1.0))
     world = world_of(mirror, *plates(3).scene.objects, camera=upwards)

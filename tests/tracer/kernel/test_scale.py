@@ -35,7 +35,7 @@ def test_shipped_scene_of_any_size_has_the_same_trees(world: tracer.World, k: in
 
 
 def scaled(scene: Scene, s: float) -> Scene:
-    """Every length of it times s."""
+    """The scene with every length multiplied by s."""
     camera = scene.camera
     return replace(
         scene,

@@ -1,4 +1,4 @@
-"""Shadow rays: one to every light in the tree, those that can add light in the image; and their way through glass."""
+"""Shadow rays: one to every light in the tree, in the image only those that can add light; transparent occluders."""
 
 import math
 import random
@@ -17,7 +17,7 @@ SUN = Light("sun", direction=(0.0, -1.0, 0.0))
 
 
 def test_image_traces_one_shadow_ray_a_lit_hit() -> None:
-    """Nothing needless: none to a light behind the surface, none for a surface that light does not change."""
+    """No shadow ray to a light behind the surface, and none for a material that light does not change."""
     lamps = [Light("eye", position=(0.0, 0.0, 100.0)), Light("behind", position=(0.0, 0.0, -100.0))]
     for lights in (lamps[:1], lamps):
         image = tracer.render(world_of(ball(), lights=lights))
@@ -28,7 +28,9 @@ def test_image_traces_one_shadow_ray_a_lit_hit() -> None:
 
 
 def test_tree_has_a_shadow_ray_to_every_light() -> None:
-    """Also to those that add nothing: behind the surface, or where the material takes no light."""
+    """The tree also has those that add nothing: to a light behind the surface, or for a material that light does not
+    change.
+    """
     below = Light("below", position=(0.0, -3.0, 0.0))
     ray = ((0, 1, 0), (0.1, -1, 0))
     for material in (Material("matte", diffuse=1.0), Material("dull", ambient=1.0)):
@@ -45,7 +47,9 @@ def test_tree_has_a_shadow_ray_to_every_light() -> None:
 
 @pytest.mark.parametrize(("shadows", "share"), [("filter", 0.9), ("block", 0.0)])
 def test_glass_that_faces_away_is_in_its_own_way(shadows: str, share: float) -> None:
-    """A sheet seen from above, lit from below: its light comes through it, and adds nothing on this side."""
+    """A glass surface that faces away from the light blocks its own shadow ray. A sheet seen from above, lit from
+    below.
+    """
     below = Light("below", position=(0.0, -3.0, 0.0))
     pane = sheet(0.0, Material("sheet", transmit=0.9, diffuse=1.0))
     tree = tracer.trace(world_of(pane, lights=[below], shadows=shadows), ray=((0, 1, 0), (0, -1, 0)), depth=0)
@@ -131,7 +135,9 @@ def test_occluder_is_the_nearest_opaque_one_behind_any_glass() -> None:
 
 @pytest.mark.parametrize("panes", [0, MAX_CROSSINGS])
 def test_edge_between_two_faces_is_crossed_once(panes: int) -> None:
-    """Through the diagonals of a cube's top and bottom, gathered at once and crossing by crossing: two crossings."""
+    """A shadow ray through the diagonals of a cube's top and bottom has two crossings, collected in one traversal or in
+    many.
+    """
     cube = glass_cube(0.5)
     above = [
         Object(Polygon(square(3.0 + k)), Material("pane", transmit=1.0), f"pane {k}", thin=True) for k in range(panes)
@@ -145,7 +151,7 @@ def test_edge_between_two_faces_is_crossed_once(panes: int) -> None:
 
 @pytest.mark.parametrize("panes", [12, MAX_CROSSINGS + 1])
 def test_of_panes_at_one_height_the_files_first_comes_first(panes: int) -> None:
-    """Each on its own side of the ray, so that the hierarchy parts them; all at the same t."""
+    """Coplanar panes are crossed in the order of the file: all have the same t, and the BVH orders them otherwise."""
     turn = np.linspace(0.0, 6.0, panes)
     shifted = [[(x + math.cos(a), y, z + math.sin(a)) for x, y, z in square(3.0)] for a in turn]
     kt = [0.9 + 0.1 / (k + 2) for k in range(panes)]
@@ -164,7 +170,7 @@ def test_of_panes_at_one_height_the_files_first_comes_first(panes: int) -> None:
 
 
 def test_light_from_behind_a_ball_comes_through_it() -> None:
-    """The eye sees the near side, the light is beyond the far side: in the tree its ray crosses both."""
+    """The eye sees the near side of a ball and the light is behind it: the tree's shadow ray crosses both sides."""
     glass = ball((0, 0, 0), 1, Material("glass", transmit=0.5, diffuse=1.0, ior=1.5), "glass")
     lamp = Light("lamp", position=(0.0, 0.0, -9.0))
     tree = tracer.trace(world_of(glass, lights=[lamp]), ray=((0.25, 0, 5), (0, 0, -1)), depth=0)
@@ -204,7 +210,7 @@ def test_nothing_behind_the_light_shades() -> None:
 
 @pytest.mark.parametrize("panes", [0, MAX_CROSSINGS + 1])
 def test_nor_does_what_the_light_lies_in(panes: int) -> None:
-    """A pane at its very height is not on the way to it, whether what is on the way is gathered or gone through."""
+    """A pane at the very distance of the light is no occluder, in one traversal or in many."""
     clear, dim = Material("clear", transmit=1.0), Material("dim", transmit=0.5)
     below = [Object(Polygon(square(1.0 + 0.1 * k)), clear, f"pane {k}", thin=True) for k in range(panes)]
     lamp = Light("lamp", position=(0.0, 5.0, 0.0))
@@ -216,7 +222,7 @@ def test_nor_does_what_the_light_lies_in(panes: int) -> None:
 
 @pytest.mark.parametrize("height", [1e-300, 1e-170, 1e-160, 1e-154, 1e-140, 1.0, 1e140, 1e149])
 def test_light_at_any_distance_shines_as_bright(height: float) -> None:
-    """Its squares may be out of range: the direction is a unit vector all the same."""
+    """The square of the distance may overflow or underflow: the direction is a unit vector all the same."""
     world = world_of(plane((0, 0, 0), (0, 1, 0), MATTE), lights=[Light("lamp", position=(0.0, height, 0.0))])
     tree = tracer.trace(world, ray=((0, 1, 0), (0, -1, 0)), depth=0)
     assert tree.nodes["direction"][1].tolist() == [0.0, 1.0, 0.0]

@@ -1,4 +1,4 @@
-"""Scenes in the mirror, of any size, and paths turned round: the same trees."""
+"""Mirrored scenes have mirrored trees, and a path traced backwards meets the same points."""
 
 from dataclasses import replace
 
@@ -22,7 +22,7 @@ GLASS = Material("glass", diffuse=0.2, specular=0.2, shininess=5, reflect=0.3, t
 
 
 def zoo(turn: np.ndarray) -> tuple[list[Object], list[Light]]:
-    """Cones of every kind and discs, mirrors and glass, leaning about; `turn`: signs of the axes."""
+    """Cones of every kind and discs, reflecting and transparent, at random tilts. `turn`: signs of the axes."""
     random = np.random.default_rng(5)
     objects = []
     for k in range(10):
@@ -79,7 +79,7 @@ def test_cones_of_any_size_have_the_same_trees(k: int) -> None:
 
 
 def mirrored(scene: Scene, turn: np.ndarray) -> Scene:
-    """The scene with the signs of some axes turned; meshes and outlines turned over too, so that they face outwards."""
+    """The scene with the signs of some axes negated. Meshes and outlines are reversed to face outwards."""
 
     flips = turn.prod() < 0.0
 
@@ -99,7 +99,7 @@ def mirrored(scene: Scene, turn: np.ndarray) -> Scene:
                 first, *others = ((turn * corner).tolist() for corner in one.vertices)
                 return Polygon(tuple(map(vector, (first, *(reversed(others) if flips else others)))))
             case Mesh():
-                # The same first corner for each face, so that the same numbers meet.
+                # Keep the first corner of each face, so that the same numbers are computed with.
                 geometry = one.geometry
                 normals = None if geometry.normals is None else geometry.normals @ turn_of(one.rotate).T * turn
                 corners = one.scale * geometry.vertices @ turn_of(one.rotate).T + one.translate
@@ -120,7 +120,7 @@ def mirrored(scene: Scene, turn: np.ndarray) -> Scene:
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_mirrored_lesson_has_the_mirrored_trees(world: tracer.World, axis: int) -> None:
-    """Without checkers, whose squares count from 0 upwards and have no mirror image."""
+    """Checkers are left out: their squares count from 0 upwards and have no mirror image."""
     turn = np.where(np.arange(3) == axis, -1.0, 1.0)
     one, other = (tracer.prepare(mirrored(world.scene, signs)) for signs in (np.ones(3), turn))
     width, height = world.scene.image.width, world.scene.image.height
@@ -153,7 +153,7 @@ def test_random_scene_of_any_size_has_the_same_trees(seed: int, k: int) -> None:
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(st.integers(0, 10**9))
 def test_light_finds_its_way_back(seed: int) -> None:
-    """A path turned round at its end meets the same points in the other order, as far as their own errors say."""
+    """A path that is reversed at its end meets the same points in the opposite order, within their own error bounds."""
     world = random_world(seed)
     random = np.random.default_rng(seed)
     tree = tracer.trace(world, ray=(tuple(random.uniform(-4, 4, 3)), tuple(random.normal(size=3))), depth=4)

@@ -1,4 +1,4 @@
-"""`raytree check` of rays and surfaces: the cases come out, their exact answers are exact, the textbook fails."""
+"""Cases of `raytree check` about rays and surfaces: the tracer passes, exact values are exact, the textbook fails."""
 
 import math
 import random
@@ -12,11 +12,11 @@ from tracer.measure.check.case import DIGITS, Case, Reading, Result, exactly, of
 from tracer.measure.check.cases import spheres
 from tracer.measure.check.check import CASES
 
-# Where the textbook is to be seen failing. What is not here is a case of structure, or one where it does well.
+# Cases that the textbook's formulas must fail. The others test structure, or the textbook does well there.
 FAILS = ("A1", "A2", "A3", "A6", "A7", "A8", "A9", "A4", "A5", "A10", "A11")
 FAILS += ("B1", "B3", "B6", "B7", "B8", "B10", "C1", "C2", "C3", "C4", "C5", "C7", "C9", "J4")
 
-# Where the textbook's way loses at least this much, as a relative error (absolute about 0).
+# The least loss of the textbook's formulas, as a relative error (absolute at 0).
 LOST = {
     "D3": 0.5,
     "D4": 0.5,

@@ -1,4 +1,4 @@
-"""The numbers typed into the cases of bending, plates and lenses are right to their digits."""
+"""The constants in the cases of refraction, plates and lenses are right in every digit."""
 
 from decimal import localcontext
 
@@ -19,10 +19,10 @@ def test_impacts_of_the_rainbow() -> None:
 
 
 def test_growth_between_two_balls() -> None:
-    """Paraxial rays to and fro between unit mirrors: the larger eigenvalue of one bounce."""
+    """Paraxial rays to and fro between unit mirrors: the larger eigenvalue of one reflection."""
     mp.dps = 50
     distance = mp.sqrt(mpf("1.3") ** 2 + mpf("2.1") ** 2 + mpf("1.7") ** 2) - 2
-    half = 1 + distance  # half the trace of to the mirror and back: 1 + L / (R / 2) / 2 with R = 1
+    half = 1 + distance  # half the trace of one round trip: 1 + L / (R / 2) / 2 with R = 1
     assert abs(half + mp.sqrt(half * half - 1) - mpf("3.728458374")) < mpf("1e-8")
 
 
@@ -35,7 +35,7 @@ def test_drop_of_3_4_5() -> None:
         assert abs(x - mpf(a) / size) < mpf(10) ** -45 and abs(y - mpf(b) / size) < mpf(10) ** -45
         if 0 < k <= len(plates.EXITS):
             ex, ey, size = plates.EXITS[k - 1]
-            # Outside: the normal turned by the angle of incidence, whose sine is 4/5, clockwise.
+            # Outside: the normal rotated clockwise by the angle of incidence, whose sine is 4/5.
             assert abs((x * mpf(3) / 5 + y * mpf(4) / 5) - mpf(ex) / size) < mpf(10) ** -45
             assert abs((y * mpf(3) / 5 - x * mpf(4) / 5) - mpf(ey) / size) < mpf(10) ** -45
         inside = mp.asin(mpf(4) / 5 / n)

@@ -1,4 +1,4 @@
-"""Images in closed form: the errors that a report measures are those that theory has, one by one."""
+"""Images in closed form: the errors that a report measures equal those of theory."""
 
 import math
 
@@ -31,7 +31,7 @@ def curves(world: tracer.World, across: int, true: np.ndarray, sampler: str, cou
 
 
 def test_a_disc_of_known_area_in_every_pixel() -> None:
-    """At random each sample hits with the chance of its area: the mean square error is A (1 - A) / N."""
+    """A random sample hits with the probability A of the disc's area: the mean square error is A (1 - A) / N."""
     across, radius = 20, 0.35  # of a pixel
     pixel = SIDE / across
     places = [(-0.5 * SIDE + (k + 0.5) * pixel) for k in range(across)]
@@ -47,7 +47,7 @@ def test_a_disc_of_known_area_in_every_pixel() -> None:
 
 
 def shadow_edge() -> tracer.World:
-    """A wall seen head on, half of it in the shadow of a half plane near the lamp: the edge of `edge_image` again."""
+    """A wall seen at right angles, half in the shadow of a half plane near the lamp: the edge of `edge_image` again."""
     lamp = (0.0, 0.0, 20.0)
     share = 0.25  # of the way from the wall to the lamp, where the half plane stands
     corners = [(-90.0, HEIGHT - 90.0 * RISE), (90.0, HEIGHT + 90.0 * RISE), (90.0, 200.0), (-90.0, 200.0)]
@@ -57,7 +57,7 @@ def shadow_edge() -> tracer.World:
 
 @pytest.mark.parametrize(("sampler", "slope"), (("random", -0.5), ("jittered", -0.75)))
 def test_the_edge_of_a_shadow(sampler: str, slope: float) -> None:
-    """Lit samples are no longer 1 but the cosine of the lamp: the edge's error, times what the light is there."""
+    """Lit samples have the cosine of the lamp instead of 1: the error of the edge times the light there."""
     world = shadow_edge()
     lit = render(world, (ACROSS, ACROSS), samples=1024).pixels
     share = edge_image()
@@ -70,12 +70,12 @@ def test_the_edge_of_a_shadow(sampler: str, slope: float) -> None:
     if sampler == "random":
         expected = math.sqrt(float(np.mean(np.where(edges, share * (1.0 - share), 0.0))))
         for point in curve.points:
-            # About 100 pixels have the edge in them; light there is 0.93 to 1 of what it is in the middle.
+            # About 100 pixels are on the edge; the light there is 0.93 to 1 of that in the middle.
             assert point.errors.rmse == pytest.approx(expected / math.sqrt(point.value), rel=0.07 + 3.0 * 0.0707)
 
 
 def test_a_smooth_pixel() -> None:
-    """A wall under a lamp: jittered samples of what is smooth in a pixel are off by N^-1, as theory has it."""
+    """A wall under a lamp: for an integrand that is smooth in a pixel, jittered sampling converges as N^-1."""
     world = world_of(WALL, lights=[Light("lamp", (0.6, 0.4, 0.9))], camera=CAMERA)
     size, counts = (16, 16), (16, 64, 256, 1024)
     true = render(world, size, samples=65536).pixels
@@ -90,7 +90,7 @@ def found() -> dict[str, Source]:
 
 
 def at(source: Source, method: int) -> dict[float, float]:
-    """The largest error, by what the method turns."""
+    """The largest error, for each value of the method's parameter."""
     return {point.value: point.errors.largest for point in source.curves[method].points}
 
 
@@ -107,14 +107,14 @@ def test_no_bound_is_below_an_error(found: dict[str, Source]) -> None:
 def test_the_shell_s_depth_cut_is_the_rest_of_its_series(found: dict[str, Source]) -> None:
     exact = 1.0 / (1.0 - KEPT)
     for depth, error in at(found["shell"], 0).items():
-        # The rest of a sum of `depth` numbers, each rounded once.
+        # The remainder of a sum of `depth` numbers, each rounded once.
         assert error == pytest.approx(exact * KEPT ** (depth + 1), abs=(depth + 8) * U * exact)
     for point in found["shell"].curves[0].points:
         assert point.bound == pytest.approx(point.errors.largest, rel=1e-12, abs=2000 * U * exact)
 
 
 def test_the_drop_lacks_a_power_of_its_reflectance(found: dict[str, Source]) -> None:
-    """The ray at 4/5 of the radius: R = 49/1250; depth d > 0 lacks what is still inside, (1 - R) R^(d - 1)."""
+    """The ray at 4/5 of the radius: R = 49/1250. Depth d > 0 misses the light still inside, (1 - R) R^(d - 1)."""
     r = 49.0 / 1250.0
     errors_at = at(found["drop"], 0)
     assert errors_at.pop(0) == 1.0
@@ -140,7 +140,7 @@ def test_the_slab_s_sum_and_the_pile_s_come_within_what_was_asked(found: dict[st
 
 
 def test_measures_of_a_cut_are_of_the_closed_form() -> None:
-    """What a source tables is what the errors of its images are."""
+    """A source's table of errors holds the errors of its images."""
     problem: Problem = PROBLEMS[-1]
     source = solved(problem, lambda: None)
     point = source.curves[0].points[0]

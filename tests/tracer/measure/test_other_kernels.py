@@ -17,10 +17,12 @@ def test_numbers_of_both_precisions() -> None:
     assert 0.0 < abs(float(to_single(third)) - third) <= SINGLE * third
 
 
-@pytest.mark.slow  # two kernels are compiled
+@pytest.mark.slow  # compiles two kernels
 @pytest.mark.parametrize("kind", ["double", "single"])
 def test_ordinary_scenes_and_one_with_a_gap_of_1e_9(kind: str, worlds: dict[str, tracer.World]) -> None:
-    """Directions of 24 bits move an edge by 1e-7 of the way, so one pixel in thousands; the gap is then not there."""
+    """In single precision a direction moves an edge by 1e-7 of the distance: one pixel in thousands. A gap of 1e-9 is
+    lost.
+    """
     for name, ordinary in (("two-lights", True), ("plates", True), ("panes", False)):
         world = worlds[name]
         depths = (0, 2)
@@ -31,6 +33,6 @@ def test_ordinary_scenes_and_one_with_a_gap_of_1e_9(kind: str, worlds: dict[str,
                 assert off.rmse < 1e-9
             elif ordinary:
                 assert off.rmse < 1e-2
-                assert off.rmse > 1e-13 or depth == 0  # a flat image stays one
+                assert off.rmse > 1e-13 or depth == 0  # a flat image stays flat
             elif depth:
                 assert off.rmse > 0.05

@@ -1,4 +1,4 @@
-"""Work and precision: measures are what they are called, slopes are theory's, bounds hold, what fails is listed."""
+"""Error against work: measures follow their definitions, slopes follow theory, bounds hold, faults are listed."""
 
 import math
 
@@ -31,7 +31,7 @@ def test_measures_by_hand() -> None:
 
 
 def test_flip_of_what_could_not_differ_more() -> None:
-    """Of flat images only the colours count: green against blue is where the measure's scale ends."""
+    """In flat images only colours count: green against blue is the end of FLIP's scale."""
     green, blue = np.zeros((64, 64, 3)), np.zeros((64, 64, 3))
     green[..., 1], blue[..., 2] = 1.0, 1.0
     assert flip(green, blue) == pytest.approx(1.0, abs=0.01)
@@ -44,7 +44,7 @@ TO_XYZ = np.array(
 
 
 def hunt_lab(linear: np.ndarray) -> np.ndarray:
-    """CIE L*a*b* under D65, with a* and b* smaller in the dark (Hunt), as the paper has it."""
+    """CIE L*a*b* under D65, with a* and b* reduced in the dark (Hunt), as in the FLIP paper."""
     ratio = TO_XYZ @ linear / (TO_XYZ @ np.ones(3))
     x, y, z = np.where(ratio > (6 / 29) ** 3, np.cbrt(ratio), ratio * (29 / 6) ** 2 / 3 + 4 / 29)
     light = 116.0 * y - 16.0
@@ -52,7 +52,7 @@ def hunt_lab(linear: np.ndarray) -> np.ndarray:
 
 
 def flat_flip(a: np.ndarray, b: np.ndarray) -> float:
-    """FLIP of two flat images of linear colours, by the paper: no filter changes them, no feature is there."""
+    """FLIP of two flat images of linear colours, by the paper: no filter changes them, and they have no features."""
 
     def apart(p: np.ndarray, q: np.ndarray) -> float:
         off = np.abs(hunt_lab(p) - hunt_lab(q))
@@ -66,7 +66,7 @@ def flat_flip(a: np.ndarray, b: np.ndarray) -> float:
 @pytest.mark.parametrize("colors", [((0.2, 0.2, 0.2), (0.25, 0.2, 0.2)), ((0.9, 0.5, 0.1), (0.1, 0.5, 0.9)),
                                     ((0.01, 0.02, 0.0), (0.03, 0.02, 0.01)), ((1, 1, 1), (0.5, 0.5, 0.5))])  # fmt: skip
 def test_flip_of_flat_images_is_the_paper_s(colors: tuple) -> None:
-    """The library computes in single precision: its cubes and cube roots leave some 1e-5."""
+    """The library computes in single precision: its cubes and cube roots leave about 1e-5."""
     a, b = (np.array(color, float) for color in colors)
     images = [encoded(np.broadcast_to(color, (96, 96, 3))) for color in (a, b)]
     assert flip(images[1], images[0]) == pytest.approx(flat_flip(a, b), rel=1e-3)
@@ -80,11 +80,11 @@ def test_encoding_is_srgb() -> None:
 # --- slopes -----------------------------------------------------------------------------------------------------------
 
 ACROSS, DISTANCE, FOV = 96, 5.0, 40.0
-RISE, HEIGHT = 0.37, 0.11  # of the edge: what is below y = RISE x + HEIGHT shines
+RISE, HEIGHT = 0.37, 0.11  # of the edge: everything below y = RISE x + HEIGHT emits light
 
 
 def edge_scene() -> tracer.World:
-    """A white half plane before a black background, seen head on."""
+    """A white half plane before a black background, seen at right angles."""
     corners = (
         (-40.0, HEIGHT - 40.0 * RISE, 0.0),
         (-40.0, -99.0, 0.0),
@@ -96,7 +96,7 @@ def edge_scene() -> tracer.World:
 
 
 def covered(x0: float, x1: float, y0: float, y1: float) -> float:
-    """The share of a rectangle below the edge: the mean of min(max(y - y0, 0), y1 - y0) along it, exactly."""
+    """The part of a rectangle below the edge: the mean of min(max(y - y0, 0), y1 - y0) along it, exactly."""
     breaks = [x0, x1, *((y - HEIGHT) / RISE for y in (y0, y1))]
     xs = sorted(x for x in breaks if x0 <= x <= x1)
     heights = [min(max(RISE * x + HEIGHT - y0, 0.0), y1 - y0) for x in xs]
@@ -105,7 +105,7 @@ def covered(x0: float, x1: float, y0: float, y1: float) -> float:
 
 
 def edge_image() -> np.ndarray:
-    """In closed form."""
+    """The image of `edge_scene` in closed form."""
     half = DISTANCE * math.tan(math.radians(0.5 * FOV))
     side = 2.0 * half / ACROSS
     image = np.zeros((ACROSS, ACROSS, 3))
@@ -131,7 +131,9 @@ def test_an_edge_in_closed_form_is_approached_as_theory_says(sampler: str, wante
 
 
 def test_no_bound_is_below_the_error(worlds: dict[str, tracer.World]) -> None:
-    """Where the program says how much is missing at most, no pixel lacks more: but for what the reference may lack."""
+    """Where the program states an upper bound of the missing light, no pixel misses more, beyond the reference's own
+    error.
+    """
     (trees, *_) = sources(worlds["plates"], SIZE, TINY)
     assert trees.name == "trees"
     points = [point for curve in trees.curves for point in curve.points]

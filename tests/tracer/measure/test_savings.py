@@ -1,4 +1,4 @@
-"""`raytree plan --measure`: its variants do ask for the work, for the same picture. Nothing here looks at the clock."""
+"""`raytree plan --measure`: each variant does the work that is left out, for the same image. No test of time."""
 
 import dataclasses
 
@@ -36,7 +36,7 @@ def shots(world: tracer.World, variant: Variant) -> tuple[tracer.Image, tracer.I
 
 
 def assert_same(first: np.ndarray, second: np.ndarray) -> None:
-    """To the last bit; where a picture is black, but for what no screen and no sum would ever notice."""
+    """Equal bit for bit; for black images up to what no screen and no sum would notice."""
     seen = first != 0.0
     assert (first[seen] == second[seen]).all()
     assert np.abs(second[~seen]).max(initial=0.0) < UNNOTICED
@@ -52,11 +52,11 @@ def test_what_is_left_out_would_change_no_picture(name: str, worlds: dict[str, t
             continue
         asked += 1
         first, second = shots(world, variant)
-        if left_out == "vertex normals":  # of three equal normals the mean is one more rounding
+        if left_out == "vertex normals":  # the mean of three equal normals is one more rounding
             assert np.median(np.abs(first.pixels - second.pixels)) < 1e-14
         else:
             assert_same(first.pixels, second.pixels)
-    assert asked or name == "underwater"  # which needs all that could be measured without another picture
+    assert asked or name == "underwater"  # it needs all work that could be measured without another image
     assert_same(*(image.pixels for image in shots(world, everything(world.scene, world.left_out))))
 
 
@@ -74,7 +74,7 @@ def test_every_capability_has_both_scenes_or_says_why(worlds: dict[str, tracer.W
 
 
 def test_variants_ask_for_the_rays(worlds: dict[str, tracer.World]) -> None:
-    """In closed form on a floor that fills the image: at depth d a matte tree of two rays a hit has 2^(d+1) - 1."""
+    """Closed forms on a floor that fills the image: at depth d a matte tree of two rays a hit has 2^(d+1) - 1."""
     world = world_of(
         plane((0, -1, 0), (0, 1, 0)), plane((0, 1, 0), (0, -1, 0)), plane((0, 0, -9), (0, 0, 1)),
         plane((-9, 0, 0), (1, 0, 0)), plane((9, 0, 0), (-1, 0, 0)), plane((0, 0, 12), (0, 0, -1)),
@@ -85,7 +85,7 @@ def test_variants_ask_for_the_rays(worlds: dict[str, tracer.World]) -> None:
     assert isinstance(variant, Variant)
     first, second = shots(world, variant)
     assert (first.rays["camera"], first.rays["reflection"]) == (pixels, 0)
-    assert second.rays["reflection"] == 3 * pixels  # a closed room: every ray meets a wall
+    assert second.rays["reflection"] == 3 * pixels  # a closed room: every ray hits a wall
     dark = world_of(plane((0, 0, -5), (0, 0, 1), DARK), image=Image(64, 48))
     _, second = shots(dark, WITH["shadow rays"](dark.scene))  # type: ignore[arg-type]
     assert second.rays["shadow"] == pixels
@@ -137,7 +137,7 @@ def test_claims_of_the_plan_are_the_counts_of_its_scenes(plans: dict[str, tuple[
 
 
 def test_trees_count_what_an_image_leaves_out() -> None:
-    """Two lights, one on either side of a floor that fills the image: trees show both rays, an image one."""
+    """Two lights, one on either side of a floor that fills the image: a tree has both shadow rays, an image one."""
     world = world_of(
         plane((0, 0, -5), (0, 0, 1)),
         lights=(LAMP, dataclasses.replace(LAMP, position=(0.0, 0.0, -9.0))),
@@ -149,7 +149,7 @@ def test_trees_count_what_an_image_leaves_out() -> None:
 
 
 def test_turns_are_medians_of_pairs() -> None:
-    """Run in turn, each first as often as second; one run that was held up moves nothing."""
+    """Variants run in turn, each first as often as second, so one slow run does not change the median."""
     said: list[str] = []
     delays = iter([0.0, 0.0, 50.0] + [0.0] * 100)
 

@@ -1,4 +1,4 @@
-"""Cameras: what an author leaves open is filled in with something to see."""
+"""Cameras: parameters that an author leaves out are chosen so that the scene is in view."""
 
 import numpy as np
 import pytest
@@ -10,8 +10,8 @@ from tracer.scene import Camera
 @pytest.mark.parametrize(
     ("center", "radius", "camera"),
     [
-        ((1e9, 0.0, 0.0), 1e-12, Camera()),  # no double is so near to it
-        ((0.0, 0.0, 0.0), 1.0, Camera(position=(0.0, 0.0, 0.0))),  # it stands where it is to look
+        ((1e9, 0.0, 0.0), 1e-12, Camera()),  # no float64 differs from 1e9 by as little
+        ((0.0, 0.0, 0.0), 1.0, Camera(position=(0.0, 0.0, 0.0))),  # the camera stands at its target
         ((0.0, 0.0, 0.0), 1.0, Camera(position=(0.0, 5.0, 0.0))),  # straight down, along `up`
         ((0.0, 0.0, 0.0), 1e-150, Camera(up=(0.0, 1e-150, 0.0))),
     ],

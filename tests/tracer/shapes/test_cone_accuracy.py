@@ -1,4 +1,4 @@
-"""Cones against 50 digits: in units of the rounding of the numbers a hit is computed from, times its condition."""
+"""Cones against 50 digits, in rounding units of the inputs of a hit times its condition number."""
 
 import math
 
@@ -15,7 +15,7 @@ U = 2.0**-53
 
 
 class Exact:
-    """A cone at 50 digits, by the textbook: |across|^2 = (base_radius + slope height)^2 multiplied out."""
+    """A cone with 50 digits by the textbook's quadratic: |across|^2 = (base_radius + slope height)^2."""
 
     def __init__(self, shape: Cone) -> None:
         mp.dps = 50
@@ -31,7 +31,7 @@ class Exact:
         return along, v - along * self.axis
 
     def roots(self, origin: matrix, direction: matrix) -> list:
-        """Distances t > 0 at which a ray meets the cone between its ends, in order."""
+        """Distances t > 0 at which a ray hits the cone between its ends, in order."""
         height, f = self.split(origin - self.base)
         climb, d = self.split(direction)
         radius, rise = self.radius + self.slope * height, self.slope * climb
@@ -55,8 +55,8 @@ class Exact:
 def test_hits_agree_with_50_digits() -> None:
     """A thousand rays at cones of every kind.
 
-    Unit of error: a rounding of the numbers a hit is computed from, the way to it, the cone and where that stands.
-    Condition: 1/|n.d| along the ray, none off the side, one over the distance from the axis for the normal.
+    Unit of error: a rounding of the inputs of a hit: the ray's length, the cone's size and its position. Condition
+    number: 1/|n.d| for t, 1 for the distance from the side, one over the distance from the axis for the normal.
     """
     random = np.random.default_rng(17)
     worst = np.zeros(4)
@@ -78,7 +78,7 @@ def test_hits_agree_with_50_digits() -> None:
             continue
         n, size, _ = exact.normal(o + expected[0] * d)
         facing = -(n.T * d)[0]
-        if facing < 0:  # from inside
+        if facing < 0:  # hit from inside
             n, facing = -n, -facing
         if facing < 1e-3:
             continue
@@ -95,9 +95,9 @@ def test_hits_agree_with_50_digits() -> None:
 
 
 def test_way_through_agrees_with_50_digits() -> None:
-    """In and out of cones of index 1: the sum of both ways is the farther root, if that lies between the ends.
+    """In and out of cones of index 1: the sum of both distances is the farther root, if it lies between the ends.
 
-    Each end has the error of a hit, the first one moves the start of the second way.
+    Each end has the error of a hit; the first one also moves the start of the second segment.
     """
     random = np.random.default_rng(23)
     through = 0

@@ -1,4 +1,4 @@
-"""Cones at their limits: nothing met twice by rounding, tips, extreme proportions, tight boxes."""
+"""Limits of cones: no second hit by rounding, tips, extreme proportions, tight bounding boxes."""
 
 import math
 
@@ -17,9 +17,9 @@ U = 2.0**-53
 
 
 def test_mirrored_outside_is_never_met_again() -> None:
-    """Each of 10^5 rays that a cone's outside reflects is gone: as many rays at depth 6 as hits, none doubled.
+    """Of 10^5 rays that the outside of a cone reflects none hits it again: at depth 6 there is one ray a hit.
 
-    Seen from the side, so that nothing is hit through the open ends.
+    Seen from the side, so that no ray enters through the open ends.
     """
     for shape in (
         Cone((0.0, 0.0, 0.0), 1.0, (0.0, 3.0, 0.0), 1.0),
@@ -52,7 +52,10 @@ def test_mirrored_outside_is_never_met_again() -> None:
 def test_grazing_ray_that_leaves_outwards_is_gone(
     shape: Cone, start: tuple, normal: tuple, along: tuple, chord: float, inward: float
 ) -> None:
-    """Rounding may turn its direction inwards: the side it leaves to is known. Inwards it has its chord, -2 B / A."""
+    """A grazing ray that leaves outwards does not hit again, even if rounding turns its direction inwards.
+
+    Inwards its chord has length -2 B / A.
+    """
     world = world_of(Object(shape, MIRROR)).arrays
     d = tuple((np.array(along) - inward * np.array(normal)).tolist())
     assert formulas.next_hit(world, world.surfaces[0], make_ray(start, d, 0, 1.0, 2.0)) == math.inf
@@ -89,7 +92,7 @@ def test_called_from_python_the_formulas_give_the_bits_of_the_compiled_ones() ->
 
 @pytest.mark.parametrize("lean", [(0, 0, 1), (1, 2, 2), (-0.3, 0.7, 0.1)])
 def test_tip_is_hit_in_numbers(lean: tuple) -> None:
-    """Rays at the tip itself, from within and without, along the axis and not: all numbers, normals of length 1."""
+    """Rays at the tip, from inside and outside, along the axis or not: all numbers finite, normals of length 1."""
     axis = np.array(lean) / np.linalg.norm(lean)
     tip = np.array((0.25, -0.5, 3.0))
     random = np.random.default_rng(12)
@@ -106,7 +109,8 @@ def test_tip_is_hit_in_numbers(lean: tuple) -> None:
             assert (np.abs(np.linalg.norm(tree.nodes["normal"][hit], axis=1) - 1.0) <= 4 * U).all()
 
 
-@pytest.mark.parametrize("size", [1e-130, 1e-60, 1.0, 1e60, 1e140])  # the square of its rounding is a number too
+# within the range in which squares of the rounding are representable
+@pytest.mark.parametrize("size", [1e-130, 1e-60, 1.0, 1e60, 1e140])
 @pytest.mark.parametrize("flatness", [1e-12, 1e-3, 1.0, 1e3, 1e9])
 def test_no_proportion_gives_anything_but_numbers(size: float, flatness: float) -> None:
     random = np.random.default_rng(9)
@@ -126,7 +130,7 @@ def test_no_proportion_gives_anything_but_numbers(size: float, flatness: float) 
 
 
 def test_bounds_are_tight() -> None:
-    """The rims of a leaning frustum touch the box on every side; along the axes it has no rounding at all."""
+    """The rims of a tilted frustum touch the bounding box on every side. Along the axes the box is exact."""
     np.testing.assert_array_equal(Cone((1.0, 2.0, 3.0), 2.0, (1.0, 2.0, 7.0), 0.0).bounds(), [[(-1, 0, 3), (3, 4, 7)]])
     random = np.random.default_rng(3)
     phi = np.linspace(0, 2 * math.pi, 4001)[:, None]

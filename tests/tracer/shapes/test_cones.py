@@ -1,4 +1,4 @@
-"""Cones, frusta and cylinders: closed forms with rational answers, tips, rims, and no surface met twice by rounding."""
+"""Cones, frusta and cylinders: closed forms with rational results, tips, rims, and no second hit by rounding."""
 
 import math
 from dataclasses import replace
@@ -23,7 +23,7 @@ def first_hit(item: Object, origin: tuple, direction: tuple) -> np.void:
 
 
 def test_chord_of_a_cylinder() -> None:
-    """In at (1, 0, 0) along (-2, 1, 2)/3: out after 12/5, turned by pi - 2 atan(1/2), 8/5 higher."""
+    """In at (1, 0, 0) along (-2, 1, 2)/3: out after 12/5, rotated by pi - 2 atan(1/2), 8/5 higher."""
     tree = tracer.trace(world_of(PIPE), ray=((3, -1, -2), (-2, 1, 2)), depth=1)
     assert kinds(tree) == ["camera", "refraction"]
     into, out = tree.nodes[0], tree.nodes[1]
@@ -41,11 +41,11 @@ def test_chord_of_a_cylinder() -> None:
     [
         ((5, 0, 2), (-1, 0, 0), 3.5, (0.8, 0, 0.6)),  # half way up its radius is 3/2
         ((0, 0, 2), (1, 0, 0), 1.5, (-0.8, 0, -0.6)),  # the same from inside
-        ((1, 0, 0), (-3, 0, 4), 10 / 3, (0.8, 0, -0.6)),  # along the other side: one root
-        ((0, 0, 10), (0, 0, -1), 6.0, (0, 0, 1)),  # down its axis on the tip
+        ((1, 0, 0), (-3, 0, 4), 10 / 3, (0.8, 0, -0.6)),  # parallel to the opposite side: one root
+        ((0, 0, 10), (0, 0, -1), 6.0, (0, 0, 1)),  # down its axis onto the tip
         ((0, 0, 1), (0, 0, 1), 3.0, (0, 0, -1)),  # up its axis into the tip
         ((0, 0, -5), (3, 0, 6), 0.9 * math.sqrt(45), (-0.8, 0, -0.6)),  # in through its open base
-        ((2, 0, 10), (0, 0, -1), 26 / 3, (0.8, 0, 0.6)),  # steeper than its side; the other half is cut off
+        ((2, 0, 10), (0, 0, -1), 26 / 3, (0.8, 0, 0.6)),  # steeper than its side; the other nappe is cut off
     ],
 )
 def test_cone_of_sides_3_4_5(origin: tuple, direction: tuple, t: float, normal: tuple) -> None:
@@ -57,7 +57,7 @@ def test_cone_of_sides_3_4_5(origin: tuple, direction: tuple, t: float, normal: 
 @pytest.mark.parametrize(
     ("origin", "direction"),
     [
-        ((0, 0, 5), (1, 0, 0)),  # beyond the tip, where the double cone's other half would be
+        ((0, 0, 5), (1, 0, 0)),  # beyond the tip, where the other nappe would be
         ((5, 0, -0.001), (-1, 0, 0)),  # below the base
         ((4, 0, 0), (-3, 0, 4)),  # parallel to the side, outside
         ((0, 0, 3), (0, 0, -1)),  # out through the base
@@ -70,27 +70,27 @@ def test_what_misses_the_cone(origin: tuple, direction: tuple) -> None:
 
 @pytest.mark.parametrize("flip", [False, True])
 def test_frustum_ends_where_its_ends_are(flip: bool) -> None:
-    """Radius 2 at y = 0, 1 at y = 2, named from either end: hit at both rims, missed just beyond."""
+    """Radius 2 at y = 0, 1 at y = 2, given from either end: hit at both rims, missed just beyond."""
     low, high = ((0, 0, 0), 2), ((0, 2, 0), 1)
     frustum = cone(*high, *low, OPEN) if flip else cone(*low, *high, OPEN)
     for y, x in ((0.0, 2.0), (1.0, 1.5), (2.0, 1.0)):
         hit = first_hit(frustum, (8, y, 0), (-1, 0, 0))
         assert hit["t"] == pytest.approx(8 - x, rel=4 * U, abs=0.0)
         np.testing.assert_allclose(hit["normal"], np.array((2, 1, 0)) / math.sqrt(5), rtol=0.0, atol=4 * U)
-    for y in (-4 * U, 2 + 4 * U):  # a digit of the height
+    for y in (-4 * U, 2 + 4 * U):  # a last digit of the height
         assert first_hit(frustum, (8, y, 0), (-1, 0, 0))["end"] == BACKGROUND
 
 
 def test_nearer_root_off_the_ends_leaves_the_farther_one() -> None:
     ring = cone((0, 0, 0), 1, (0, 0, 1), 1, OPEN)
-    hit = first_hit(ring, (-2, 0, 2), (2, 0, -1))  # over its rim, against the far side from within
+    hit = first_hit(ring, (-2, 0, 2), (2, 0, -1))  # over its rim, against the far side from inside
     np.testing.assert_allclose(hit["point"], (1.0, 0.0, 0.5), rtol=0.0, atol=4 * U)
     np.testing.assert_allclose(hit["normal"], (-1.0, 0.0, 0.0), rtol=0.0, atol=4 * U)
 
 
 @pytest.mark.parametrize("direction", [(0, 0, 1), (1, 2, 2), (-3, 1, 0.5)])
 def test_ray_along_the_axis_of_a_cylinder_meets_nothing(direction: tuple) -> None:
-    """Its quadratic has no term left but rounding; also beside the axis, and on the side itself."""
+    """All terms of the quadratic are rounding errors: on the axis, beside it, and on the side itself."""
     d = np.array(direction) / np.linalg.norm(direction)
     aside = np.cross(d, (0.3, -0.8, 0.1))
     aside /= np.linalg.norm(aside)
@@ -102,7 +102,7 @@ def test_ray_along_the_axis_of_a_cylinder_meets_nothing(direction: tuple) -> Non
 
 
 def test_hair_thin_fibre() -> None:
-    """Radius and slope 2^-30: A is 2^-60, and still the side is met at z = 3/2, 7/2 and so on, from half way out."""
+    """Radius and slope 2^-30: A is 2^-60. The side is still hit at z = 3/2, 7/2 and so on, starting half way out."""
     hair = cone((0, 0, 0), 2.0**-30, (0, 0, 1000), 2.0**-30, MIRROR)
     tree = tracer.trace(world_of(hair), ray=((-(2.0**-31), 0, 0), (2.0**-30, 0, 1)), depth=100)
     expected = 1.5 + 2.0 * np.arange(101)
@@ -111,14 +111,14 @@ def test_hair_thin_fibre() -> None:
 
 
 def test_mirrored_pipe_is_a_fibre() -> None:
-    """Each reflection turns the hit by the same angle and lifts it by the same height, a hundred times over.
+    """Each reflection rotates the hit by the same angle and lifts it by the same height, a hundred times.
 
-    A rounding of the direction is turned into the angle's growth, which adds up once more: k^2.
+    A rounding of the direction changes the step of the angle, and steps add up: k^2.
     """
     pipe = replace(PIPE, material=MIRROR)
     tree = tracer.trace(world_of(pipe), ray=((1, 0, -90), (-2, 1, 2)), depth=100)
     assert len(tree) == 101
-    # It starts on the side itself, but as a ray from the eye: rounding decides whether it sees that side at once.
+    # The camera ray starts on the side: rounding decides whether it hits the side at distance 0.
     first = 1 if abs(tree.nodes["t"][0]) < 1e-6 else 0
     k = np.arange(1, 101 - first + 1)
     points = tree.nodes["point"][first:]
@@ -126,7 +126,7 @@ def test_mirrored_pipe_is_a_fibre() -> None:
     assert (np.abs(points[:, 0] - np.cos(angle)) <= 16 * U * k * k).all()
     assert (np.abs(points[:, 1] - np.sin(angle)) <= 16 * U * k * k).all()
     assert (np.abs(points[:, 2] - (1.6 * k - 90.0)) <= 16 * U * (90 + k * k)).all()
-    # Every hit is put onto the side: that does not add up.
+    # Every hit is projected onto the side, so that its error does not accumulate.
     assert (np.abs(np.hypot(points[:, 0], points[:, 1]) - 1.0) <= 4 * U).all()
 
 
@@ -135,7 +135,7 @@ def test_glass_cone_bounds_its_medium_on_the_side_of_its_axis() -> None:
     world = world_of(cone((0, 0, 0), 1, (0, 0, 5), 1, glass))
     across = tracer.trace(world, ray=((3, 0, 2), (-1, 0, 0)), depth=3)
     assert across.nodes["n1"].tolist() == [1.0, 1.5, 1.0]
-    # It is open: that a ray begins inside, only the side can tell when it is left.
+    # An open cone: a ray that starts inside is known to be so only when it leaves.
     out = tracer.trace(world, ray=((0, 0, 2), (1, 0, 0)), depth=3)
     assert out.nodes["n1"].tolist() == [1.5, 1.0]
 

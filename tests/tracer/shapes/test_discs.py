@@ -1,4 +1,4 @@
-"""Discs: where they end, how they lie, and that they start and stop rays as polygons do."""
+"""Discs: their rims, their orientation, and rays that start on them or stop at them, as for polygons."""
 
 import math
 
@@ -19,7 +19,9 @@ def hits(world: tracer.World, origin: tuple, direction: tuple) -> bool:
 
 
 def test_disc_ends_at_its_radius_in_every_direction() -> None:
-    """Points of its plane with rational distances from the centre: on the rim it is hit, a digit beyond it is not."""
+    """Points of the plane with rational distances from the centre: on the rim it is hit, one last digit beyond it is
+    not.
+    """
     world = world_of(disc((0, 0, 0), (0, 0, 3), 5, OPEN))
     beyond = 1.0 + 4 * U
     for x, y in ((5, 0), (0, -5), (3, 4), (-4, 3), (1.4, 4.8), (-3, -4)):
@@ -38,7 +40,7 @@ def test_tilted_disc_from_far_away() -> None:
     for k in range(200):
         angle = random.uniform(0, 2 * math.pi)
         origin = center + 100.0 * n + 60.0 * random.normal(size=3)
-        # Rounding: of the way there, along the ray; its slope carries that into the disc.
+        # Rounding of the distance along the ray, which the slope turns into a distance within the disc.
         edge = 64 * U * 300 * np.linalg.norm(origin - center) / abs((origin - center) @ n)
         for r, inside in ((2 - edge, True), (2 + edge, False)):
             target = center + r * (math.cos(angle) * u + math.sin(angle) * v)
@@ -47,7 +49,7 @@ def test_tilted_disc_from_far_away() -> None:
 
 @pytest.mark.parametrize("place", [0.0, 2.0**30, -(2.0**45)])
 def test_rim_is_as_sharp_wherever_the_disc_stands(place: float) -> None:
-    """3 aside, 4 down: a millionth of a millionth within the radius it is hit, as much outside it is not."""
+    """3 aside, 4 down: 10^-12 within the radius it is hit, 10^-12 outside it is missed, wherever the disc stands."""
     world = world_of(disc((place, place, place), (0, 0, 1), 3, OPEN))
     for share, hit in ((1.0 - 2.0**-40, True), (1.0 + 2.0**-40, False)):
         for x, y in ((3, 0), (0, 3), (-1.8, 2.4)):
@@ -62,7 +64,7 @@ def test_disc_normal_is_the_side_of_empty_space() -> None:
 
 
 def test_reflected_ray_does_not_meet_the_disc_again() -> None:
-    """However tilted, from afar, near its rim: one hit, then the background."""
+    """At any tilt, from afar, near its rim: one hit, then the background."""
     random = np.random.default_rng(7)
     for _ in range(300):
         center, normal = 10.0 * random.normal(size=3), random.normal(size=3)
@@ -96,7 +98,7 @@ def test_shadow_of_a_disc_has_its_radius() -> None:
 
 
 def test_checker_lies_along_the_disc() -> None:
-    """As a plane's: squares along its own two axes, none of the height's."""
+    """As on a plane: squares along two axes in the disc, none along the height."""
     tiles = Material("tiles", ambient=1.0, checker=Checker((0.0, 0.0, 0.0), 1.0))
     for y in (0.5, 1.5):
         world = world_of(disc((0, y, 0), (0, 1, 0), 9, tiles))
@@ -106,7 +108,7 @@ def test_checker_lies_along_the_disc() -> None:
 
 
 def test_disc_behind_a_wall_of_the_same_plane_does_not_stop_what_leaves_the_wall() -> None:
-    """A polygon's reflected ray starts on the disc's plane as well: it leaves both."""
+    """A ray reflected by a polygon starts in the plane of the disc behind it, too: it leaves both."""
     wall = [(-2, -2, 1), (2, -2, 1), (2, 2, 1), (-2, 2, 1)]
     turn = np.array([[0.8, 0.0, 0.6], [0.36, 0.8, -0.48], [-0.48, 0.6, 0.64]])
     world = world_of(

@@ -1,4 +1,4 @@
-"""Edges and corners: rays that pass exactly through them, and rays that start there."""
+"""Edges and corners: rays exactly through them, and rays that start there."""
 
 from dataclasses import replace
 
@@ -17,7 +17,7 @@ DIAMOND = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0))
 
 
 def test_ray_level_with_corners_of_a_polygon_is_inside_or_not() -> None:
-    """Two edges meet at the ray's own height: its line crosses the outline there once, or twice, or not at all."""
+    """Two edges meet at the height of the ray: its line crosses the outline there once, twice or not at all."""
     for corners, inside, outside in (
         (DIAMOND, (-0.75, 0.25, 0.5), (-2.0, 1.5)),
         (LETTER_U, (0.5, 3.5), (-1.0, 5.0)),
@@ -32,7 +32,7 @@ def test_ray_level_with_corners_of_a_polygon_is_inside_or_not() -> None:
 
 
 def test_box_has_its_edges_and_corners() -> None:
-    """A ray that touches it in one point enters and leaves at once, and hits."""
+    """A ray that touches a box in one point enters and leaves there, and hits."""
     world = world_of(box((-1, -1, -1), (1, 1, 1), OPEN))
     for point, direction in (
         ((1, 1, 0.25), (1, -1, 0)),
@@ -45,7 +45,7 @@ def test_box_has_its_edges_and_corners() -> None:
 
 
 def test_eye_in_the_face_of_a_box_sees_through_to_the_other_side() -> None:
-    """Every t is > 0: from the face itself it goes inwards and out at the other end, or is gone."""
+    """Every t is > 0: from the face itself the ray goes inwards and hits the opposite face, or leaves."""
     world = world_of(box((-1, -1, -1), (1, 1, 1), OPEN))
     for eye, direction, t in (
         ((0, 0.5, 1), (0, 0, -1), 2.0),
@@ -57,7 +57,9 @@ def test_eye_in_the_face_of_a_box_sees_through_to_the_other_side() -> None:
 
 
 def test_reflected_beyond_the_edge_of_a_cube_it_is_gone() -> None:
-    """It starts on the top's edge and goes out over the side: it crosses the side's plane there, but not the side."""
+    """A ray reflected by the top near its edge leaves over the side: it crosses the plane of the side, but not the
+    side.
+    """
     top, side = ((-2, 0, -5), (-2, 0, 5), (0, 0, 5), (0, 0, -5)), ((0, 0, -5), (0, 0, 5), (0, -2, 5), (0, -2, -5))
     random = np.random.default_rng(6)
     reflected = 0
@@ -83,7 +85,9 @@ def test_reflected_beyond_the_edge_of_a_cube_it_is_gone() -> None:
 
 @pytest.mark.parametrize("height", [0.0, 0.5, -0.3])
 def test_reflected_by_a_ball_where_a_plane_cuts_it(height: float) -> None:
-    """It starts some roundings above or below the plane, and meets it if it goes there: at no more than these."""
+    """The hit lies some rounding errors above or below the plane. Its reflected ray hits the plane there, if it goes
+    there.
+    """
     world = world_of(ball((0, height, 0), 1.0, MIRROR), plane((0, 0, 0), (0, 1, 0), DARK))
     random = np.random.default_rng(4)
     met = missed = 0
@@ -105,7 +109,7 @@ def test_reflected_by_a_ball_where_a_plane_cuts_it(height: float) -> None:
 @pytest.mark.parametrize("model", ["whitted", "fresnel"])
 @pytest.mark.parametrize("shape", ["ball", "cone", "cylinder"])
 def test_what_stands_in_one_place_twice_is_there_once(shape: str, model: str) -> None:
-    """Of equal surfaces one cannot be left and the other missed: the trees are the same to the bit, from any side."""
+    """A surface that stands twice at one place acts as one: trees are equal bit for bit from any side."""
     item = {
         "ball": ball((0.3, 0.1, 0.2), 1.1, GLASS),
         "cone": cone((0.1, -1, 0.2), 1.2, (0.3, 1.1, 0.1), 0.4, GLASS),

@@ -1,4 +1,4 @@
-"""What every shape owes, tried on its `example()`. A new shape is tested here without a line being added."""
+"""Rules for every shape, tested on its `example()`. A new shape is covered here without a change to this file."""
 
 import math
 from dataclasses import fields
@@ -31,7 +31,7 @@ def shape(request: pytest.FixtureRequest) -> Shape:
 
 
 def aimed(seed: int = 1) -> list[tuple[tuple[float, ...], tuple[float, ...]]]:
-    """Rays from 4 away, each at a point about the origin where the examples stand."""
+    """Rays from a distance of 4, each towards a point near the origin, where the examples stand."""
     random = np.random.default_rng(seed)
     found = []
     for _ in range(RAYS):
@@ -69,7 +69,7 @@ def as_toml(value: object) -> str:
 
 
 def test_hits_are_exact(shape: Shape) -> None:
-    """Point, distance and normal against the judge's, in units of rounding times the sizes and the slant."""
+    """Point, distance and normal against the judge's, in rounding units times the sizes and the slant."""
     count = 0
     for tree in first_hits(shape):
         row = tree.nodes[0]
@@ -87,7 +87,7 @@ def test_hits_are_exact(shape: Shape) -> None:
 
 
 def test_triangles_of_the_3d_view_are_where_rays_hit_it(shape: Shape) -> None:
-    """The same rays, traced against the triangles as a mesh, meet them where they meet the shape, but near its rim."""
+    """The triangles of the 3D view, traced as a mesh, are hit where the shape is hit, except near its rim."""
     corners, normals = shape.triangles(np.zeros(3), 2.0)
     assert corners.shape == normals.shape and corners.shape[1:] == (3, 3)
     own = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -103,7 +103,7 @@ def test_triangles_of_the_3d_view_are_where_rays_hit_it(shape: Shape) -> None:
         else:
             agreed += math.dist(row["point"], near["point"]) < 0.05 and row["normal"] @ near["normal"] > 0.95
     assert agreed > 0.97 * RAYS and hits > RAYS / 20
-    # Their order of corners, and their normals, point outwards.
+    # The order of their corners and their normals point outwards.
     assert ((own[:, None] * normals).sum(axis=2) > 0.0).all()
     if shape.is_closed() and shape.bounds() is not None:
         assert ((corners.mean(axis=1) * own).sum(axis=1) > 0.0).mean() > 0.9

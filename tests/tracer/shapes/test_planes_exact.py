@@ -1,4 +1,4 @@
-"""Flat faces against fractions: no digit is lost by how far off they stand, how they lie, or how a ray grazes them."""
+"""Flat surfaces against fractions: full accuracy at any distance, orientation and grazing angle."""
 
 import math
 from fractions import Fraction
@@ -26,13 +26,13 @@ def fractions(v: np.ndarray | tuple) -> np.ndarray:
 
 
 def corners(random: np.random.Generator, size: float) -> np.ndarray:
-    """Of a triangle about (0, 0, 0), all `size` away from there."""
+    """Corners of a triangle about (0, 0, 0), all at distance `size` from there."""
     turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
     return size * np.array([(1.0, 0.0, 0.0), (-0.6, 0.8, 0.0), (-0.6, -0.8, 0.0)]) @ turn.T
 
 
 def face(kind: str, random: np.random.Generator, size: float) -> tuple[Shape, np.ndarray, np.ndarray]:
-    """(shape, a point of it, its normal of any length), the last two exactly."""
+    """(shape, a point of it, its normal of any length), the last two exact."""
     a, b, c = (vector(corner) for corner in corners(random, size).tolist())
     at, n = fractions(a), np.cross(fractions(b) - fractions(a), fractions(c) - fractions(a))
     if kind == "triangle":
@@ -46,9 +46,9 @@ def face(kind: str, random: np.random.Generator, size: float) -> tuple[Shape, np
 @pytest.mark.parametrize("kind", ["plane", "polygon", "triangle", "disc"])
 @pytest.mark.parametrize("size", [1.0, 1e3, 1e6, 1e9])
 def test_distance_to_a_face_is_right_to_the_last_digit(kind: str, size: float) -> None:
-    """t = n.(a - o) / n.d. The hit lies in the plane, but for roundings of it and of how far the plane's point is.
+    """t = n.(a - o) / n.d. The hit lies in the plane up to its own rounding and that of the plane's point.
 
-    A point farther than four times the way to the hit costs no more than one there.
+    A plane's point farther than four times the distance of the hit costs no more than one there.
     """
     random = np.random.default_rng(3)
     for _ in range(25):
@@ -70,7 +70,7 @@ def test_distance_to_a_face_is_right_to_the_last_digit(kind: str, size: float) -
 
 @pytest.mark.parametrize("kind", ["plane", "polygon", "triangle", "disc", "ball", "cone"])
 def test_asked_whether_it_is_met_a_shape_says_what_it_says_when_asked_where(kind: str) -> None:
-    """A light may be as near as the surface but for a rounding, and the ray may pass at the rim."""
+    """The any-hit test of a shape agrees with its closest hit, for a light one rounding away and rays at the rim."""
     random = np.random.default_rng(5)
     met = 0
     for k in range(150):

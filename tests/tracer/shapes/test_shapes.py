@@ -1,4 +1,4 @@
-"""Every shape against what geometry says of it."""
+"""Every shape against results of geometry."""
 
 import math
 
@@ -42,12 +42,12 @@ def test_polygon_normal_is_on_the_side_from_which_its_corners_run_counter_clockw
     for corners, sign in ((LETTER_U, 1.0), (LETTER_U[::-1], -1.0)):
         world = world_of(Object(Polygon(corners), Material("glass", transmit=1.0, ior=1.5), "face"))
         tree = tracer.trace(world, ray=((0.5, 0.5, 5), (0, 0, -1)), depth=1)
-        # Transparent: what it bounds lies behind its normal, so from the front the ray enters.
+        # The solid lies behind the normal: a ray from the front enters it.
         assert (tree.nodes["n1"][0], tree.nodes["n2"][0]) == ((1.0, 1.5) if sign > 0 else (1.5, 1.0))
 
 
 def test_polygons_that_share_edges_leave_no_gap() -> None:
-    """A tilted grid of quadrangles: rays aimed at corners and along edges all hit one of them."""
+    """A tilted grid of quadrangles: rays at corners and along edges all hit one of them."""
     turn = np.array([[0.8, 0.0, 0.6], [0.36, 0.8, -0.48], [-0.48, 0.6, 0.64]])
     objects = []
     for i in range(6):
@@ -85,7 +85,7 @@ def uv_sphere(lines: int, segments: int, center: tuple = (0, 0, 0), radius: floa
 
 @pytest.mark.parametrize("center", [(0, 0, 0), (148376, 1234, -223423)])
 def test_closed_mesh_has_no_leak(center: tuple) -> None:
-    """From inside a ball of triangles, rays at its corners, its edges and anywhere: all meet it (Embree's own test)."""
+    """From inside a ball of triangles, rays at corners, at edges and anywhere all hit it. Source: Embree's own test."""
     mesh = uv_sphere(16, 32, center)
     assert mesh.is_closed()
     world = world_of(Object(mesh, OPEN, "mesh"))
@@ -100,7 +100,7 @@ def test_closed_mesh_has_no_leak(center: tuple) -> None:
 
 
 def test_glass_mesh_is_entered_and_left_at_its_edges_too() -> None:
-    """Rays through edges and corners of a glass mesh: inside and outside alternate, so that none is lost in it."""
+    """Rays through edges and corners of a glass mesh: inside and outside alternate."""
     mesh = uv_sphere(8, 12, radius=1.0)
     world = world_of(Object(mesh, Material("glass", transmit=1.0, ior=1.3), "mesh"), background=(1, 1, 1))
     random = np.random.default_rng(11)
@@ -121,9 +121,9 @@ def test_glass_mesh_is_entered_and_left_at_its_edges_too() -> None:
 @pytest.mark.parametrize("first", [0, 2])
 @pytest.mark.parametrize("pieces", [1, 2])
 def test_corner_of_a_room_keeps_rays_in(pieces: int, first: int) -> None:
-    """Mirrors, each one polygon or two triangles, at right angles: rays into their edges and corner come back.
+    """Mirrors at right angles, each one polygon or two triangles: rays into their edges and corner come back.
 
-    A face's first corner is where its plane is known: here, or a thousand kilometres off.
+    The plane of a face is given by its first corner: here, or a thousand kilometres away.
     """
     mirror = Material("mirror", reflect=1.0)
     s = 1e6
@@ -151,12 +151,12 @@ def test_corner_of_a_room_keeps_rays_in(pieces: int, first: int) -> None:
             tree = tracer.trace(world, ray=(tuple(turn @ origin), tuple(turn @ d)), depth=10)
             out = turn.T @ tree.nodes["direction"][-1]
             assert tree.nodes["end"][-1] == BACKGROUND
-            # It leaves into the room: not one component points at the walls' back.
+            # It leaves into the room: no component points behind the walls.
             assert (out >= -1e-12).all(), (k, out, tree.nodes["point"])
 
 
 def test_convex_edge_does_not_stop_a_ray_that_leaves_it() -> None:
-    """Two faces of a roof: a ray reflected at its ridge goes up, and does not meet the other face first."""
+    """A ray reflected at the ridge of a roof goes up, and does not hit the other face first."""
     mirror = Material("mirror", reflect=1.0)
     faces = [((-1, 0, -5), (-1, 0, 5), (0, 1, 5), (0, 1, -5)), ((0, 1, -5), (0, 1, 5), (1, 0, 5), (1, 0, -5))]
     world = world_of(*(polygon(face, mirror) for face in faces))
@@ -237,7 +237,9 @@ def test_interpolated_normal_never_sends_a_reflected_ray_through_the_face() -> N
 
 
 def test_hit_lies_in_the_plane_however_far_the_ray_has_come() -> None:
-    """The rounding of t, here of 2^40, moves a hit along the ray; across the plane only what its own size rounds."""
+    """The rounding of t, here of 2^40, moves a hit along the ray only. Its distance from the plane has the hit's own
+    rounding.
+    """
     n = np.array([2.0, 3.0, 6.0]) / 7.0
     slope = Object(Plane((0.25, 0.5, 1.0), (2.0, 3.0, 6.0)), MATTE, "slope")
     for k in range(20):
@@ -252,20 +254,20 @@ def test_hit_lies_in_the_plane_however_far_the_ray_has_come() -> None:
 
 @pytest.mark.parametrize("inward", [1e-17, 2.0**-53, 1e-14])
 def test_ray_that_leaves_a_ball_outwards_does_not_meet_it_again(inward: float) -> None:
-    """Where it only just grazes, rounding may turn its direction inward: the side it leaves to is known."""
+    """A grazing ray that leaves outwards does not hit the ball again, even if rounding turns its direction inwards."""
     world = world_of(ball()).arrays
     surface = world.surfaces[0]
     out = make_ray((1.0, 0.0, 0.0), (-inward, 1.0, -0.5 * inward), 0, 1.0, 1.0)
     assert sphere.next_hit(world, surface, out) == math.inf
     within = make_ray((1.0, 0.0, 0.0), (-inward, 1.0, -0.5 * inward), 0, -1.0, 1.0)
     assert sphere.next_hit(world, surface, within) == 2.0 * inward
-    # And one that goes in does leave, at once if its direction is turned outward.
+    # A ray that goes inwards leaves the ball, at distance 0 if its direction is turned outwards.
     turned = make_ray((1.0, 0.0, 0.0), (inward, 1.0, 0.5 * inward), 0, -1.0, 1.0)
     assert sphere.next_hit(world, surface, turned) == 5e-324
 
 
 def test_box_on_a_plane_meets_a_ray_where_the_plane_does() -> None:
-    """Faces that coincide are one interface, whatever shapes they belong to: no speckle of rounding."""
+    """Coinciding faces of different shapes are one interface, without speckles from rounding."""
     glass = Material("glass", transmit=1.0, ior=1.5)
     floor = Object(Plane((0.0, -0.6, 0.0), (0.0, 1.0, 0.0)), MATTE, "floor")
     world = world_of(floor, box((-2, -0.6, -2), (2, 1, 2), glass, "block"))

@@ -1,7 +1,7 @@
-"""Spheres against 50 digits: far, huge, tiny and grazing ones, asked through the tracer as a user would.
+"""Spheres against 50 digits: far, huge, tiny and grazed ones, through the public interface.
 
-u is the unit of rounding, 2^-53; an ulp is up to 2 u. A tolerance is in ulps of the exact answer for the ray as it was
-recorded: nothing is forgiven for how the ray was given.
+u is the rounding unit, 2^-53; an ulp is up to 2 u. A tolerance is in ulps of the exact result for the recorded ray:
+nothing is added for how the ray was specified.
 """
 
 import math
@@ -64,16 +64,16 @@ def test_far_ball_is_hit_where_it_is(distance: float) -> None:
 
 @pytest.mark.parametrize("k", [4, 10, 20, 30, 40, 50, 52])
 def test_start_just_above_the_surface(k: int) -> None:
-    """2^-k above the pole: the near root cancels in every form but the exact one."""
+    """2^-k above the pole: only the exact form of the near root does not cancel."""
     for direction in ((0.6, 0.0, -0.8), (0.28, 0.0, -0.96), (0.1, 0.7, -0.3), (0.9, -0.4, -0.5)):
         found, exact = hit((0.0, 0.0, 1.0 + 2.0**-k), direction, (0.0, 0.0, 0.0), 1.0)
         assert ulps(found, exact) <= 1.0
 
 
 def test_start_next_to_the_surface_anywhere() -> None:
-    """A rounding or four outside or inside: on which side it is, and so which root is the first, takes all digits.
+    """One or four rounding errors outside or inside: the side, and so the choice of the root, takes all digits.
 
-    t is (|f|^2 - r^2) / 2 r cos, a difference of which pairs keep 104 binary digits of r^2.
+    t is (|f|^2 - r^2) / 2 r cos, a difference of which double-double keeps 104 bits of r^2.
     """
     random = np.random.default_rng(5)
     missed = 0
@@ -103,7 +103,7 @@ def test_huge_ground_sphere(radius: float) -> None:
 
 @pytest.mark.parametrize("radius", [1e3, 1e6, 1e9, 1e12])
 def test_point_on_a_huge_sphere_keeps_the_digits_of_its_neighbourhood(radius: float) -> None:
-    """Its centre is so far that a point computed from there would be off by u times the radius."""
+    """The centre is so far away that a point computed from it would be off by u times the radius."""
     tree = tracer.trace(
         world_of(ball((0, 0, -radius), radius, MATTE)), ray=((0.3, 0.2, 1.0), (0.6, 0.1, -0.8)), depth=0
     )
@@ -126,7 +126,7 @@ def test_tiny_ball_is_seen_and_crossed(radius: float) -> None:
 
 @pytest.mark.parametrize("radius", [1e-9, 1e-12, 1e-15])
 def test_normal_of_a_tiny_ball_far_off(radius: float) -> None:
-    """Where the distance has no digits left for the ball, its normal still has them: from the ray's closest point."""
+    """The distance has no digits left for the ball, but its normal does: it is computed at the ray's closest point."""
     aside = 0.6 * radius
     tree = tracer.trace(world_of(ball((0, 0, 0), radius, MATTE)), ray=((aside, 0, 3), (0, 0, -1)), depth=0)
     assert tree.nodes["normal"][0].tolist() == pytest.approx([0.6, 0.0, 0.8], abs=4 * U)
@@ -153,7 +153,7 @@ def test_length_of_the_direction_is_no_matter(size: float) -> None:
 
 
 def test_random_spheres_of_all_sizes_and_places() -> None:
-    """Sizes and distances 10^-8 to 10^8, aimed from the middle to beyond the rim: the nearest float but one."""
+    """Sizes and distances 10^-8 to 10^8, aimed from the middle to beyond the rim: off by at most one float."""
     random = np.random.default_rng(3)
     near_misses = 0
     for _ in range(1500):
@@ -169,11 +169,11 @@ def test_random_spheres_of_all_sizes_and_places() -> None:
         found, exact = hit(*ray, tuple(map(float, center)), radius)
         near_misses += found is None
         assert ulps(found, exact) <= 1.0
-    assert 100 < near_misses < 1400  # the set has both
+    assert 100 < near_misses < 1400  # the set has both hits and misses
 
 
 def test_closest_hit_and_shadow_ray_agree_on_grazing_spheres() -> None:
-    """One geometry, two questions: what a ray hits throws a shadow along it, and nothing else does."""
+    """Closest-hit and any-hit tests agree: what a ray hits casts a shadow along it, and nothing else does."""
     from tracer.scene import Light
 
     random = np.random.default_rng(4)

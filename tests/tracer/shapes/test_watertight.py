@@ -1,4 +1,4 @@
-"""Closed meshes without a leak: 10^5 rays at corners and 10^5 at edges of each from inside. And rays that graze one."""
+"""Closed meshes are watertight: 10^5 rays at corners and 10^5 at edges of each from inside, and grazing rays."""
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ RAYS = 100_000  # at the corners, and as many at the edges, of each mesh
 
 
 def misses(world: tracer.World, origins: np.ndarray, targets: np.ndarray) -> int:
-    """How many rays see the black behind a mesh that shines: each is the one pixel of an image."""
+    """The number of rays that miss a luminous mesh and see black: each ray is the one pixel of an image."""
     workspace, pixel = Workspace(world.solids_around((0.0, 0.0, 0.0))), one_pixel(0, 0)
     limits = make_limits(world, 0, records=False)
     ways = targets - origins
@@ -40,7 +40,7 @@ def perturbed(seed: int) -> Mesh:
 
 
 def far_away() -> Mesh:
-    """Where Embree tests its own: a place at which single precision has a digit or two left."""
+    """Far from the origin, where single precision has one or two digits left. Source: Embree's test."""
     return uv_sphere(25, 50, (148376, 1234, -223423))
 
 
@@ -64,9 +64,9 @@ def test_no_ray_at_a_corner_or_an_edge_gets_out(name: str) -> None:
 
 
 def test_outline_of_glass_is_grazed_and_nothing_gets_into_it() -> None:
-    """A wedge, its top along the axes, its side aslant: rays over the edge that the eye sees as its outline.
+    """A glass wedge, its top along the axes, its side tilted: rays over the edge that is its outline for the eye.
 
-    By a chord less than rounding they enter the one face and leave the other. Whichever is found first, they pass.
+    They enter one face and leave the other by a chord shorter than rounding. Whichever is found first, they pass.
     """
     profile = ((-1.0, 1.0), (1.0, 1.0), (0.3, -1.0), (-1.0, -1.0))
     vertices = np.array([(x, y, z) for y in (-2.0, 2.0) for x, z in profile]) + 0.1
@@ -85,7 +85,7 @@ def test_outline_of_glass_is_grazed_and_nothing_gets_into_it() -> None:
 
 
 def test_the_count_sees_a_hole() -> None:
-    """One face less, and rays at its middle are missed."""
+    """The count is not zero when one face is missing and rays aim at its middle."""
     mesh = uv_sphere(16, 32)
     open_mesh = Mesh(Geometry(mesh.geometry.vertices, mesh.geometry.faces[1:]), "made")
     target = mesh.placed()[0].mean(axis=0)

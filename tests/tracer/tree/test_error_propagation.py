@@ -1,4 +1,4 @@
-"""The error that every node reports of itself, against the same tree with 50 digits."""
+"""The error that every node reports, against the same tree with 50 digits."""
 
 import math
 
@@ -22,7 +22,7 @@ U = 2.0**-53
 
 
 def two_balls() -> tracer.RayTree:
-    """A ray along the line between two mirrors: any error grows 3.73 times a bounce."""
+    """A ray along the line between two mirrors: each reflection multiplies an error by 3.73."""
     a, b = np.zeros(3), np.array([1.3, 2.1, 1.7])
     world = world_of(ball(tuple(a), 1.0, MIRROR, "a"), ball(tuple(b), 1.0, MIRROR, "b"))
     return tracer.trace(world, ray=(tuple(0.5 * (a + b)), tuple(b - a)), depth=60)
@@ -32,7 +32,7 @@ def check(tree: tracer.RayTree) -> None:
     exact = exact_tree(tree)
     for i in np.flatnonzero(np.isfinite(tree.nodes["t"]) & (tree.nodes["kind"] != SHADOW)):
         row = tree.nodes[i]
-        if row["error"] < 1e-3 * row["t"]:  # beyond, first order says no more than that the digits are gone
+        if row["error"] < 1e-3 * row["t"]:  # beyond, first order only says that the digits are lost
             assert off(row["point"], exact[i].point) <= row["error"]
         if row["turn"] < 1e-3:
             assert off(row["direction"], exact[i].direction) <= row["turn"]
@@ -55,7 +55,7 @@ def test_shipped_scenes(world: tracer.World) -> None:
 
 
 def test_unstable_bounce_knows_when_its_digits_are_gone() -> None:
-    """True errors: about 1e-16 times 3.73 a bounce; the ray leaves when nothing of it is left, after 28 of them."""
+    """True errors: about 1e-16 times 3.73 a reflection. After 28 reflections no digit is left, and the ray leaves."""
     tree = two_balls()
     exact, error = exact_tree(tree), tree.nodes["error"]
     hits = np.flatnonzero(np.isfinite(tree.nodes["t"]))
@@ -69,10 +69,11 @@ def test_unstable_bounce_knows_when_its_digits_are_gone() -> None:
 
 @pytest.mark.parametrize("slope", [1.0, 1e-3, 1e-9])
 def test_error_of_a_first_hit_is_that_of_its_closed_form(slope: float) -> None:
-    """On a floor under the angle of cosine c, way t, a lamp above it at L; all squares in u^2.
+    """On a floor at angle of incidence with cosine c, distance t, a lamp above it at L; all squares in u^2.
 
-    A turn of 2 moves the hit by 2 t, slid along the ray into the floor by 1/c; the hit lies 2 of its way aside, over c.
-    Towards the lamp it turns by what is moved across, over L; and by 2 of its own.
+    A rotation by 2 moves the hit by 2 t, projected along the ray onto the floor by 1/c. The hit has 2 of its
+    distance as its own error, over c. The direction to the lamp turns by the sideways movement over L, and by 2 of
+    its own.
     """
     floor = plane((0, 0, 0), (0, 1, 0), Material("floor", diffuse=1.0))
     world = world_of(floor, lights=[Light("lamp", position=(0.0, 4.0, 0.0))])
@@ -87,17 +88,18 @@ def test_error_of_a_first_hit_is_that_of_its_closed_form(slope: float) -> None:
 
 @pytest.mark.parametrize("gap", [1.0, 8.0])
 def test_errors_of_a_straight_bounce_are_those_of_its_closed_form(gap: float) -> None:
-    """To and fro across a gap L between two mirrors: a ray turned by e meets its k-th wall aside by k L e.
+    """To and fro across a gap L between two mirrors: a ray rotated by e hits its k-th wall k L e aside.
 
-    Squares, in u^2: each ray starts turned by 2, all but the first by 1 more; each hit lies aside by 2 of its way, L
-    and then 2 L, as a wall is L off the origin. Of n steps' errors all may add up: n times the sum of their squares.
+    Squares, in u^2: each ray has a rotation of 2, all but the first 1 more. Each hit is moved by 2 of its distance,
+    L and then 2 L, as a wall is L off the origin. The errors of n steps may all add up: n times the sum of their
+    squares.
     """
     world = world_of(plane((0, 0, 0), (1, 0, 0), MIRROR, "left"), plane((gap, 0, 0), (-1, 0, 0), MIRROR, "right"))
     tree = tracer.trace(world, ray=((0.5 * gap, 0, 0), (1, 0, 0)), depth=50)
     for k, row in enumerate(tree.nodes):
         turned = 4.0 * (k + 0.5) ** 2 + 5.0 * sum(float(j) ** 2 for j in range(1, k + 1))
         placed = 4.0 + 16.0 * k
-        along = 4.0 if k == 0 else 16.0  # only the last of these: the next wall takes it away
+        along = 4.0 if k == 0 else 16.0  # only the last of these: the projection onto the next wall removes it
         expected = U * gap * math.sqrt((k + 1) * (2.0 * (turned + placed) + along))
         assert row["error"] == pytest.approx(expected, rel=1e-12, abs=0.0)
         turn = U * math.sqrt((k + 1) * 3.0 * (4.0 + 5.0 * k))
@@ -105,7 +107,7 @@ def test_errors_of_a_straight_bounce_are_those_of_its_closed_form(gap: float) ->
 
 
 def test_a_hollow_mirror_keeps_its_digits() -> None:
-    """Round and round in a hollow ball errors grow with the square of the bounces, not by a factor each."""
+    """Inside a mirror ball errors grow with the square of the number of reflections, not exponentially."""
     shell = world_of(ball((0, 0, 0), 1.0, MIRROR))
     a = math.radians(50)
     tree = tracer.trace(shell, ray=((0.9, 0.0, 0.0), (-math.cos(a), math.sin(a), 0.0)), depth=10_000)
@@ -115,7 +117,7 @@ def test_a_hollow_mirror_keeps_its_digits() -> None:
 
 
 def test_error_is_a_length_of_the_scene() -> None:
-    """At any size of the scene, far beyond where squares of errors vanish: the error times the size, bit for bit."""
+    """The error is a length: it scales with the scene, bit for bit, far beyond where its square underflows."""
 
     def errors(k: int) -> tuple[list[float], list[float]]:
         s = 2.0**k
@@ -131,7 +133,9 @@ def test_error_is_a_length_of_the_scene() -> None:
 
 
 def test_near_the_critical_angle_the_direction_is_less_sure() -> None:
-    """1/c2 of the rounding: the refracted ray lies along the surface, and a little more of angle is much of it."""
+    """1/c2 of the rounding: the refracted ray lies along the surface, where a small change of angle is a large part of
+    it.
+    """
     water = world_of(plane((0, 0, 0), (0, 1, 0), Material("water", transmit=1.0, ior=4 / 3)))
     critical = math.asin(0.75)
     turns = []
@@ -154,7 +158,7 @@ def test_shadow_rays_inherit_what_their_start_is_off() -> None:
 
 
 def bent_triangle(random: np.random.Generator) -> Mesh:
-    """With a normal at each corner that leans away from its own."""
+    """With a normal at each corner that differs from the face's own."""
     corners, aside = random.normal(size=(2, 3, 3))
     normals = np.cross(corners[1] - corners[0], corners[2] - corners[0]) + 0.5 * aside
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
@@ -163,7 +167,7 @@ def bent_triangle(random: np.random.Generator) -> Mesh:
 
 @pytest.mark.parametrize("kind", ["ball", "cone", "bent"])
 def test_normal_turns_as_its_neighbours_differ(kind: str) -> None:
-    """By half the difference of those a small v before and behind it along the surface, but for the square of v."""
+    """Half the difference of the normals a small step v before and behind along the surface, up to the square of v."""
     random = np.random.default_rng(1)
     compared = 0
     for k in range(60):

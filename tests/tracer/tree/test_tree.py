@@ -1,4 +1,4 @@
-"""The tree as others get it: JSON, CSV, DOT, text; the table itself."""
+"""The exported tree: JSON, CSV, DOT, text; and the node table itself."""
 
 import csv
 import io
@@ -71,7 +71,7 @@ def test_table_cannot_be_written_to(tree: tracer.RayTree) -> None:
 
 
 def test_hits_lie_where_the_ray_says(tree: tracer.RayTree) -> None:
-    """point = origin + t direction, to the rounding of a hit moved onto its surface."""
+    """point = origin + t direction, up to the rounding of a hit that was projected onto its surface."""
     nodes = tree.nodes
     hit = np.isfinite(nodes["t"])
     reached = nodes["origin"][hit] + nodes["t"][hit, None] * nodes["direction"][hit]
@@ -135,7 +135,9 @@ def test_text_draws_a_line_a_ray_below_its_parent(tree: tracer.RayTree) -> None:
 
 
 def test_path_strings() -> None:
-    """E the eye, S each mirror or glass, D where a shadow ray starts or an opaque surface ends it, L the light."""
+    """E the eye, S a reflection or transmission, D where a shadow ray starts or an opaque surface ends the path, L the
+    light.
+    """
     from tests.scenes import MATTE, ball, plane, world_of
     from tracer.scene import Light, Material
 

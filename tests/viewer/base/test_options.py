@@ -1,4 +1,4 @@
-"""Options of every command: what is printed parses to the same options, on random options."""
+"""Options of every command: the printed command line parses to the same options, for random options."""
 
 from dataclasses import fields, replace
 
@@ -14,7 +14,7 @@ from viewer.figures.catalogue import FORMATS
 NUMBER = st.floats(allow_nan=False, allow_infinity=False)
 WORD = st.text("abcdefghij-_./ öπ'\"$", min_size=1).filter(lambda text: not text.startswith("-"))
 
-# Values of each kind of option. One that is missing here fails the test.
+# Values of each kind of option. A kind that is missing here fails the test.
 STRATEGIES: dict[Value, st.SearchStrategy] = {
     values.TEXT: WORD,
     values.FILE: WORD.map(values.FILE.read),
@@ -33,7 +33,7 @@ STRATEGIES: dict[Value, st.SearchStrategy] = {
 
 
 def strategy(value: Value) -> st.SearchStrategy:
-    """Values of one kind: of the table, one of some names, some of them, or whole numbers."""
+    """Values of one kind: of the table, one of some names, some of them, or integers."""
     if value in STRATEGIES:
         return STRATEGIES[value]
     names = value.metavar.split("|")
@@ -46,7 +46,7 @@ def strategy(value: Value) -> st.SearchStrategy:
 
 @st.composite
 def options(draw: st.DrawFn, kind: type) -> object:
-    """Random options, at most one of each group."""
+    """Random options, at most one of each exclusive group."""
     chosen, taken = {}, set()
     for item in fields(kind):
         how = spelling(item)

@@ -1,4 +1,4 @@
-"""The eye of the 3D view: what it starts at."""
+"""The camera of the 3D view: its start."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from viewer.base.orbit import Frame
 
 @pytest.mark.parametrize("radius", [50.0, 1e9])
 def test_a_scene_is_seen_and_not_the_earth_it_stands_on(radius: float) -> None:
-    """What is far larger than the way to what the camera looks at does not count, unless it is all there is."""
+    """An object far larger than the distance to the camera's target does not count, unless it is the only one."""
     earth, item = ball((0, -radius - 1.0, 0), radius), ball((1, 0, 0), 1.0)
     floor = polygon([(-radius, -1, -radius), (-radius, -1, radius), (radius, -1, radius), (radius, -1, -radius)])
     camera = Camera(position=(0.0, 0.0, 10.0), look_at=(0.0, 0.0, 0.0))

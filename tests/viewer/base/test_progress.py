@@ -1,4 +1,4 @@
-"""What is said of something that takes a while: a line on a terminal, a few in a log, nothing of what is quick."""
+"""Progress messages: one line on a terminal, a few in a log, none for quick work."""
 
 import re
 from pathlib import Path
@@ -17,7 +17,7 @@ def test_time_left_is_what_the_share_says() -> None:
     assert progress.line(began + 3.0) == "render ball (3 s)"
     progress.share, progress.told = 0.25, began + 4.0
     assert progress.line(began + 4.0) == "render ball 25 %, 12 s left"
-    assert progress.line(began + 9.0) == "render ball 25 %, 7 s left"  # no tile was finished, time goes by
+    assert progress.line(began + 9.0) == "render ball 25 %, 7 s left"  # no further tile was finished, time passes
     assert progress.line(began + 99.0) == "render ball 25 %, 0 s left"
     progress.say("write ball.png")
     assert progress.line(progress.began) == "write ball.png"

@@ -1,4 +1,4 @@
-"""`raytree check` as its users see it: the table, a case explained, JSON, exit status."""
+"""`raytree check`: the table, a case explained, JSON, exit status."""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""The commands as a user types them: what they print, what they write, and with which status they leave."""
+"""Commands in processes of their own: their output, the files that they write, and their exit status."""
 
 import json
 import os
@@ -20,7 +20,7 @@ from viewer.lessons import lesson
 
 
 def raytree(*arguments: str, cwd: Path | None = None, **environment: str) -> subprocess.CompletedProcess:
-    """The installed command itself, in a process of its own."""
+    """Run the installed command in a process."""
     command = [str(Path(sys.executable).parent / "raytree"), *arguments]
     return subprocess.run(
         command, capture_output=True, text=True, cwd=cwd, env={**os.environ, **environment}, check=False
@@ -98,7 +98,7 @@ def test_render_in_every_format(tmp_path: Path, worlds: dict[str, tracer.World])
 
 
 def test_several_scenes_are_rendered_into_a_folder(tmp_path: Path, worlds: dict[str, tracer.World]) -> None:
-    """One that has a fault is named and left out; the others are made."""
+    """A scene with a fault is named and left out; the others are rendered."""
     (tmp_path / "bad.toml").write_text('format = 1\n[[object]]\nshape = "sphere"\ncenter = [0, 0, 0]\nradius = -1\n')
     arguments = ["two-lights", "bad.toml", "scale", "-o", "figures/", "--format", "npy", "--size", "40x30"]
     run = raytree("render", *arguments, "--stats", "stats.json", cwd=tmp_path)
@@ -214,8 +214,8 @@ def test_plan_and_statistics_leave_out_the_same(tmp_path: Path, capsysbinary: py
 
 
 def test_plan_is_measured(capsysbinary: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every line has its numbers or says why not. As text it fits on 100 columns."""
-    monkeypatch.setattr("tracer.measure.plan.savings.BUDGET", 0.1)  # the fewest runs there are
+    """Every line has its measurement or a reason for having none. As text it fits into 100 columns."""
+    monkeypatch.setattr("tracer.measure.plan.savings.BUDGET", 0.1)  # the fewest runs
     texts = []
     as_json = plan_command.as_json
     monkeypatch.setattr(plan_command, "as_json", lambda plan: texts.append(plan_command.as_text(plan)) or as_json(plan))

@@ -1,4 +1,4 @@
-"""`raytree render --dask` as a user types it, in a process of its own, on a cluster of two."""
+"""`raytree render --dask` in a process of its own, on a cluster of two workers."""
 
 import json
 import os
@@ -27,7 +27,7 @@ def cluster() -> Iterator[Any]:
 
 
 def test_a_course_of_figures(cluster: Any, tmp_path: Path) -> None:
-    """The files are those that are made here, byte for byte, and so is what is said of them."""
+    """Files and messages are equal to those made without a cluster, byte for byte."""
     arguments = ["glass-ball", "mirror-balls", "--size", "200x150", "--format", "exr"]
     here = raytree("render", *arguments, "-o", "here/", "--stats", "here.json", cwd=tmp_path)
     there = raytree(
@@ -47,7 +47,7 @@ def test_a_course_of_figures(cluster: Any, tmp_path: Path) -> None:
 
 
 class Witness(SchedulerPlugin):
-    """Sees when a first tile is finished, and when the cluster knows of none any more."""
+    """Notices when the first tile is finished, and when the cluster holds none any more."""
 
     name = "witness"
 
@@ -87,12 +87,12 @@ def test_interrupt_cancels_what_the_cluster_does(cluster: Any, tmp_path: Path) -
 
 
 def executing(dask_worker: Any) -> int:
-    """On a worker: how many calls its threads are in."""
+    """Run on a worker: the number of calls that its threads execute."""
     return dask_worker.state.executing_count
 
 
 def test_interrupt_frees_threads_that_are_in_the_middle_of_a_tile(cluster: Any, tmp_path: Path) -> None:
-    """Two tiles that take minutes, one a worker: once cancelled, both workers take other work."""
+    """Two tiles that take minutes, one a worker: after the interrupt both workers accept other work."""
     arguments = ["glass-ball", "-o", "image.npy", "--size", "32x16", "--samples", "9", "--tolerance", "0"]
     client: Any
     with Client(cluster) as client:
@@ -124,19 +124,19 @@ def test_a_cluster_without_workers_is_waited_for(tmp_path: Path) -> None:
 def test_unreachable_scheduler_is_one_line(tmp_path: Path) -> None:
     run = raytree("render", "two-lights", "-o", "image.npy", "--dask", "127.0.0.1:9", cwd=tmp_path)
     assert run.returncode == 2
-    waited = r"connect to tcp://127\.0\.0\.1:9 \(\d s\)\n"  # a log is told where it takes as long as the attempt lasts
+    waited = r"connect to tcp://127\.0\.0\.1:9 \(\d s\)\n"  # in a log: a line if the attempt takes a while
     assert re.fullmatch(rf"({waited})?tcp://127\.0\.0\.1:9: no Dask scheduler answers: .+\n", run.stderr), run.stderr
     assert list(tmp_path.iterdir()) == []
 
 
 def dask(program: str, *arguments: str) -> subprocess.Popen:
-    """One of Dask's own programs."""
+    """The path of one of Dask's own programs."""
     command = [sys.executable, "-m", f"distributed.cli.dask_{program}", *arguments, "--dashboard-address", ":0"]
     return subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
 
 
 def test_lost_scheduler_is_one_line(tmp_path: Path) -> None:
-    """The scheduler is killed in the middle of an image: that is said at once, and nothing is written."""
+    """The scheduler is killed in the middle of an image: one line at once, and no file."""
     scheduler = dask("scheduler", "--host", "127.0.0.1", "--port", "0")
     assert scheduler.stderr
     address = next(found[1] for line in scheduler.stderr if (found := re.search(r"Scheduler at:\s+(tcp://\S+)", line)))

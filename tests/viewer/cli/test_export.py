@@ -1,4 +1,4 @@
-"""`raytree export`: names of files, faults in one line, nothing half-written."""
+"""`raytree export`: file names, faults in one line, no incomplete files."""
 
 import re
 from pathlib import Path
@@ -145,7 +145,7 @@ def test_what_has_no_room_or_no_letter_is_said(tmp_path: Path, capsys: pytest.Ca
 
 
 def test_rays_to_lights_are_left_out_on_wish(tmp_path: Path) -> None:
-    """In every figure, and with them the pages about them."""
+    """Shadow rays are left out of every figure, and so are the pages about them."""
     for figure in FIGURE_NAMES:
         out = tmp_path / f"{figure}.svg"
         assert main.main(["export", "glass-ball", "--figure", figure, "--no-lights", "-o", str(out)]) == 0

@@ -1,4 +1,4 @@
-"""The very first start on a machine: nothing is compiled yet, and the window is used all the same."""
+"""The first start on a machine: the window can be used while the kernels are still being compiled."""
 
 import json
 import os

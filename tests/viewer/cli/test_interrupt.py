@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM while a command is at work: it ends with the signal's status and leaves nothing behind."""
+"""Ctrl-C and SIGTERM during a command: it ends with the signal's status and leaves no file behind."""
 
 import signal
 import sys
@@ -33,7 +33,7 @@ def test_signal_ends_a_command_that_leaves_nothing_behind(name: str, tmp_path: P
     if "long.nff" in arguments:
         (tmp_path / "long.nff").write_text(
             "f 1 1 1 1 0 0 0 1\n" + "p 3 0 0 0 1 0 0 0 1 0\n" * 600_000
-        )  # seconds of reading
+        )  # takes seconds to read
     if "large.toml" in arguments:
         scene = lesson.read("two-lights").scene.read_text().replace("width = 800", "width = 8000")
         (tmp_path / "large.toml").write_text(scene.replace("height = 600", "height = 6000"))
@@ -52,7 +52,7 @@ def test_signal_ends_a_command_that_leaves_nothing_behind(name: str, tmp_path: P
 
 
 def test_signal_ends_the_compiler(tmp_path: Path) -> None:
-    """At the very first start; the next one begins anew, and nothing half-written is loaded."""
+    """At the first start. The next start compiles again, and never loads an incomplete file."""
     with on_a_terminal(["trace", "two-lights", "--pixel", "1,1"], tmp_path, XDG_CACHE_HOME=str(tmp_path)) as terminal:
         terminal.wait_for(r"only at the first start.*\([3-9] s\)")
         terminal.process.send_signal(INT)
@@ -62,7 +62,7 @@ def test_signal_ends_the_compiler(tmp_path: Path) -> None:
 
 
 def test_what_is_ignored_from_outside_stays_ignored(tmp_path: Path) -> None:
-    """As under nohup: a signal that whoever started the program wants ignored does not end it."""
+    """As under nohup: a signal that is ignored by the parent process does not end the command."""
     before = signal.signal(INT, signal.SIG_IGN)
     try:
         arguments = ["render", "glass-ball", "-o", "new.npy", "--size", "3200x2400"]

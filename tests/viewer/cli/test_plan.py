@@ -1,4 +1,4 @@
-"""What a scene does not need is not there: no glass pass, no glass in the shader, no lesson panel, no idle library."""
+"""Work that a scene does not need is left out: passes, features of the shader, the lesson panel, libraries."""
 
 import subprocess
 import sys
@@ -48,12 +48,12 @@ def show(room: Driver, folder: Path, material: str = "") -> Surfaces:
         (MIRROR, {"MIRROR"}),
         (CHECKER, {"CHECKER"}),
         (GLASS, {"GLASS"}),
-        (GLASS + MIRROR, {"GLASS"}),  # a mirror of glass is drawn by the glass of the shader
+        (GLASS + MIRROR, {"GLASS"}),  # a mirror of glass is drawn by the shader's glass
         (MIRROR + CHECKER, {"MIRROR", "CHECKER"}),
     ],
 )
 def test_shader_has_in_it_what_the_scene_needs(room: Driver, tmp_path: Path, material: str, features: set[str]) -> None:
-    """No more is compiled; and the full shader draws the very same picture."""
+    """The shader is compiled without the features that a scene does not use. The full shader draws the same picture."""
     surfaces = show(room, tmp_path, material)
     stage, session = room.canvas.stage, room.session
     assert set(stage.programs) == {frozenset(features)}
@@ -68,11 +68,11 @@ def test_shader_has_in_it_what_the_scene_needs(room: Driver, tmp_path: Path, mat
         stage.draw(session.orbit, session.theme, (400, 300), 1.0, None)
         pictures.append(stage.target.pixels())
     assert (pictures[0] == pictures[1]).all()
-    assert len(set(pictures[0].reshape(-1, 3)[::7].astype(int).sum(axis=1).tolist())) > 20  # not of nothing
+    assert len(set(pictures[0].reshape(-1, 3)[::7].astype(int).sum(axis=1).tolist())) > 20  # the picture is not empty
 
 
 def fragments(room: Driver) -> int:
-    """How many the pass of what one sees through has drawn."""
+    """The number of fragments that the pass for transparent surfaces has drawn."""
     stage = room.canvas.stage
     assert stage.surfaces
     query = stage.ctx.query(samples=True)
@@ -111,7 +111,7 @@ def test_scene_without_a_lesson_has_no_lesson_panel(room: Driver, tmp_path: Path
 
 
 def loaded(program: str) -> set[str]:
-    """Which of the libraries a program of these lines has imported, in a process of its own."""
+    """The libraries in the list that a program has imported, in a process of its own."""
     lines = f"import sys\n{program}\nprint(*sorted({LIBRARIES!r} & set(sys.modules)))"
     run = subprocess.run([sys.executable, "-c", lines], capture_output=True, text=True, check=True)
     return set(run.stdout.splitlines()[-1].split())

@@ -1,4 +1,4 @@
-"""`raytree report`: a page that needs nothing else, plots, and data; the same every time but for the times."""
+"""`raytree report`: a self-contained page, plots and data; equal every time except for the times."""
 
 import csv
 import json
@@ -24,7 +24,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def one_plot(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of each source, for plots take longest."""
+    """Two of each source only, because plots take longest."""
     monkeypatch.setattr("viewer.report.chapter.PLOTS", (("rays", "rmse"),))
     monkeypatch.setattr("viewer.report.chapter.EXACT_PLOTS", (("rays", "largest"),))
 
@@ -95,7 +95,9 @@ def test_faults_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str])
 
 
 def test_all_lessons_on_one_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, one_plot: None) -> None:
-    """Of one lesson and three stiff trees, here: a chapter for each lesson, then one for these; files say whose."""
+    """One lesson and three stiff trees: one chapter for the lesson, one for the trees; file names say whose data they
+    hold.
+    """
     monkeypatch.setattr(lesson, "names", lambda: ["plates"])
     monkeypatch.setattr("viewer.report.chapter.PROBLEMS", PROBLEMS[2:])
     assert main.main(["report", "--all", *ARGUMENTS, "-o", str(tmp_path / "all")]) == 0

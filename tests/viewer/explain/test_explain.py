@@ -1,4 +1,4 @@
-"""The panel of the selected ray: its formulas come out with the tree's own numbers."""
+"""The panel of the selected ray: its formulas give the tree's own numbers."""
 
 import math
 import re
@@ -35,7 +35,7 @@ def values(text: str) -> list[float]:
 
 @pytest.fixture
 def water() -> tuple[tracer.World, tracer.RayTree]:
-    """Into water at 3-4-5: sin 0.8 outside, 0.6 inside."""
+    """Into water with 3-4-5 triangles: sin 0.8 outside, 0.6 inside."""
     material = Material("water", diffuse=0.5, specular=0.5, shininess=4, reflect=0.25, transmit=0.5, ior=4 / 3)
     stone = ball((0, 3, -5), 1)
     world = world_of(plane((0, 0, 0), (0, 1, 0), material, "water"), stone, lights=LAMPS, background=(0.5, 0.5, 0.5))
@@ -72,7 +72,9 @@ def test_sum_names_each_child_with_its_share(water: tuple) -> None:
 
 
 def test_local_light_stands_light_by_light(water: tuple) -> None:
-    """One that is lit, one behind the surface, one blocked by name; together with ambient they are the local term."""
+    """One light that is visible, one behind the surface, one blocked by name; with ambient they add up to the local
+    term.
+    """
     world, tree = water
     local = section(explain_ray(tree, world, 0), "Local light")
     names = list(local)
@@ -80,7 +82,7 @@ def test_local_light_stands_light_by_light(water: tuple) -> None:
     assert any(re.fullmatch("low: N·L −[0-9.]+: faces away from it", name) for name in names)
     assert "hidden: blocked by ball" in names
     lit = next(name for name in names if name.startswith("lamp: N·L"))
-    # What is said is enough to work the share out by hand.
+    # The panel gives all numbers that are needed to compute the share by hand.
     _, kd, ks, p = values(local["ka  kd  ks  p"])
     n_l, r_v = (float(x) for x in re.findall(r"[0-9.]+", lit))
     color, light = np.array(values(local["colour C"])), np.array(values(local["lamp: L"]))

@@ -1,10 +1,10 @@
-"""What must be true of every figure, by its marks alone: the judge shared by the tests of all figures."""
+"""Rules for every figure, checked on its marks: shared by the tests of all figures."""
 
 import itertools
 
 from viewer.figures.marks import Box, Figure, Line, Rectangle, Text
 
-LESS = 1e-6  # points: what two boxes that only touch may overlap by
+LESS = 1e-6  # points: overlap allowed to boxes that only touch
 
 
 def rectangle(box: Box) -> Rectangle:
@@ -17,7 +17,7 @@ def overlap(a: Rectangle, b: Rectangle) -> bool:
 
 
 def cuts(piece: tuple, box: Rectangle) -> bool:
-    """Whether a stretch runs through the inside of a box (Liang & Barsky, 1984)."""
+    """True if a segment runs through the inside of a box (Liang & Barsky, 1984)."""
     (x0, y0), (x1, y1) = piece
     enters, leaves = 0.0, 1.0
     for a, b, low, high in ((x0, x1, box[0], box[2]), (y0, y1, box[1], box[3])):
@@ -31,7 +31,7 @@ def cuts(piece: tuple, box: Rectangle) -> bool:
 
 
 def check(figure: Figure, least: float = 18.0) -> None:
-    """Nothing overlaps, nothing leaves the canvas, all text can be read."""
+    """Assert that nothing overlaps, nothing leaves the canvas, and all text can be read."""
     texts = [mark for mark in figure.marks if isinstance(mark, Text)]
     boxes = [mark for mark in figure.marks if isinstance(mark, Box)]
     lines = [mark for mark in figure.marks if isinstance(mark, Line)]

@@ -1,4 +1,4 @@
-"""Ray trees of any form, which no scene would give in so few tries: tables made up, not traced."""
+"""Random ray trees of any form: tables made up, not traced, because scenes give too few forms."""
 
 import random
 

@@ -1,4 +1,4 @@
-"""Every shape in the 3D view and in the figure of the scene, tried on its `example()`."""
+"""Every shape in the 3D view and in the scene's figure, by its `example()`."""
 
 import numpy as np
 import pytest

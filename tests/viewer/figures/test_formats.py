@@ -1,4 +1,4 @@
-"""Figures' files, read back by programs that nobody here wrote."""
+"""Files of figures, read back by independent programs."""
 
 import io
 import os
@@ -76,7 +76,7 @@ def test_svg_and_png_are_the_same_picture(figures: list[Figure], tmp_path: Path)
     theirs = np.asarray(Image.open(tmp_path / "a.png").convert("RGB"), float)
     assert ours.shape == theirs.shape
     coarse = [image[:528].reshape(22, 24, 40, 24, 3).mean(axis=(1, 3)) for image in (ours, theirs)]
-    assert np.abs(coarse[0] - coarse[1]).max() < 24.0  # a box of text that is not there is 60 and more
+    assert np.abs(coarse[0] - coarse[1]).max() < 24.0  # a missing box of text gives 60 and more
 
 
 def test_pdf_has_a_page_a_depth_and_its_words_can_be_selected(figures: list[Figure], tmp_path: Path) -> None:
@@ -146,7 +146,7 @@ def test_tikz_says_every_word(figures: list[Figure]) -> None:
 
 
 def test_same_input_same_bytes(tmp_path: Path) -> None:
-    """In processes of their own, whose sets and dictionaries are ordered otherwise."""
+    """In separate processes, in which sets iterate in another order."""
     found = []
     for seed in ("1", "2"):
         folder = tmp_path / seed

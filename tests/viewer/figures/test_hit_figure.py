@@ -1,4 +1,4 @@
-"""The hit in its plane of incidence: angles measure what they say, nothing overlaps."""
+"""The figure of a hit in its plane of incidence: angles have their true size, nothing overlaps."""
 
 import math
 
@@ -20,7 +20,7 @@ from viewer.lessons import lesson
 
 
 def turn_of(figure: Figure, name: str, back: bool) -> float:
-    """The angle from the upright to a ray's line, by its ends; `back`: seen from where it comes."""
+    """The angle of a ray's line to the vertical, by its ends. `back`: seen from the ray's origin."""
     (line,) = (m for m in figure.marks if isinstance(m, Line) and m.name == name)
     start, end = (line.end, line.start) if back else (line.start, line.end)
     return math.atan2(end[0] - start[0], start[1] - end[1])
@@ -78,7 +78,7 @@ def test_formulas_carry_the_trees_own_numbers(worlds: dict[str, tracer.World]) -
 @settings(max_examples=40, deadline=None)
 @given(st.floats(0.0, 89.0), st.floats(0.0, 180.0), st.floats(-180.0, 180.0))
 def test_lights_stand_at_their_true_angle(degrees: float, from_normal: float, about: float) -> None:
-    """Whether in the plane or not; on the right where they are on the side to which the ray goes on."""
+    """In the plane of incidence and outside it. On the right if they are on the side to which the ray continues."""
     a, b, c = (math.radians(x) for x in (degrees, from_normal, about))
     towards = (math.sin(b) * math.cos(c), math.sin(b) * math.sin(c), math.cos(b))
     floor = box((-99, -99, -2), (99, 99, 0), Material("floor", diffuse=1.0))
@@ -96,7 +96,7 @@ def test_lights_stand_at_their_true_angle(degrees: float, from_normal: float, ab
 
 
 def test_a_hit_without_rays_to_go_on_has_no_formulas_of_them(worlds: dict[str, tracer.World]) -> None:
-    """At depth 0 there are the light that falls there and why nothing follows; at depth 1 the rays."""
+    """At depth 0 the figure shows the light at the hit and why no ray follows; at depth 1 the rays."""
     world, pixel = worlds["glass-ball"], lesson.read("glass-ball").pixel
     trees = [tracer.trace(world, pixel, depth=d) for d in (0, 1)]
     first, second = pages("hit", Subject(by_depth(trees), world), FigureStyle())

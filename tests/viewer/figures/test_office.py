@@ -1,4 +1,4 @@
-"""What an office program and TeX make of the files. Not in `make test`: they take hundreds of megabytes."""
+"""Files opened by an office program and by TeX. Not in `make test`: the programs take hundreds of megabytes."""
 
 import re
 import subprocess
@@ -37,7 +37,7 @@ def words(figure: Figure) -> list[str]:
 
 
 def test_an_office_program_opens_every_pptx(worlds: dict[str, tracer.World], tmp_path: Path) -> None:
-    """As many slides as depths, and every word of ours on its slide."""
+    """As many slides as depths, and all text on its slide."""
     made = {f"{name}-{kind}": figures(worlds, name, kind) for name in LESSONS for kind in FIGURE_NAMES}
     for name, found in made.items():
         (tmp_path / f"{name}.pptx").write_bytes(write_pptx(found))
@@ -74,5 +74,5 @@ def test_tikz_compiles_alone_and_in_beamer(worlds: dict[str, tracer.World], tmp_
             text = re.sub(r"\s+", "", said(tmp_path / f"{document}.pdf"))
             for word in words(figure):
                 for part in re.findall(r"[A-Za-z]{3,}", word):
-                    # Beamer's bitmap fonts have ligatures that are no letters to pdftotext.
+                    # Beamer's bitmap fonts have ligatures that pdftotext does not read as letters.
                     assert part in text or re.search("f[fil]", part), (name, document, part)

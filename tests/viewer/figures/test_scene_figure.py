@@ -1,5 +1,4 @@
-"""The scene as a figure: rays land where the camera projects their points, outlines where the things end, and what is
-hidden is what something opaque stands before."""
+"""The scene's figure: rays end where the camera projects their points, outlines are true, hidden parts are faint."""
 
 import itertools
 import math
@@ -38,7 +37,7 @@ def seen_by(camera: Camera) -> View:
 
 
 def landing(view: View, point: np.ndarray) -> tuple[float, float]:
-    """The pixel whose ray meets the point."""
+    """The pixel whose camera ray goes through the point."""
     gaze = np.asarray(point) - view.eye
     depth = float(gaze @ view.forward)
     right, up = np.array(view.right), np.array(view.up)
@@ -89,7 +88,7 @@ def test_rays_land_where_the_camera_projects_their_points(grown: tuple[Subject, 
 
 
 def test_a_balls_outline_is_its_silhouette() -> None:
-    """Of a ball from a pinhole: the rays that touch it make one angle with the one through its middle."""
+    """Seen from a pinhole, all tangents to a ball make the same angle with the ray through its centre."""
     middle, radius = np.array([0.4, -0.2, 0.3]), 0.7
     world = world_of(Object(Sphere((0.4, -0.2, 0.3), radius), MATTE, "ball"))
     orbit = Orbit(0.7, 0.4, 4.0)
@@ -109,7 +108,7 @@ def test_a_balls_outline_is_its_silhouette() -> None:
 
 
 def test_what_is_hidden_is_faint() -> None:
-    """A light's ray passes behind a box: between the two edges it is faint, as long as the box is wide."""
+    """A shadow ray passes behind a box: it is faint between the two edges, as far as the box is wide."""
     wall = box((-0.5, -1.0, 1.0), (0.5, 1.0, 1.2))
     floor = Object(Sphere((3.0, 0.0, 0.0), 0.5), Material("m", diffuse=1.0), "ball")
     lamp = Light("lamp", position=(-3.0, 0.0, 0.0))
@@ -124,7 +123,7 @@ def test_what_is_hidden_is_faint() -> None:
     lines = [m for m in figure.marks if isinstance(m, Line) and m.name == f"ray-{i}"]
     faint = [line for line in lines if line.stroke.color[3] < 1.0]
     assert len(faint) == 1
-    # The box as wide as the eye sees it.
+    # The width of the box as the eye sees it.
     across = [landing(view, np.array([x, 0.0, z]))[0] for x in (-0.5, 0.5) for z in (1.0, 1.2)]
     edges = [min(across), max(across)]
     assert sorted(p[0] for p in (faint[0].start, faint[0].end)) == pytest.approx(edges, abs=0.2)
@@ -180,7 +179,7 @@ def test_simpler_outlines_stay_where_they_were() -> None:
 
 
 def test_names_stand_well_within_what_they_name() -> None:
-    """The first place is the farthest from the rim; what is smaller than the places are apart has none."""
+    """A name stands at the place that is farthest from the rim. Parts smaller than the grid of places have no name."""
     mask = np.zeros((200, 400), bool)
     mask[16:184, 16:184] = True
     spots = label_spots(mask, (100.0, 50.0, 300.0, 150.0))
@@ -193,7 +192,7 @@ def test_names_stand_well_within_what_they_name() -> None:
 
 
 def test_checkers_are_where_the_floor_has_them(worlds: dict[str, tracer.World]) -> None:
-    """The middle of each square, followed back to the floor, has the other colour there."""
+    """The middle of each square, traced back to the floor, has the other colour there."""
     checks = Material("floor", diffuse=1.0, checker=Checker((0.2, 0.2, 0.2), 1.0))
     floor = Object(Polygon(((-4.0, 0.0, -4.0), (-4.0, 0.0, 4.0), (4.0, 0.0, 4.0), (4.0, 0.0, -4.0))), checks, "floor")
     world = world_of(floor)
@@ -221,7 +220,7 @@ def test_squares_too_fine_to_be_drawn_are_told(points: int, fine: bool) -> None:
 
 
 def test_a_ray_has_its_name_upon_it_or_beside_it(grown: tuple[Subject, list[Figure]]) -> None:
-    """No other ray is nearer to where a name stands than its own, where the name stands upon a line."""
+    """If a name stands on a ray's line, no other ray is nearer to it than its own."""
     for figure in grown[1]:
         lines = [m for m in figure.marks if isinstance(m, Line) and m.name.startswith("ray-")]
         for text in (m for m in figure.marks if isinstance(m, Text) and m.name.startswith("ray-")):
@@ -245,7 +244,7 @@ def test_rays_that_leave_the_picture_say_to_which_light(grown: tuple[Subject, li
 
 
 def test_glass_is_named_where_nothing_opaque_is_behind_it() -> None:
-    """Half of a pane stands before a wall: its name stands on the other half."""
+    """One half of a pane stands before a wall: its name stands on the other half."""
     pane = box((-2.0, -1.0, 0.0), (2.0, 1.0, 0.1), Material("glass", transmit=1.0, ior=1.5), name="pane")
     wall = box((-2.0, -1.0, -1.0), (0.0, 1.0, -0.9), name="wall")
     world = world_of(pane, wall)
@@ -262,7 +261,7 @@ def test_glass_is_named_where_nothing_opaque_is_behind_it() -> None:
 
 
 def test_edges_are_straight_and_corners_sharp() -> None:
-    """Of a box seen by an eye that looks along no axis, all corners are where the camera projects them."""
+    """Seen along no axis, all corners of a box are where the camera projects them."""
     world = world_of(box((-1.0, -0.5, -0.7), (1.0, 0.5, 0.7)))
     camera = orbit_camera(Orbit(0.6, 0.45, 3.2), Frame.of(world))
     view = seen_by(camera)

@@ -1,4 +1,4 @@
-"""The tree as a figure: nothing overlaps, nothing moves from step to step, every ray is there or counted."""
+"""The figure of the tree: nothing overlaps, nothing moves from step to step, every ray is drawn or counted."""
 
 import itertools
 import re
@@ -33,7 +33,7 @@ def hits(figure: Figure) -> dict[int, Box]:
 
 
 def folded(figure: Figure) -> int:
-    """How many rays the figure says it has folded."""
+    """The number of rays that the figure says it has folded."""
     return sum(
         int(m[1]) for t in figure.marks if isinstance(t, Text) and (m := re.fullmatch(r"\+(\d+) rays?", t.content))
     )
@@ -56,7 +56,9 @@ def check_whole(figure: Figure, tree: RayTree, size: float = 18.0) -> None:
     st.sampled_from((6.0, 9.0, 18.0, 24.0)), st.sampled_from(EYES),
 )  # fmt: skip
 def test_random_trees(seed: int, most: int, lights: int, depth: int, swatches: bool, size: float, eye: str) -> None:
-    """From one ray to five hundred, lopsided ones too; small text shows many rays, large text folds."""
+    """From one ray to five hundred, also unbalanced trees. Small text has room for many rays, large text folds
+    branches.
+    """
     tree = random_tree(seed, most, lights, depth)
     (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle(swatches=swatches, text_size=size, eye=eye))
     check_whole(figure, tree, size)
@@ -64,7 +66,7 @@ def test_random_trees(seed: int, most: int, lights: int, depth: int, swatches: b
 
 @pytest.mark.parametrize("depth", (3, 4))
 def test_trees_as_deep_as_a_slide_allows(depth: int) -> None:
-    """Where levels stand as close as can be, and leaves beside what goes on."""
+    """Levels as close as possible, and leaves beside rays that go on."""
     for seed in range(150):
         tree = random_tree(seed, 14, seed % 3, depth)
         for eye in EYES:
@@ -94,7 +96,7 @@ def test_trees_of_the_lessons_grow_and_nothing_moves(worlds: dict[str, tracer.Wo
 
 
 def places(figure: Figure) -> dict[tuple, tuple]:
-    """Where hits, folded branches and rays stand; their labels too."""
+    """Positions of hits, folded branches, rays and their labels."""
     found: dict[tuple, tuple] = {}
     for mark in figure.marks:
         if mark.name.startswith(("hit-", "ray-", "fold-")):
@@ -123,7 +125,7 @@ def test_steps_by_ray_and_by_colour_keep_all_places(worlds: dict[str, tracer.Wor
 
 
 def test_colour_flows_back_from_the_leaves(worlds: dict[str, tracer.World]) -> None:
-    """A hit's colour is shown on the page on which it is summed, and that is after those of the hits below it."""
+    """A hit shows its colour on the page on which it is summed, after those of the hits below it."""
     tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=3)
     stages = by_color(tree)
     known: set[int] = set()
@@ -137,7 +139,7 @@ def test_colour_flows_back_from_the_leaves(worlds: dict[str, tracer.World]) -> N
 
 @pytest.mark.parametrize("eye", EYES)
 def test_same_subtree_looks_the_same(eye: str) -> None:
-    """In a pile of plates subtrees repeat: boxes and edges of equal ones differ by a shift only."""
+    """The subtrees in a pile of plates repeat: boxes and edges of equal ones differ by a translation only."""
     tree = plates(1, 3, 0)
     plan = plan_tree([tree], TreeStyle(18.0, eye=eye))
     kinds = tree.nodes["kind"]
@@ -161,7 +163,7 @@ def test_same_subtree_looks_the_same(eye: str) -> None:
 
 
 def test_light_branches_are_folded_on_wish() -> None:
-    """What weighs less than asked is in folds, and a fold says how much it weighs."""
+    """Branches below a given weight are folded, and the fold shows its weight."""
     tree = plates(2, 4, 1)
     (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle(fold=0.1))
     check_whole(figure, tree)
@@ -173,7 +175,7 @@ def test_light_branches_are_folded_on_wish() -> None:
 
 
 def test_where_rays_go() -> None:
-    """Down or to the right by the same step a level; R on one side, T on the other."""
+    """Down or to the right, by the same step a level; R on one side, T on the other."""
     tree = random_tree(5, 12, 1, 3)
     nodes = tree.nodes
     for eye, along, across in (("top", 1, 0), ("left", 0, 1)):
@@ -190,7 +192,7 @@ def test_where_rays_go() -> None:
 
 
 def test_names_are_whole_where_there_is_room() -> None:
-    """A long one is cut only where its box would keep rays out of the figure."""
+    """A long name is cut only where its box would push rays out of the figure."""
     long = "a name of twenty letter"
     few = renamed(random_tree(1, 1, 1, 0), long)
     many = renamed(max((random_tree(seed, 60, 2, 4) for seed in range(20)), key=len), long)
@@ -235,7 +237,7 @@ def test_shares_are_said_as_people_say_them() -> None:
 
 
 def test_the_legend_explains_every_sign_and_hides_nothing(worlds: dict[str, tracer.World]) -> None:
-    """In the narrow half of two panels too: there it stands below the tree."""
+    """Also in the narrow half of two panels, in which it stands below the tree."""
     world = worlds["underwater"]
     tree = tracer.trace(world, lesson.read("underwater").pixel, depth=3)
     orbit = initial_orbit(world, Frame.of(world), lesson.read("underwater").view)

@@ -1,4 +1,4 @@
-"""The lessons: each opens, each shows at its pixel what it says it shows."""
+"""The lessons: each one opens, and its pixel shows what its text says."""
 
 import itertools
 from pathlib import Path

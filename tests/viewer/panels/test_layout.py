@@ -1,4 +1,4 @@
-"""Where the nodes of the tree diagram stand: nothing overlaps, reflected left, refracted right, like looks alike."""
+"""Positions of the nodes in the tree panel: no overlap, reflected left, refracted right, equal subtrees look equal."""
 
 import itertools
 
@@ -65,7 +65,7 @@ def test_trees_of_the_lessons(worlds: dict[str, tracer.World]) -> None:
 
 
 def test_same_subtree_looks_the_same_wherever_it_stands() -> None:
-    """In a pile of plates subtrees repeat: their nodes' places differ by a shift only."""
+    """The subtrees in a pile of plates repeat: positions of their nodes differ by a translation only."""
     tree = plates(2, 7, 2)
     places = tidy_layout(tree, set(range(len(tree)))).places
     seen: dict[tuple, list[tuple[float, float]]] = {}
@@ -86,7 +86,7 @@ def below(tree: tracer.RayTree, i: int) -> list[int]:
 
 
 def test_growing_tree_is_laid_out_for_its_full_depth() -> None:
-    """What the window does: places of the deepest tree serve all shallower ones, since they are its first rows."""
+    """As in the window: positions of the deepest tree serve all shallower ones, since these are its first rows."""
     deep = plates(2, 6, 1)
     places = tidy_layout(deep, set(range(len(deep)))).places
     for depth in range(6):

@@ -1,4 +1,4 @@
-"""What panels owe whoever sits in the last row: every letter drawn, every line inside, the right panel in front."""
+"""Readability of panels: every letter has a glyph, every line fits, the right panel is in front."""
 
 import ast
 from pathlib import Path
@@ -31,7 +31,7 @@ def window(title: str) -> internal.Window:
 
 
 def written() -> str:
-    """Every string of the viewer and of what it quotes, and the lessons' texts."""
+    """All strings of the viewer and of the texts that it shows, and the lessons' texts."""
     sources = [
         *(ROOT / "viewer").rglob("*.py"),
         ROOT / "tracer" / "tree" / "text.py",

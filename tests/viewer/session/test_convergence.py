@@ -1,4 +1,4 @@
-"""The image converges while one looks: the same samples as `raytree render`, every setting's curve, and a map."""
+"""Refinement in the window: the same samples as `raytree render`, the curve of every method, and a map."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -57,7 +57,7 @@ def current(driver: Driver) -> Run:
 
 
 def refine(driver: Driver, samples: float) -> Run:
-    """Until there are so many a pixel; then paused, and nothing at work any more."""
+    """Refine to a number of samples a pixel, then pause, with no work left."""
     session = driver.session
     if not session.refinement.is_running:
         driver.type("r")
@@ -74,7 +74,7 @@ def refine(driver: Driver, samples: float) -> Run:
 
 
 def test_the_image_is_that_of_its_samples(room: Driver) -> None:
-    """What is on the screen is the mean of each pixel's samples, and these are a plain image's to the last bit."""
+    """The picture on the screen is the mean of each pixel's samples, equal to a plain image's to the last bit."""
     world = room.session.world
     assert world
     run = refine(room, 4.0)
@@ -171,12 +171,12 @@ def test_nothing_more_to_gain(tmp_path: Path) -> None:
         until(driver, lambda: not driver.session.refinement.is_running)
         assert current(driver).ended
         assert current(driver).points[-1].error == 0.0
-        driver.type("r")  # and once more, for nothing
+        driver.type("r")  # once more, without an effect
         until(driver, lambda: not driver.session.refinement.is_running)
 
 
 def test_maps(room: Driver) -> None:
-    """The map is each pixel's own colour on the scale, where the image stands; and that is back at once."""
+    """The map shows each pixel's value on the colour scale in place of the image. The image returns at once."""
     state = room.session.refinement
     run = refine(room, 4.0)
     assert run.image
@@ -210,7 +210,7 @@ def test_the_scale_of_a_map() -> None:
 
 
 def test_the_button_and_the_choice_of_a_way(room: Driver) -> None:
-    """By the mouse: the panel comes to the front, its button refines, its list has every way."""
+    """By the mouse: the panel comes to the front, its button refines, its list has every method."""
     room.type("r")
     room.type("r")
     place = window(error.PANEL.title).inner_rect
@@ -231,7 +231,7 @@ def test_forecast_of_a_power() -> None:
     assert math.isnan(forecast(points[:1], 1.0))
     assert math.isnan(forecast([], 1.0))
     risen = [RoundStats(t, 1, 1.0, 1, 1, 0.1 * t) for t in (1.0, 2.0)]
-    assert forecast(risen, 1.0) == 0.2  # nothing says that it will rise on
+    assert forecast(risen, 1.0) == 0.2  # an error that rises is not extrapolated
 
 
 def test_ticks_are_round_numbers() -> None:

@@ -1,4 +1,4 @@
-"""Ctrl+S in the window: the figure of what is on show, and the command line that makes the same bytes again."""
+"""Ctrl+S in the window: the figure on show, and a command line that makes the same bytes."""
 
 import os
 import shlex
@@ -25,7 +25,7 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Driver]:
 
 
 def press_save(room: Driver) -> None:
-    """And wait for what comes of it, however it ends."""
+    """Press Ctrl+S and wait until it has succeeded or failed."""
     room.press(imgui.Key.mod_ctrl, imgui.Key.s)
     while room.session.export.making:
         room.session.export.making.exception()
@@ -34,7 +34,7 @@ def press_save(room: Driver) -> None:
 
 
 def save(room: Driver) -> Path:
-    """Press Ctrl+S; the file that comes of it."""
+    """Press Ctrl+S and return the file."""
     before = set(Path().iterdir())
     press_save(room)
     (path,) = set(Path().iterdir()) - before
@@ -67,7 +67,7 @@ def test_an_earlier_figure_is_never_lost(room: Driver) -> None:
 
 
 def test_without_a_clipboard_that_is_said() -> None:
-    """In a process of its own: the library asks for a screen once. With one: tests/viewer/window/test_window.py."""
+    """In a process of its own: the library looks for a screen once. With one: tests/viewer/window/test_window.py."""
     code = "from viewer.base.clipboard import copy_to_clipboard; copy_to_clipboard('words')"
     bare = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
     run = subprocess.run([sys.executable, "-c", code], env=bare, capture_output=True, text=True)
@@ -77,7 +77,7 @@ def test_without_a_clipboard_that_is_said() -> None:
 
 
 def test_the_choice_is_kept(room: Driver, tmp_path: Path) -> None:
-    """From one start to the next; what is no choice of ours counts as none."""
+    """From one start to the next. An invalid choice is ignored."""
     kept = tmp_path / "kept" / "figure.json"
     kept.parent.mkdir()
     room.open("mirror-balls")

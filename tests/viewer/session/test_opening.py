@@ -1,4 +1,4 @@
-"""Scenes that are opened, dropped, edited while they are on show, and mended. Real GL, no screen."""
+"""Scenes that are opened, dropped, edited while on show, and repaired. Real GL, no screen."""
 
 import os
 from pathlib import Path
@@ -16,7 +16,7 @@ def write_ball(path: Path, radius: str, color: str = "[1, 0, 0]") -> None:
 
 
 def saved(driver: Driver, path: Path) -> None:
-    """Let the watcher see the file that was just written, without waiting for its clock."""
+    """Let the watcher see the file that was just written, without waiting for its timer."""
     stamp = path.stat().st_mtime_ns + 1_000_000
     os.utime(path, ns=(stamp, stamp))
     for _ in range(3):
@@ -94,7 +94,7 @@ def test_mesh_opens_without_a_camera_of_its_own(tmp_path: Path) -> None:
 
 
 def test_scene_of_any_size_is_drawn(tmp_path: Path) -> None:
-    """Light years or nanometres: the 3D view has the same digits for either."""
+    """Light years or nanometres: the 3D view has the same relative accuracy."""
     pictures = []
     for scale in (1.0, 1e60, 1e-60):
         path = tmp_path / f"scene{scale}.toml"

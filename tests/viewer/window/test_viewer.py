@@ -1,4 +1,4 @@
-"""The viewer by its own events: what a click, a drag and a key lead to. Real GL, no screen."""
+"""The viewer driven by events: effects of clicks, drags and keys. Real GL, no screen."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ def glass():
 
 
 def same_tree(driver: Driver, world: tracer.World, **options: object) -> bool:
-    """Whether the tree on show is the one that the tracer gives for the picked pixel."""
+    """True if the tree on show is the tracer's own for the picked pixel."""
     session = driver.session
     expected = tracer.trace(world, session.pixel, depth=session.depth, model=session.model, **options)  # type: ignore[arg-type]
     assert session.tree
@@ -52,7 +52,7 @@ def test_dragging_scrubs_from_pixel_to_pixel(glass: Driver, worlds: dict[str, tr
         glass.move(*place)
         seen.append(glass.session.pixel)
         assert same_tree(glass, worlds["glass-ball"])
-    glass.move(*glass.pixel_at(5000, 300))  # out of the picture: its last column
+    glass.move(*glass.pixel_at(5000, 300))  # outside the image: its last column
     assert glass.session.pixel == (799, 300)
     glass.button(False)
     assert seen == [(x, 300) for x in range(350, 450, 10)]
@@ -125,7 +125,7 @@ def test_turning_the_view_selects_nothing_and_scrolling_zooms(glass: Driver) -> 
 
 
 def test_what_is_under_the_hand_stays_under_it(glass: Driver) -> None:
-    """Sliding moves a point at the target's distance by just as much as the mouse."""
+    """Panning moves a point at the target's distance by as much as the mouse."""
     left, top, width, height = glass.canvas.stage_place
     middle = (left + width / 2, top + height / 2)
     glass.drag([middle, (middle[0] + 50, middle[1] - 30)], which=1)
@@ -137,7 +137,7 @@ def test_what_is_under_the_hand_stays_under_it(glass: Driver) -> None:
     start = glass.session.orbit.target
     places, _ = project(start[None], orbit.matrix(width / height), (width, height))
     moved = places[0] - np.array([width / 2, height / 2])
-    # Two frames pass before imgui's first delta: what was dragged is what moved.
+    # imgui reports its first delta after two frames: the view moves by the drag that was reported.
     assert moved == pytest.approx([50, -30], abs=1.0)
     assert before.distance == orbit.distance
 
@@ -216,11 +216,11 @@ def test_image_is_coarse_at_once_and_kept_for_other_depths() -> None:
 
 @pytest.mark.parametrize("name", ["glass-ball", "mirror-balls"])
 def test_image_on_show_is_the_rendered_one_to_the_last_pixel(name: str, worlds: dict[str, tracer.World]) -> None:
-    """Only new tiles are encoded and sent, from the first coarse ones on: nothing may be left out, in any size."""
+    """Only new tiles are encoded and sent, from the first coarse ones on. None may be missing, at any size."""
     with viewer() as driver:
         driver.open(name)
         session = driver.session
-        for size in ((640, 480), (333, 217), (1, 1)):  # as others change it, while the window goes on
+        for size in ((640, 480), (333, 217), (1, 1)):  # as other images change it, while the window goes on
             assert session.world
             session.image.show(session.world, make_limits(session.world, 2, records=False), size)
             for _ in range(5):  # of tiles as they come
@@ -270,14 +270,14 @@ def test_every_lesson_opens_on_its_pixel_and_draws_every_panel(name: str) -> Non
         picture = driver.picture()
         left, top, width, height = (int(value) for value in driver.canvas.stage_place)
         stage = picture[top : top + height, left : left + width].reshape(-1, 3)
-        assert len(np.unique(stage, axis=0)) > 2000  # a scene, not an empty ground
+        assert len(np.unique(stage, axis=0)) > 2000  # a scene, not an empty background
         for row in range(len(session.tree)):
             session.select(row)
             driver.frames(1)
 
 
 def test_near_by_pixels_are_squares(glass: Driver) -> None:
-    """What is clicked on is seen as it is: one colour, up to where the next pixel begins."""
+    """Magnified pixels are squares of one colour, up to the border of the next pixel."""
     session = glass.session
     session.clear()
     session.clear()

@@ -29,7 +29,7 @@ def display() -> str:
 
 
 class Desk:
-    """A viewer in its window, and what it takes to use it by hand."""
+    """A viewer in its window, and the means to use it by mouse and keys."""
 
     def __init__(self, name: str) -> None:
         self.window = Window("raytree", (1280, 720))
@@ -42,7 +42,9 @@ class Desk:
         self.id = glfw.get_x11_window(self.window.window)
 
     def until(self, true: Callable[[], bool], what: str) -> None:
-        """Take events as they come until something is so; that it never is, is a failure, not a matter of time."""
+        """Handle events until a condition is true. A condition that never becomes true is a failure, not a matter of
+        time.
+        """
         for _ in range(600):
             self.window.wait(0.02)
             self.session.update()
@@ -58,7 +60,7 @@ class Desk:
         return picture is not None and picture.finished and self.session.tree is not None
 
     def place(self) -> tuple[int, int]:
-        """Where the window's inside begins on the screen."""
+        """The position of the window's client area on the screen."""
         return glfw.get_window_pos(self.window.window)
 
     def pixel_at(self, x: int, y: int) -> tuple[int, int]:
@@ -79,7 +81,7 @@ def desk() -> Iterator[Desk]:
 
 
 def shows_tree_of(desk: Desk, world: tracer.World) -> bool:
-    """Whether the node table on show is the tracer's own for the pixel and depth on show."""
+    """True if the node table on show is the tracer's own for the pixel and depth on show."""
     session = desk.session
     assert session.tree
     expected = tracer.trace(world, session.pixel, depth=session.depth, model=session.model)
@@ -143,7 +145,7 @@ def test_sizes_tiny_and_large(desk: Desk, worlds: dict[str, tracer.World]) -> No
 def test_minimised_and_back(desk: Desk, worlds: dict[str, tracer.World]) -> None:
     hand("windowminimize", desk.id)
     desk.until(lambda: desk.window.minimised, "the window going")
-    desk.session.set_depth(1)  # the program goes on meanwhile
+    desk.session.set_depth(1)  # by the program, while the window is minimised
     desk.session.image.wait()
     hand("windowmap", desk.id)
     desk.until(lambda: not desk.window.minimised, "the window coming back")
@@ -152,7 +154,7 @@ def test_minimised_and_back(desk: Desk, worlds: dict[str, tracer.World]) -> None
 
 
 def test_program_runs_by_itself_and_ends_on_its_key(tmp_path: Path) -> None:
-    """The command as a user starts it: a window of its own comes up, Ctrl+Q closes it, the status is 0."""
+    """The command as a user starts it: a window comes up, Ctrl+Q closes it, the status is 0."""
     command = [str(Path(sys.executable).parent / "raytree"), "view", "two-lights", "--pixel", "300,300"]
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         window = hand("search", "--sync", "--onlyvisible", "--name", "A room with two lights").splitlines()[0]
@@ -176,12 +178,12 @@ else:
 
 
 def pasted(what: str) -> bytes:
-    """What another program finds in the clipboard."""
+    """The content of the clipboard, as another program reads it."""
     return subprocess.run([sys.executable, "-c", PASTE, what], capture_output=True, check=True).stdout
 
 
 def test_a_copied_figure_is_pasted_elsewhere(desk: Desk, tmp_path: Path) -> None:
-    """As the very picture that the copied command line writes; TikZ as its text."""
+    """The picture in the clipboard equals the one that the copied command line writes; TikZ is copied as text."""
     home = desk.session.export
     home.figure, home.theme = "tree", "light"
     hand("windowactivate", "--sync", desk.id)

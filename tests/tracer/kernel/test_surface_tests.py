@@ -1,4 +1,6 @@
-"""How many surfaces were tested, counted by hand: every ray against every surface, but for shadows that are settled."""
+"""Counts of surface tests, by hand: every ray is tested against every surface; a shadow ray stops at its first
+occluder.
+"""
 
 import numpy as np
 
@@ -18,7 +20,7 @@ def test_without_lights_every_ray_is_tested_against_every_surface() -> None:
 
 
 def test_a_shadow_ray_ends_with_the_first_that_blocks_it() -> None:
-    """The floor is lit from above the lid: its shadow rays meet the lid first or second, as they stand in the file."""
+    """The floor is lit from above the lid: its shadow rays meet the lid first or second, in the order of the file."""
     floor, lid = plane((0, -1, 0), (0, 1, 0)), plane((0, 4, 0), (0, 1, 0), name="lid")
     lamp = Light("lamp", position=(0, 5, 0))
     for objects, tests in (((floor,), 1), ((lid, floor), 1), ((floor, lid), 2)):
@@ -28,7 +30,9 @@ def test_a_shadow_ray_ends_with_the_first_that_blocks_it() -> None:
 
 
 def test_a_block_of_triangles_counts_as_eight() -> None:
-    """Four in one block, one behind the other, that every ray passes through: eight lanes, then each of the four."""
+    """A block of triangles counts as its eight lanes, then as one for each triangle that the SIMD test keeps: four
+    here.
+    """
     corners = [[(-90.0, -90.0, -k), (90.0, -90.0, -k), (0.0, 90.0, -k)] for k in range(4)]
     faces = np.arange(12).reshape(4, 3)
     mesh = Object(Mesh(Geometry(np.array(corners, float).reshape(-1, 3), faces, None)), MATTE, "faces")
