@@ -1,20 +1,20 @@
-# The README's two commands are `make run` and `make test`. Everything is kept in .venv; nothing is installed elsewhere,
-# but for the system packages that tests need, and those only as root or with sudo.
+# The README's two commands are `make run` and `make test`. Everything is installed in .venv, except the system packages
+# that tests need; those are installed only as root or with sudo.
 
 PYTHON ?= $(firstword $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p; done))
 BIN := .venv/bin
 
-# What tests use besides Python: a screen without a monitor, a hand for its mouse, a window manager, OpenGL in software,
-# and POV-Ray as the independent program that images are held against. PROGRAM:PACKAGE, and libraries.
+# Programs that tests use: an X server without a monitor, xdotool for its mouse, a window manager, OpenGL in software, and
+# POV-Ray as the independent program that images are compared with. PROGRAM:PACKAGE, and libraries.
 PROGRAMS := Xvfb:xvfb xdotool:xdotool openbox:openbox povray:povray setpriv:util-linux rsvg-convert:librsvg2-bin \
 	pdftotext:poppler-utils
 LIBRARIES := libEGL.so.1:libegl1 libGL.so.1:libgl1 swrast_dri.so:libgl1-mesa-dri
 
-# What only `make test-all` uses: an office program and TeX, which read what is exported.
+# Programs for `make test-all` only: an office program and TeX, which open exported files.
 OFFICE := soffice:libreoffice-impress pdflatex:texlive-latex-extra kpsewhich:texlive-pictures
 
-# Two processes, each with whole files; what is compiled is compiled before, not by both.
+# Two processes, each with whole files of tests. The kernels are compiled before, so that not both do it.
 SIDE_BY_SIDE := -n 2 --dist loadfile
 
 .PHONY: run test test-all check bench bench-quick bench-stable picture gallery clean
@@ -27,7 +27,8 @@ test: .venv/installed-dev
 	$(BIN)/python -c 'from tracer.image.warmup import fill_cache; fill_cache()'
 	$(BIN)/python -m pytest -q $(SIDE_BY_SIDE)
 
-# With the tests that need an office program and TeX, which take hundreds of megabytes, and those that compile more kernels.
+# Also the slow tests: those with an office program and TeX, which take hundreds of megabytes, and those that compile
+# more kernels.
 test-all: .venv/installed-dev
 	@sh .ci/system-packages '$(PROGRAMS) $(OFFICE)' '$(LIBRARIES)'
 	$(BIN)/python -m pytest -q $(SIDE_BY_SIDE) -m ''
@@ -43,12 +44,12 @@ bench: .venv/installed-bench
 	@sh .ci/system-packages '$(PROGRAMS)' '$(LIBRARIES)'
 	$(BIN)/python -m benchmarks $(BENCH)
 
-# What a change did to speed, in two minutes: against the figures of the last `make bench` where there are any.
+# The effect of a change on speed, in two minutes: compared with the figures of the last `make bench`, if there are any.
 bench-quick: .venv/installed-bench
 	@sh .ci/system-packages '$(PROGRAMS)' '$(LIBRARIES)'
 	$(BIN)/python -m benchmarks povray embree growth --runs 3 --output out/quick $(addprefix --against ,$(wildcard out/bench.json))
 
-# What the stable formulas cost, against the textbook's in the same kernel.
+# The cost of the stable formulas, against the textbook's in the same kernel.
 bench-stable: .venv/installed-dev
 	$(BIN)/python -m benchmarks.against_textbook
 

@@ -1,4 +1,4 @@
-// Arrow heads of constant size in pixels, on the rays. In, a head: the ray's two ends, where on it, colour, kind.
+// Arrow heads of constant size in pixels, on the rays. Inputs of a head: the ray's two ends, position along it, colour, kind.
 #version 330
 uniform mat4 world_to_clip;
 uniform vec2 size;
@@ -27,7 +27,7 @@ void main() {
     vec2 along = 0.5 * size * (end.xy / end.w - start.xy / start.w) / scale;
     float far = length(along);
     along = far > 1e-6 ? along / far : vec2(1.0, 0.0);
-    // A ray that is hardly longer than its arrow, or seen along its length, gets none.
+    // No arrow on a ray that is hardly longer than it, or seen along its length.
     if (far < 1.6 * length_px) { gl_Position = vec4(0.0, 0.0, 2.0, 1.0); return; }
     vec2 across = vec2(-along.y, along.x);
     reach = length_px;

@@ -1,6 +1,6 @@
-// Rays as strips of constant width in pixels. In, a line a strip: two ends in the world, colour, width, dash, fading.
-// A line is first cut to a few pictures' width about the picture, before anything is divided by its depth: what starts
-// behind the eye would otherwise be millions of pixels long, and its dashes nothing but rounding.
+// Rays as strips of constant width in pixels. Inputs of a strip: two ends in the world, colour, width, dash, fading.
+// Clip lines to a few widths of the picture before the division by depth: a line that starts behind the eye would
+// otherwise be millions of pixels long, and its dashes would be rounding errors.
 #version 330
 uniform mat4 world_to_clip;
 uniform vec2 size;     // of the picture, in pixels
@@ -22,7 +22,7 @@ flat out float fades;
 const float NEAR = 1e-4;
 const float AROUND = 4.0;  // half widths of the picture
 
-// Keep of the line from a to b, from x to y as shares of it, what lies on the side where a linear form is above 0.
+// Clip the part [x, y] of the line from a to b to where a linear form is positive.
 void keep(float at_a, float at_b, inout vec2 part) {
     if (at_a < 0.0 && at_b < 0.0) part = vec2(1.0, 0.0);
     else if (at_a < 0.0) part.x = max(part.x, at_a / (at_a - at_b));

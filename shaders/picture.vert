@@ -1,4 +1,4 @@
-// A picture on a four-cornered face in the world: the rendered image on the camera's image plane.
+// A picture on a quadrangle in the world: the rendered image on the camera's image plane.
 #version 330
 uniform mat4 world_to_clip;
 uniform vec3 corners[4];  // top left, bottom left, top right, bottom right

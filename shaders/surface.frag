@@ -1,6 +1,6 @@
-// A surface of the scene as the tracer's local term has it: ambient, diffuse and highlight of every light, no shadows.
-// Mirrors and glass show a made-up sky in place of what they would reflect; glass is thin in the middle and dense at the
-// rim, by Fresnel's law, so that rays inside it stay readable. Where a plane has no end it fades out.
+// A surface of the scene, shaded by the tracer's local term: ambient, diffuse and highlight of every light, no shadows.
+// Mirrors and glass reflect an artificial sky. Glass is nearly clear in the middle and opaque at the rim, by Fresnel's
+// law, so that rays inside it stay readable. An infinite plane fades out.
 // GLASS, MIRROR, CHECKER are defined for scenes that have such surfaces.
 #version 330
 #include "common.glsl"
@@ -8,21 +8,21 @@
 const int MOST_LIGHTS = 8;
 
 uniform sampler2D materials;  // color+ambient; checker color+size; diffuse, specular, shininess, reflect; transmit, ior, flat
-uniform sampler2D axes;       // of flat checkers, a column a material: u, v
+uniform sampler2D axes;       // of flat checkers, one column a material: u, v
 uniform int light_count;
-uniform vec4 lights[MOST_LIGHTS];       // w = 1: a place, w = 0: the direction towards it
+uniform vec4 lights[MOST_LIGHTS];       // w = 1: a position, w = 0: the direction towards it
 uniform vec3 light_colors[MOST_LIGHTS];
 uniform vec3 ambient;
 uniform vec3 eye;
 uniform vec3 up;
 uniform vec3 sky_top;
 uniform vec3 sky_bottom;
-uniform float fade_from;  // distance from `fade_center` at which an endless plane begins to fade, 0: it has an end
+uniform float fade_from;  // distance from `fade_center` at which an infinite plane begins to fade, 0: a finite surface
 uniform float fade_to;
 uniform vec3 fade_center;
-uniform vec3 origin;      // what is added to a place to count the checker's squares from the world's origin
+uniform vec3 origin;      // added to a position, so that checkers count from the world's origin
 uniform vec4 edge;        // of the outline of glass
-uniform float ghost;      // > 0: the far side of a wall, only so opaque that one knows it is there
+uniform float ghost;      // > 0: opacity of a wall that is seen from behind
 
 in vec3 place;
 in vec3 n;
@@ -30,7 +30,7 @@ flat in int which;
 out vec4 color;
 
 #ifdef CHECKER
-// Share of one colour of the checker along one axis, averaged over the pixel's width, so that far squares do not flicker.
+// Share of one colour of the checker along one axis, averaged over the pixel's width to avoid aliasing of far squares.
 float stripe(float x, float w) {
     w = max(w, 1e-6);
     vec2 ends = vec2(x - 0.5 * w, x + 0.5 * w);
@@ -46,7 +46,7 @@ float checker(vec4 second, vec4 u, vec4 v) {
         return s + t - 2.0 * s * t;
     }
     vec3 w = fwidth(p);
-    // Half a millionth along the axes: a face that lies exactly between two layers of cubes takes one of them as a whole.
+    // An offset of half a millionth along the axes: a face exactly between two layers of cubes takes one of them as a whole.
     p += 5e-7;
     float s = stripe(p.x, w.x), t = stripe(p.y, w.y), r = stripe(p.z, w.z);
     float st = s + t - 2.0 * s * t;
@@ -98,7 +98,7 @@ void main() {
         light = light + mix(0.55 * mix(sky(v), base, 0.5), mirrored, rim);
         alpha = clamp(0.10 + 0.6 * (1.0 - glass.x) + rim, 0.0, fade_from > 0.0 ? 0.26 : 0.85);
         alpha = clamp(alpha + dot(shine, vec3(0.33)), 0.0, 0.92);
-        // The outline of what is round: where it turns away from the eye within a pixel.
+        // The outline of curved surfaces: where the normal turns away from the eye within a pixel.
         float turns = fwidth(c1);
         float rim_line = turns > 0.02 ? edge.a * (1.0 - smoothstep(0.4, 1.4, c1 / turns)) : 0.0;
         light = mix(light, pow(edge.rgb, vec3(2.2)), rim_line);

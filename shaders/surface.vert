@@ -1,5 +1,5 @@
-// A surface of the scene. In: corner and normal in the world, or of a unit ball that `ball` places (w: its radius).
-// Out: world position, normal, and which material.
+// A surface of the scene. Inputs: corner and normal in the world, or of a unit ball scaled by `ball` (w: its radius).
+// Outputs: world position, normal, material number.
 #version 330
 uniform mat4 world_to_clip;
 in vec3 corner;

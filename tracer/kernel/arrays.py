@@ -35,11 +35,11 @@ class MaterialRow(Row):
 
 
 class LightRow(Row):
-    """One light."""
+    """One light. Fields are the author's of the same name (`tracer.scene.Light`), and two derived ones."""
 
     position: Float3
-    towards: Float3  # of a light at infinity: unit vector from the scene to it
     color: Float3
+    towards: Float3  # of a light at infinity: unit vector from the scene to it
     distant: Bool
 
 

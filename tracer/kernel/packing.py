@@ -1,5 +1,6 @@
 """From a scene to the rows that kernels read. Surfaces are in the file's order: their ids decide ties."""
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from tracer.compile.rows import Rows, as_rows
 from tracer.formulas.vector import Vector, cross, rescale, unit
 from tracer.kernel.arrays import LIGHT, MATERIAL, OBJECT, LightRow, MaterialRow, ObjectRow
-from tracer.scene import Material, Object, Scene, Shape
+from tracer.scene import Light, Material, Object, Scene, Shape
 from tracer.shapes import CODES
 from tracer.shapes.surface_row import SURFACE, SurfaceRow
 
@@ -90,28 +91,29 @@ def plane_axes(n: Vector) -> tuple[Vector, Vector]:
 
 
 def pack_materials(materials: dict[Material, int]) -> Rows[MaterialRow]:
-    """Each field by its name."""
-    rows = np.zeros(len(materials), MATERIAL)
-    for row, material in zip(rows, materials, strict=True):
-        for name in MATERIAL.names or ():
-            part, _, inner = name.partition("_")
-            value = getattr(material, part)
-            if not inner:
-                row[name] = value
-            elif value is not None:
-                row[name] = getattr(value, inner)
-    return as_rows(rows, MaterialRow)
+    """One row for each material, by its number."""
+    return as_rows(_by_name(list(materials), MATERIAL), MaterialRow)
 
 
 def pack_lights(scene: Scene) -> Rows[LightRow]:
-    """In the file's order."""
-    rows = np.zeros(len(scene.lights), LIGHT)
+    """One row for each light, in the file's order."""
+    rows = _by_name(scene.lights, LIGHT)
     for row, light in zip(rows, scene.lights, strict=True):
-        row["color"] = light.color
         row["distant"] = light.direction is not None
         if light.direction is not None:
             x, y, z = unit(rescale(light.direction))
             row["towards"] = (-x, -y, -z)
-        elif light.position is not None:
-            row["position"] = light.position
     return as_rows(rows, LightRow)
+
+
+def _by_name(items: Sequence[Material | Light], dtype: np.dtype) -> np.ndarray:
+    """Copy fields to those of the same name; `checker_x` is `checker.x`. A field that is None, or absent, stays 0."""
+    rows = np.zeros(len(items), dtype)
+    for row, item in zip(rows, items, strict=True):
+        for name in dtype.names or ():
+            value: Any = item
+            for part in (name,) if hasattr(item, name) else name.split("_"):
+                value = getattr(value, part, None)
+            if value is not None:
+                row[name] = value
+    return rows
