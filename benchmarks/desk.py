@@ -37,7 +37,7 @@ class Desk(App):
         self.took: list[float] = []
         self.enough: Callable[[], bool] = lambda: False
         self.over = False
-        self.session.open(scene)
+        self.session.loader.open(scene)
         self.settle()
 
     def frame(self) -> None:

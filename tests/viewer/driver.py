@@ -24,11 +24,11 @@ class Driver:
 
     def open(self, name: str) -> None:
         found = lesson.read(name)
-        self.session.open(found.scene, found)
+        self.session.loader.open(found.scene, found)
         self.app.settle()
 
     def open_file(self, path: Path) -> None:
-        self.session.open(path)
+        self.session.loader.open(path)
         self.app.settle()
 
     def resize(self, size: tuple[int, int]) -> None:

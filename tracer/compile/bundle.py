@@ -56,7 +56,9 @@ class Bundle:
                 entries.append(FieldLayout(name, kind, len(table), tail))
                 table += [value.ctypes.data, *value.shape]
             elif isinstance(value, tuple):
-                entries.append(FieldLayout(name, FunctionTableType(value), len(table), ()))
+                kind = FunctionTableType(cast(Any, value).name)
+                kind.functions = value
+                entries.append(FieldLayout(name, kind, len(table), ()))
             else:
                 entries.append(
                     FieldLayout(name, types.boolean if isinstance(value, bool) else types.int64, len(table), ())
@@ -94,14 +96,20 @@ class FieldLayout(NamedTuple):
 
 
 class FunctionTableType(types.Opaque):
-    """Numba's type of a NamedTuple of functions. The field `name` tells one table from another."""
+    """Numba's type of a NamedTuple of functions, whose field `name` tells it from others.
 
-    def __init__(self, functions: Any) -> None:
-        self.functions = functions
-        super().__init__(f"FunctionTable({functions.name})")
+    In the list of cached kernels it stands without functions, which only compilation needs. Numba keeps one instance of
+    equal types, so a type from that list gets its functions when a Bundle has them.
+    """
+
+    functions: Any = None
+
+    def __init__(self, name: str) -> None:
+        self.table = name
+        super().__init__(f"FunctionTable({name})")
 
     def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
-        return (FunctionTableType, (self.functions,))
+        return (FunctionTableType, (self.table,))
 
 
 class BundleType(types.Type):

@@ -3,6 +3,7 @@
 Called from Python, these functions compute the same more slowly, or do nothing.
 """
 
+from functools import wraps
 from typing import Any
 
 from llvmlite import ir
@@ -19,17 +20,18 @@ def data_pointer(context: Any, builder: Any, kind: Any, array: Any) -> Any:
     return make_array(kind)(context, builder, array).data
 
 
+def lowering(function: Any, result: types.Type, *arguments: Any) -> Any:
+    """Decorator: calls of `function` with arguments of these types compile to the LLVM IR that the decorated emits."""
+    type_callable(function)(lambda context: wraps(function)(lambda *_: result))
+    return lower_builtin(function, *arguments)
+
+
 def noinline() -> None:
     """As a function's first line: never inline it. For code that is large and rarely executed."""
 
 
-@type_callable(noinline)
-def _type_noinline(context: Any) -> Any:
-    return lambda: types.none
-
-
-@lower_builtin(noinline)
-def _lower_noinline(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+@lowering(noinline, types.none)
+def _noinline(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     builder.function.attributes.add("noinline")
     return context.get_dummy_value()
 
@@ -42,13 +44,8 @@ def as_unsigned(number: int) -> int:
     return number
 
 
-@type_callable(as_unsigned)
-def _type_as_unsigned(context: Any) -> Any:
-    return lambda number: types.uint64
-
-
-@lower_builtin(as_unsigned, types.Integer)
-def _lower_as_unsigned(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+@lowering(as_unsigned, types.uint64, types.Integer)
+def _as_unsigned(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     return context.cast(builder, arguments[0], signature.args[0], types.uint64)
 
 
@@ -56,13 +53,8 @@ def prefetch(rows: Any, number: int) -> None:
     """Prefetch a row of an array into the processor's cache."""
 
 
-@type_callable(prefetch)
-def _type_prefetch(context: Any) -> Any:
-    return lambda rows, number: types.none
-
-
-@lower_builtin(prefetch, types.Array, types.Integer)
-def _lower_prefetch(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+@lowering(prefetch, types.none, types.Array, types.Integer)
+def _prefetch(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     kind = signature.args[0]
     size, byte, word, short = kind.dtype.size, ir.IntType(8).as_pointer(), ir.IntType(64), ir.IntType(32)
     data = builder.bitcast(data_pointer(context, builder, kind, arguments[0]), byte)
@@ -92,12 +84,7 @@ def product_error(a: Any, b: Any, product: Any) -> Any:
     return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
 
 
-@type_callable(product_error)
-def _type_product_error(context: Any) -> Any:
-    return lambda a, b, product: types.float64
-
-
-@lower_builtin(product_error, types.float64, types.float64, types.float64)
-def _lower_product_error(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+@lowering(product_error, types.float64, types.float64, types.float64, types.float64)
+def _product_error(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     a, b, product = arguments
     return builder.fma(a, b, builder.fneg(product))

@@ -12,7 +12,7 @@ from numba import types
 from numba.core.datamodel import models
 from numba.extending import lower_builtin, register_model, type_callable
 
-from tracer.compile.intrinsics import data_pointer
+from tracer.compile.intrinsics import data_pointer, lowering
 
 WIDTH = 8
 
@@ -72,13 +72,8 @@ def lowest_bit(bits: int) -> int:
     return (int(bits) & -int(bits)).bit_length() - 1
 
 
-@type_callable(load_lanes)
-def _type_load_lanes(context: Any) -> Any:
-    return lambda row: LANES
-
-
-@lower_builtin(load_lanes, types.Array)
-def _lower_load_lanes(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+@lowering(load_lanes, LANES, types.Array)
+def _load_lanes(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     data = data_pointer(context, builder, signature.args[0], arguments[0])
     if signature.args[0].dtype == types.float64:
         return builder.load(builder.bitcast(data, DOUBLES.as_pointer()), align=8)
@@ -90,13 +85,8 @@ def _splat(builder: Any, number: Any) -> Any:
     return builder.shuffle_vector(one, one, ir.Constant(ir.VectorType(ir.IntType(32), WIDTH), [0] * WIDTH))
 
 
-@type_callable(broadcast)
-def _type_broadcast(context: Any) -> Any:
-    return lambda number: LANES
-
-
-@lower_builtin(broadcast, types.float64)
-def _lower_broadcast(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+@lowering(broadcast, LANES, types.float64)
+def _broadcast(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     return _splat(builder, arguments[0])
 
 
@@ -130,8 +120,7 @@ def _lower_choice(sign: str) -> Any:
 
 
 for _function, _sign in ((lanes_max, ">"), (lanes_min, "<")):
-    type_callable(_function)(lambda context: lambda a, b: LANES)
-    lower_builtin(_function, LanesType, LanesType)(_lower_choice(_sign))
+    lowering(_function, LANES, LanesType, LanesType)(_lower_choice(_sign))
 
 
 def _lower_comparison(sign: str) -> Any:
@@ -143,27 +132,16 @@ def _lower_comparison(sign: str) -> Any:
 
 
 for _function, _sign in ((mask_less_equal, "<="), (mask_less, "<")):
-    type_callable(_function)(lambda context: lambda a, b: types.int64)
-    lower_builtin(_function, LanesType, LanesType)(_lower_comparison(_sign))
+    lowering(_function, types.int64, LanesType, LanesType)(_lower_comparison(_sign))
 
 
-@type_callable(store_lanes)
-def _type_store_lanes(context: Any) -> Any:
-    return lambda a, row: types.none
-
-
-@lower_builtin(store_lanes, LanesType, types.Array)
-def _lower_store_lanes(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+@lowering(store_lanes, types.none, LanesType, types.Array)
+def _store_lanes(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     data = data_pointer(context, builder, signature.args[1], arguments[1])
     builder.store(arguments[0], builder.bitcast(data, DOUBLES.as_pointer()), align=8)
     return context.get_dummy_value()
 
 
-@type_callable(lowest_bit)
-def _type_lowest_bit(context: Any) -> Any:
-    return lambda bits: types.int64
-
-
-@lower_builtin(lowest_bit, types.int64)
-def _lower_lowest_bit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+@lowering(lowest_bit, types.int64, types.int64)
+def _lowest_bit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
     return builder.cttz(arguments[0], ir.IntType(1)(1))

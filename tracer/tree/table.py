@@ -74,10 +74,6 @@ class TreeTable:
         """The kind of ray i, one of KINDS."""
         return KINDS[self.nodes["kind"][i]]
 
-    def is_shadow(self, i: int) -> bool:
-        """Whether ray i is a shadow ray."""
-        return bool(self.nodes["kind"][i] == SHADOW)
-
     def end(self, i: int) -> str | None:
         """Why nothing follows ray i, one of ENDS; None if it has children and none was cut."""
         code = self.nodes["end"][i]

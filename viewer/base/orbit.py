@@ -117,6 +117,11 @@ class Orbit:
         right /= np.linalg.norm(right)
         return right, np.cross(self.outward, right)
 
+    def view(self, frame: Frame) -> tuple[float, ...]:
+        """Azimuth and elevation in degrees, distance in radii of the scene, and the target in the world."""
+        target = frame.middle + frame.radius * self.target
+        return (math.degrees(self.azimuth), math.degrees(self.elevation), self.distance, *target.tolist())
+
     def turn(self, dx: float, dy: float) -> None:
         """Turn by these angles in radians, so that the scene follows the mouse."""
         self.azimuth -= dx

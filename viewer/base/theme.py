@@ -101,7 +101,7 @@ class Theme:
     haze: Color  # bottom of the 3D view
     border: Color
     dark: bool
-    mono: bool = False  # black only: kinds of rays differ by letter, dash and arrow
+    mono: bool  # black only: kinds of rays differ by letter, dash and arrow
 
     def ray(self, kind: str) -> Color:
         if self.mono:
@@ -130,57 +130,29 @@ def curve_color(theme: Theme, k: int) -> Color:
     return rgb(dark if theme.dark else light)
 
 
-DARK = Theme(
-    name="dark",
-    ground=rgb("#16181C"),
-    panel=rgb("#1E2126"),
-    raised=rgb("#2B3038"),
-    hover=rgb("#3A414C"),
-    text=rgb("#ECEFF3"),
-    muted=rgb("#9AA4B2"),
-    accent=rgb("#F2C14E"),
-    on_accent=rgb("#16181C"),
-    fault=rgb("#FF8A80"),
-    sky=rgb("#262B33"),
-    haze=rgb("#16181C"),
-    border=rgb("#30363F"),
-    dark=True,
-)
+# The colours of the themes: dark, light, and mono for print, without colour and without a grey that a copier loses.
+PALETTE = {
+    "ground": ("#16181C", "#E9ECF0", "#FFFFFF"),
+    "panel": ("#1E2126", "#FBFCFD", "#FFFFFF"),
+    "raised": ("#2B3038", "#E3E8EE", "#EEEEEE"),
+    "hover": ("#3A414C", "#CFD7E1", "#DDDDDD"),
+    "text": ("#ECEFF3", "#14181D", "#000000"),
+    "muted": ("#9AA4B2", "#5A6572", "#3A3A3A"),
+    "accent": ("#F2C14E", "#B0127B", "#000000"),
+    "on_accent": ("#16181C", "#FFFFFF", "#FFFFFF"),
+    "fault": ("#FF8A80", "#B3261E", "#000000"),
+    "sky": ("#262B33", "#FFFFFF", "#FFFFFF"),
+    "haze": ("#16181C", "#E4E9EF", "#FFFFFF"),
+    "border": ("#30363F", "#C3CBD5", "#8A8A8A"),
+}
 
-LIGHT = Theme(
-    name="light",
-    ground=rgb("#E9ECF0"),
-    panel=rgb("#FBFCFD"),
-    raised=rgb("#E3E8EE"),
-    hover=rgb("#CFD7E1"),
-    text=rgb("#14181D"),
-    muted=rgb("#5A6572"),
-    accent=rgb("#B0127B"),
-    on_accent=rgb("#FFFFFF"),
-    fault=rgb("#B3261E"),
-    sky=rgb("#FFFFFF"),
-    haze=rgb("#E4E9EF"),
-    border=rgb("#C3CBD5"),
-    dark=False,
-)
 
-# For print: no colour, and no grey that a copier loses.
-MONO = Theme(
-    name="mono",
-    ground=rgb("#FFFFFF"),
-    panel=rgb("#FFFFFF"),
-    raised=rgb("#EEEEEE"),
-    hover=rgb("#DDDDDD"),
-    text=rgb("#000000"),
-    muted=rgb("#3A3A3A"),
-    accent=rgb("#000000"),
-    on_accent=rgb("#FFFFFF"),
-    fault=rgb("#000000"),
-    sky=rgb("#FFFFFF"),
-    haze=rgb("#FFFFFF"),
-    border=rgb("#8A8A8A"),
-    dark=False,
-    mono=True,
-)
+def _colors(k: int) -> dict[str, Color]:
+    return {part: rgb(codes[k]) for part, codes in PALETTE.items()}
+
+
+DARK = Theme("dark", dark=True, mono=False, **_colors(0))
+LIGHT = Theme("light", dark=False, mono=False, **_colors(1))
+MONO = Theme("mono", dark=False, mono=True, **_colors(2))
 
 THEMES = {theme.name: theme for theme in (LIGHT, DARK, MONO)}

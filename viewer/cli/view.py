@@ -38,7 +38,7 @@ def view(options: ViewOptions) -> int:
     app = App(window, Session())
     app.session.export.remember(_settings().with_name("figure.json"))
     try:
-        app.session.open(path, lesson, options.depth, options.pixel, options.model)
+        app.session.loader.open(path, lesson, options.depth, options.pixel, options.model)
         app.run()
     finally:
         app.close()
@@ -52,7 +52,7 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: ViewOptions, tar
     except NoWindow as reason:
         raise Unusable(str(reason)) from None
     try:
-        app.session.open(path, lesson, options.depth, options.pixel, options.model)
+        app.session.loader.open(path, lesson, options.depth, options.pixel, options.model)
         with (
             Progress(COMPILING, at_once=True) if app.session.warmup.compiles else Progress("load the scene") as progress
         ):

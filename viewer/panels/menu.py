@@ -56,7 +56,7 @@ def open_lesson(session: Session, name: str) -> None:
     except Unusable as unusable:
         session.show_faults(list(unusable.faults))
         return
-    session.open(lesson.scene, lesson)
+    session.loader.open(lesson.scene, lesson)
 
 
 def save_image(session: Session) -> None:

@@ -57,7 +57,7 @@ def _go(session: Session, path: Path) -> None:
         dialog.folder = path
     elif path.exists():
         imgui.close_current_popup()
-        session.open(path)
+        session.loader.open(path)
 
 
 def _entries(folder: Path) -> list[Path]:

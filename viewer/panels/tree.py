@@ -143,9 +143,7 @@ class _Diagram:
         if i == 0:
             a = (a[0], a[1] + 0.65 * self.radius)
         width = style.width * unit * (1.7 if i == self.session.selected else 1.0)
-        dash = style.dash
-        if tree.end(i) == "blocked":
-            dash = BLOCKED_DASH
+        dash = BLOCKED_DASH if tree.end(i) == "blocked" else style.dash
         d.line(self.pad, a, b, color, width, (dash[0] * unit * 0.8, dash[1] * unit * 0.8))
         d.arrow(self.pad, a, b, 0.55, color, 9.0 * unit, style.arrow)
 
@@ -162,7 +160,7 @@ class _Diagram:
         x, y = a[0] + 0.6 * (b[0] - a[0]), a[1] + 0.6 * (b[1] - a[1])
         gap = 8.0 * unit
         x = x - width - gap if b[0] < a[0] - 1.0 else x + gap
-        color = faded(self.theme.ray(self.tree.kind(i)), self.opacity(i))
+        color = faded(self.theme.ray(kind), self.opacity(i))
         d.text(self.pad, (x, y - 0.5 * height), color, content, size, self.theme.panel)
 
     def _factor(self, i: int) -> str:
@@ -223,39 +221,33 @@ class _Diagram:
         x, y = self.at[i]
         opacity = self.opacity(i) * (DIMMED if self.tree.faces_away(i) else 1.0)
         r = 0.62 * self.radius
-        selected = i == self.session.selected
+        ink = faded(self.theme.ray("shadow"), opacity)
         if self.tree.end(i) == "blocked":
-            d.cross(self.pad, (x, y), 0.6 * r, faded(self.theme.ray("shadow"), opacity), 2.2 * d.unit())
+            d.cross(self.pad, (x, y), 0.6 * r, ink, 2.2 * d.unit())
         else:
-            color = faded(self.theme.sun, opacity)
-            d.sun(self.pad, (x, y), r, color, self.theme.panel)
+            d.sun(self.pad, (x, y), r, faded(self.theme.sun, opacity), self.theme.panel)
             if self.tree.end(i) == "filtered":
-                self.pad.add_circle(
-                    (x, y), 1.35 * r, d.u32(faded(self.theme.ray("shadow"), opacity)), 0, 1.2 * d.unit()
-                )
-        if selected:
+                self.pad.add_circle((x, y), 1.35 * r, d.u32(ink), 0, 1.2 * d.unit())
+        if i == self.session.selected:
             self.pad.add_circle((x, y), 1.5 * r, d.u32(self.theme.accent), 0, 2.5 * d.unit())
 
     def _note(self) -> None:
         """A note in a corner: what is not shown of this tree. Shorter if there is less room."""
         drawn, total, weight = len(self.rows), len(self.tree), format_number(self.tree.residual, 3)
         fewer = f"{drawn} of {total} rays drawn" if self.folded > 0 else ""
-        if self.tree.residual > 0.0:
-            most = self.tree.bound
-            cuts = [
-                cut_summary(self.tree),
-                f"cut: {weight} of the weight, "
-                + (f"at most {format_number(most, 3)} of light" if most < np.inf else "no bound"),
-                f"cut rays: {weight} of the weight",
-                f"cut: {weight}",
-            ]
-        else:
-            cuts = [""]
+        most = self.tree.bound
+        bound = f"at most {format_number(most, 3)} of light" if most < np.inf else "no bound"
+        cuts = [
+            cut_summary(self.tree),
+            f"cut: {weight} of the weight, {bound}",
+            f"cut rays: {weight} of the weight",
+            f"cut: {weight}",
+        ]
         margin = 8 * d.unit()
         x, _ = self._top(0)
         left, right = self.corner.x + margin, self.corner.x + self.room.x - margin
         ends = (x - 3 * self.radius, x + 6 * self.radius)  # of the eye with its name
-        for cut in cuts:
+        for cut in cuts if self.tree.residual > 0.0 else [""]:
             content = "; ".join(part for part in (fewer, cut) if part)
             width, _ = d.text_size(content, self.text_size)
             for at in (right - width, left):

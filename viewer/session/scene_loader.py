@@ -40,8 +40,21 @@ class SceneLoader:
         self.worker = ThreadPoolExecutor(1)
         self.watch = FileWatch()
 
-    def open(self, opening: Opening) -> None:
-        """Load a scene."""
+    def open(
+        self,
+        path: Path,
+        lesson: Lesson | None = None,
+        depth: int | None = None,
+        pixel: tuple[int, int] | None = None,
+        model: str | None = None,
+    ) -> None:
+        """Load a scene in the background. The scene on show stays until it is there, or if it has faults."""
+        if lesson:
+            depth = lesson.depth if depth is None else depth
+            pixel = pixel or lesson.pixel
+        self._load(Opening(path, lesson, depth, pixel, model))
+
+    def _load(self, opening: Opening) -> None:
         self.opening = opening
         self.watch.follow(opening.path)
         if self.loading:
@@ -58,7 +71,7 @@ class SceneLoader:
     def reload(self) -> None:
         """Load the last scene again."""
         if self.opening:
-            self.open(self.opening)
+            self._load(self.opening)
 
     def look(self) -> None:
         """Load the scene again if one of its files has been saved. Called before every frame."""

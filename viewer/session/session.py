@@ -3,7 +3,6 @@
 Only the window's thread changes it. Panels read it and call its methods. It knows no panel and no GPU.
 """
 
-import math
 from pathlib import Path
 
 import numpy as np
@@ -69,20 +68,6 @@ class Session:
             self.notice.say(NOTE)
 
     # --- the scene ----------------------------------------------------------------------------------------------------
-
-    def open(
-        self,
-        path: Path,
-        lesson: Lesson | None = None,
-        depth: int | None = None,
-        pixel: tuple[int, int] | None = None,
-        model: str | None = None,
-    ) -> None:
-        """Load a scene in the background. The scene on show stays until it is there, or if it has faults."""
-        if lesson:
-            depth = lesson.depth if depth is None else depth
-            pixel = pixel or lesson.pixel
-        self.loader.open(Opening(path, lesson, depth, pixel, model))
 
     def _show(self, world: World, opening: Opening) -> None:
         """Show a scene. If it was on show already, pixel, depth and view stay."""
@@ -257,14 +242,11 @@ class Session:
             self.notice.say("nothing to export yet: pick a pixel")
             return
         figure, lesson = self.export.figure, self.lesson
-        x, y, z = (self.frame.middle + self.frame.radius * self.orbit.target).tolist()
-        orbit = self.orbit
-        view = (math.degrees(orbit.azimuth), math.degrees(orbit.elevation), orbit.distance, x, y, z)
         options = ExportOptions(
             scene=lesson.name if lesson else str(self.path),
             pixel=self.pixel,
             figure=figure,
-            view=view if figure in ("both", "scene") else None,
+            view=self.orbit.view(self.frame) if figure in ("both", "scene") else None,
             node=str(self.selected or 0) if figure == "hit" else None,
             depth=range(self.depth, self.depth + 1),
             model=self.model,

@@ -135,7 +135,7 @@ class App:
         """Open the file that was dropped on the window."""
         dropped, self.surface.dropped = self.surface.dropped, []
         if dropped:
-            self.session.open(dropped[-1])
+            self.session.loader.open(dropped[-1])
 
     def _apply_style(self) -> None:
         wanted = (self.session.theme, self.surface.scale, self.session.zoom)

@@ -24,7 +24,7 @@ from viewer.window.backend import Window
 app = App(Window("raytree", (1280, 720)), Session())
 session = app.session
 found = lesson.read("mirror-balls")
-session.open(found.scene, found)
+session.loader.open(found.scene, found)
 compiles = session.warmup.compiles
 frames, said = 0, set()
 draw = app.frame

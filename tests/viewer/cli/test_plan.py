@@ -34,7 +34,7 @@ def room():
 def show(room: Driver, folder: Path, material: str = "") -> Surfaces:
     path = folder / "scene.toml"
     path.write_text(MATTE + material + BALL)
-    room.session.open(path)
+    room.session.loader.open(path)
     room.app.settle()
     surfaces = room.canvas.stage.surfaces
     assert surfaces and not room.session.faults

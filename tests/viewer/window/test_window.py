@@ -36,7 +36,7 @@ class Desk:
         self.app = App(self.window, Session())
         self.session = self.app.session
         found = lesson.read(name)
-        self.session.open(found.scene, found)
+        self.session.loader.open(found.scene, found)
         self.app.settle()
         self.until(lambda: self.is_quiet(), "the first image")
         self.id = glfw.get_x11_window(self.window.window)

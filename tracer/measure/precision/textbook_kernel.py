@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from tracer.compile.jit import inlined
-from tracer.formulas.camera import View, pixel_direction
+from tracer.formulas.camera import pixel_direction
 from tracer.formulas.optics import transmission
 from tracer.formulas.vector import Vector, add, dot, scale, subtract, unit, vector
 from tracer.image.render import Image, render
@@ -48,7 +48,7 @@ def textbook_formulas(kind: str) -> Formulas:
         for part, wrap in wrappers.items():
             own = parts[part]
             parts[part] = {s.name: wrap(own.get(s.name) or function(s, part)) for s in INTERSECTED}
-        direction, bend = _rounded_direction(direction), _rounded_transmission(bend)
+        direction, bend = _rounded_vector(direction), _rounded_vector(bend)
     return Formulas(
         name=f"textbook {kind}",
         pixel_direction=direction,
@@ -219,21 +219,11 @@ def _rounded_interaction(own: Function) -> Function:
     return rounded
 
 
-def _rounded_direction(own: Function) -> Function:
+def _rounded_vector(own: Function) -> Function:
     narrow, wide = _triple(to_single), _triple(to_double)
 
     @inlined
-    def rounded(view: View, x: float, y: float) -> Vector:
-        return wide(narrow(own(view, x, y)))
-
-    return rounded
-
-
-def _rounded_transmission(own: Function) -> Function:
-    narrow, wide = _triple(to_single), _triple(to_double)
-
-    @inlined
-    def rounded(v: Vector, n: Vector, n1: float, n2: float, c1: float, c2: float) -> Vector:
-        return wide(narrow(own(v, n, n1, n2, c1, c2)))
+    def rounded(*arguments: Any) -> Vector:
+        return wide(narrow(own(*arguments)))
 
     return rounded
