@@ -1,4 +1,4 @@
-"""Tests. The folders mirror the rooms of the program."""
+"""Tests. The folders mirror those of the program."""
 
 from pathlib import Path
 

@@ -5,8 +5,8 @@
     tree = tracer.trace(world, pixel=(320, 240), depth=3)
     image = tracer.render(world, size=(640, 480), threads=2)
 
-There is one kernel. An image is that kernel run for every pixel, of which the colour is kept. A click is that kernel
-run once, of which the table of rays is kept.
+There is one kernel. For an image the kernel runs for every pixel, and the colour is kept. For a click it runs once,
+and the table of rays is kept.
 
 The names above are listed in `__init__.pyi`, and imported when they are first used.
 """

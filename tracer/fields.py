@@ -34,7 +34,7 @@ def number(
         if not _is_number(value):
             raise Refused(f"a number {allowed}".rstrip())
         if not math.isfinite(value) or abs(value) > LARGEST:
-            raise Refused(f"a number of at most {LARGEST:g} in size")
+            raise Refused(f"a number with an absolute value of at most {LARGEST:g}")
         outside = (
             (above is not None and not value > above)
             or (least is not None and not value >= least)
@@ -73,7 +73,7 @@ def flag() -> Mapping[str, Callable[[Any], Any]]:
 def text() -> Mapping[str, Callable[[Any], Any]]:
     def read(value: Any) -> str:
         if not isinstance(value, str) or not value.strip():
-            raise Refused("a text that is not empty")
+            raise Refused("a non-empty string")
         return value
 
     return rule(read)
@@ -135,7 +135,7 @@ def _three(value: Any, allowed: str) -> tuple[float, float, float]:
     if not isinstance(value, list | tuple) or len(value) != 3 or not all(_is_number(item) for item in value):
         raise Refused(allowed)
     if not all(math.isfinite(item) and abs(item) <= LARGEST for item in value):
-        raise Refused(f"{allowed} of at most {LARGEST:g} in size")
+        raise Refused(f"{allowed} with absolute values of at most {LARGEST:g}")
     return (float(value[0]), float(value[1]), float(value[2]))
 
 

@@ -1,4 +1,4 @@
-"""A ray, with all that several surface tests need of it, computed once.
+"""A ray with values that several intersection tests need, computed once.
 
 The shear (Woop, Benthin & Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013) maps space so that the ray
 runs along one axis through (0, 0). Two numbers are left of each point, and their signs say on which side of the ray

@@ -3,8 +3,9 @@
     I = A ka C + sum over lights of S L (kd C (N.L) + ks (R.V)^p) + kr I_reflected + kt I_refracted
 
 (T. Whitted, "An improved illumination model for shaded display", CACM 23(6), 1980.) Read this file first. Then read
-`tracer.kernel.trace`: the kernel computes the same colours, but fast, exactly, and with a record of every ray. A test
-compares the two. This page knows no overlapping solids, and its EPSILON fails in a tiny scene (lesson `scale`).
+`tracer.kernel.trace`: the kernel computes the same colours, but faster, more accurately, and with a record of every
+ray. A test compares the two. This page does not handle overlapping solids, and its EPSILON fails in a tiny scene
+(lesson `scale`).
 
     world = tracer.prepare(tracer.load("scene.toml"))
     view = world.view()
@@ -29,7 +30,7 @@ EPSILON = 1e-4  # the textbook's smallest distance, which keeps a ray from hitti
 
 
 def radiance(world: World, origin: Vector, direction: Vector, depth: int, n1: float = 1.0) -> Vector:
-    """The colour seen along a ray, linear RGB: local light, and what the reflected and the refracted ray bring.
+    """The colour seen along a ray, linear RGB: local light, and the light from the reflected and the refracted ray.
 
     `direction` is a unit vector; `n1` the index of refraction of the medium that the ray runs in.
     """
@@ -60,7 +61,7 @@ def radiance(world: World, origin: Vector, direction: Vector, depth: int, n1: fl
 def shares(
     world: World, material: MaterialRow, v: Vector, n: Vector, n1: float, n2: float, is_sheet: bool
 ) -> tuple[float, float]:
-    """The shares of the reflected and of the refracted ray: by Whitted's fixed weights, or by Fresnel's equations."""
+    """The factors of the reflected and of the refracted ray: Whitted's fixed weights, or Fresnel's equations."""
     kr, kt = material.reflect, material.transmit
     if kt == 0.0:
         return kr, 0.0
@@ -87,7 +88,9 @@ def local_light(world: World, item: ObjectRow, material: MaterialRow, point: Vec
 
 
 def transmittance(world: World, point: Vector, to_light: Vector, distance: float) -> float:
-    """The share S of a lamp's light that arrives: a shadow ray runs straight through glass, and ends at the rest."""
+    """The fraction S of a light that arrives: a shadow ray passes straight through transparent surfaces, and ends at
+    opaque ones.
+    """
     share, start = 1.0, 0.0
     while share > 0.0:
         surface, start = closest_hit(world, point, to_light, start)

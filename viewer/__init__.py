@@ -1,1 +1,1 @@
-"""The viewer: shows what the tracer computed. Start at `cli` for the commands, at `app` for the window."""
+"""The viewer: shows what the tracer computed. Start at `cli` for the commands, at `window.app` for the window."""

@@ -1,8 +1,8 @@
 """Builds the bounding volume hierarchy (BVH) over the bounded surfaces.
 
 A node has eight children, whose boxes are tested against a ray at once ("Getting Rid of Packets", Wald, Benthin &
-Boulos, IRT 2008). A child is a node, a block of eight triangles or one surface. To fill a node, its surfaces are split
-in two by the surface area heuristic (`sah`), and the parts again, until there are eight.
+Boulos, IRT 2008). A child is a node, a block of up to eight triangles, or one surface. To fill a node, its surfaces
+are split in two by the surface area heuristic (`sah`), and the parts again, until there are eight.
 """
 
 import math
@@ -17,7 +17,7 @@ from tracer.compile.rows import Numbers, Rows, as_rows
 from tracer.compile.simd import WIDTH
 from tracer.shapes.surface_row import BLOCK, BlockRow
 
-MAX_UNBOXED = 3  # so few surfaces are tested one by one, without a hierarchy: measured by `python -m benchmarks flat`
+MAX_UNBOXED = 3  # up to this number, surfaces are tested one by one, without a BVH: by `python -m benchmarks flat`
 
 
 class Hierarchy(NamedTuple):
@@ -25,11 +25,11 @@ class Hierarchy(NamedTuple):
 
     nodes: np.ndarray  # of NODE; the root is number 0
     blocks: np.ndarray  # of BLOCK
-    unit: float  # of length
+    unit: float  # unit of length of the boxes, a power of two
 
 
 def length_unit(bounds: np.ndarray) -> float:
-    """The smallest power of two above every coordinate."""
+    """The smallest power of two above the absolute value of every coordinate."""
     return math.ldexp(1.0, min(math.frexp(float(np.abs(bounds).max(initial=0.0)))[1], 1023))
 
 
@@ -114,8 +114,8 @@ def build_nodes(
 
 @inlined
 def fill_block(block: BlockRow, corners: Numbers, unit: float, order: Numbers, first: int, count: int) -> None:
-    """Store `count` triangles in a block. The first fills the unused lanes, too, which the mask of the block leaves
-    out.
+    """Store `count` triangles in a block. The first triangle also fills the unused lanes, which the block's lane mask
+    disables.
     """
     block.lanes = (1 << count) - 1
     size = 0.0

@@ -1,7 +1,7 @@
 """Rows of the hierarchy: its nodes, and the stack of a traversal.
 
-Boxes are float32, half the memory to fetch. Their unit of length is a power of two near the scene's
-size, so a scene scaled by a power of two has the same boxes.
+Boxes are float32, which halves the memory traffic. Their unit of length is a power of two near the scene's size, so
+a scene scaled by a power of two has the same boxes.
 """
 
 from typing import Annotated
@@ -17,14 +17,14 @@ NODE_CHILD, SURFACE_CHILD, BLOCK_CHILD = range(3)
 
 
 class NodeRow(Row):
-    """Eight boxes with what is in them. An unused box is empty: no ray hits it."""
+    """A BVH node: eight boxes and their children. An unused box is empty: no ray hits it."""
 
     planes: Annotated[Numbers, np.float32, (6, WIDTH)]  # low x, high x, low y, ... of the eight boxes, rounded outwards
     child: Annotated[Numbers, np.int32, WIDTH]
 
 
 class StackRow(Row):
-    """A child that a traversal has put off."""
+    """An entry of the traversal stack: a child that is still to be visited."""
 
     child: Int64
     near: Float  # distance at which the ray enters its box

@@ -16,7 +16,7 @@ from tracer.compile.simd import WIDTH
 
 BINS = 16
 BLOCK_FILL = 6  # expected number of triangles in a block
-MEDIAN_LEVEL = 24  # from this level on, parts are split by count: this bounds the depth of the hierarchy by
+MEDIAN_LEVEL = 24  # from this level on, parts are split by count, so that the BVH has at most MAX_LEVELS levels
 MAX_LEVELS = 48
 MAX_STACK = MAX_LEVELS * (WIDTH - 1) + 1
 
@@ -27,11 +27,11 @@ class PartRow(Row):
     Boxes are stored as low x, y, z, 0, -high x, y, z, 0, so that joining two takes eight minima.
     """
 
-    box: Annotated[Numbers, np.float32, 8]  # about the surfaces
-    centers: Annotated[Numbers, np.float32, 8]  # about twice the centres of their boxes
+    box: Annotated[Numbers, np.float32, 8]  # bounds of the surfaces
+    centers: Annotated[Numbers, np.float32, 8]  # bounds of twice the centres of their boxes
     first: Int64
     last: Int64
-    others: Int64  # how many are not triangles
+    others: Int64  # number of surfaces that are not triangles
     node: Int64  # index of the node that the part becomes
     level: Int64
 
@@ -40,7 +40,7 @@ PART = dtype_of(PartRow)
 
 
 class BuildSpace(NamedTuple):
-    """Working memory of a construction: kernels allocate none."""
+    """Scratch memory for building a BVH, since kernels allocate none."""
 
     todo: Rows[PartRow]  # stack of parts that become nodes
     parts: Rows[PartRow]  # the parts of the node in progress
@@ -112,8 +112,8 @@ def half_area(box: Numbers) -> float:
 def next_part(parts: Rows[PartRow], count: int) -> int:
     """The part to split next; -1 for none.
 
-    First the parts that can be split completely into the lanes that are left, since that saves a node: the one with
-    the most area per lane. Then the part with the largest box.
+    A part that can be split completely into the free lanes comes first, since that saves a node; of several, the one
+    with the largest area per lane. Otherwise it is the part with the largest box.
     """
     best, most = -1, -1.0
     dissolving = False
@@ -141,7 +141,8 @@ def split_part(
 ) -> None:
     """Split the part `this`: its second half becomes `second`.
 
-    By the surface area heuristic, or by count where all centres coincide or the level is deep.
+    The surface area heuristic chooses the split. If all centres coincide or the level is deep, the part is halved by
+    count.
     """
     first, last = this.first, this.last
     count = min(BINS, last - first + 2)

@@ -29,12 +29,13 @@ from tracer.shapes.triangle import candidate_mask
 
 STOP = -1.0  # a search limit that ends the search
 
-# Three roundings on either side of the comparison, each at most 2^-53 of its value (pbr-book 4ed, 6.1.2 and 6.8.2).
+# Either side of the comparison is rounded three times, each time by at most 2^-53 of its value (pbr-book 4ed, 6.1.2 and
+# 6.8.2).
 ROUND_UP = 1.0 + 8 * U
 
 
 class HierarchyArrays(ShapeArrays, Protocol):
-    """What a traversal reads of the world."""
+    """The arrays of the world that a traversal reads."""
 
     @property
     def unboxed(self) -> Numbers:
@@ -52,23 +53,23 @@ class HierarchyArrays(ShapeArrays, Protocol):
 
 
 class SearchSpace(Protocol):
-    """What a traversal writes."""
+    """The memory that a traversal writes."""
 
     @property
     def stack(self) -> Rows[StackRow]: ...
     @property
     def near(self) -> Numbers:
-        """(8,): where the ray enters the boxes of a node."""
+        """(8,): distances at which the ray enters the boxes of a node."""
         ...
 
     @property
     def tests(self) -> Numbers:
-        """(1,): tests of a ray against a surface."""
+        """(1,): number of ray-surface intersection tests."""
         ...
 
 
 class BoxRay(NamedTuple):
-    """What the slab test needs of a ray, in the hierarchy's unit of length."""
+    """A ray prepared for the slab test, in the hierarchy's unit of length."""
 
     origin: Vector
     inverse: Vector
@@ -78,9 +79,9 @@ class BoxRay(NamedTuple):
 
 @inlined
 def make_box_ray(ray: Ray, inverse_unit: float) -> BoxRay:
-    """The box ray of a ray."""
+    """Prepare a ray for the slab test."""
     x, y, z = ray.inverse
-    # By the sign of the inverse: the direction may be -0, whose inverse is -inf.
+    # The sign is that of the inverse, since the direction may be -0, whose inverse is -inf.
     entry = (1 if x < 0.0 else 0, 3 if y < 0.0 else 2, 5 if z < 0.0 else 4)
     return BoxRay(scale(inverse_unit, ray.origin), ray.inverse, scale(ROUND_UP, ray.inverse), entry)
 
@@ -89,7 +90,7 @@ def make_box_ray(ray: Ray, inverse_unit: float) -> BoxRay:
 def hit_boxes(planes: Numbers, ray: BoxRay, limit: float) -> tuple[int, Any]:
     """(bit mask of the boxes that the ray enters before the limit, distances of entry; 0 from inside).
 
-    0 * inf is NaN, which compares as neither larger nor smaller, and so sets no limit.
+    0 * inf is NaN. Comparisons with NaN are false, so a NaN can only lengthen the interval, never shorten it.
     """
     o, inverse, inverse_up, (x, y, z) = ray.origin, ray.inverse, ray.inverse_up, ray.entry
     near = lanes_max(
@@ -106,11 +107,11 @@ def hit_boxes(planes: Numbers, ray: BoxRay, limit: float) -> tuple[int, Any]:
 
 
 def make_traversal(visit: Callable[..., Any], nearest_first: bool) -> Callable[..., Any]:
-    """A search over all surfaces that a ray may hit.
+    """Make a traversal that visits all surfaces that a ray may hit.
 
-    `visit(world, s, ray, query, found, space)` tests surface s and returns the updated `found`. Its first number is the
-    distance beyond which nothing is searched; STOP ends the search. `query` is passed through. `nearest_first` visits
-    nearer boxes earlier, as a closest-hit search wants.
+    `visit(world, s, ray, query, found, space)` tests surface s and returns the updated `found`. Its first number is
+    the distance beyond which nothing is searched; STOP ends the search. `query` is passed through. With
+    `nearest_first`, nearer boxes are visited first, for closest-hit searches.
     """
 
     @compiled

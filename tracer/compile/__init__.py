@@ -1,1 +1,1 @@
-"""The only room that knows Numba: compilation and caching of kernels, SIMD vectors, intrinsics, bundles of arrays."""
+"""The only package that imports Numba: compiling and caching kernels, SIMD vectors, intrinsics, bundles of arrays."""

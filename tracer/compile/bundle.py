@@ -1,9 +1,9 @@
 """A NamedTuple of arrays that kernels take by one pointer.
 
-Numba passes a tuple of arrays from function to function as seven words an array, which costs more than tracing a
-ray: a kernel that passed the whole world to its functions ran four times slower. A Bundle is one address: of a table
-with the address and the shape of each array. Kernels read `world.surfaces[k]` as usual, and write only if it is
-`writable`.
+Numba passes a tuple of arrays from function to function as seven words per array, which costs more than tracing a
+ray: a kernel that passed the whole world to its functions ran four times slower. A Bundle is passed as one address,
+that of a table with the address and the shape of each array. Kernels read `world.surfaces[k]` as usual, and write
+only if it is `writable`.
 
 Kernels are compiled for fixed shapes of rows (three coordinates), so that strides are constants. A field whose rows
 differ in shape from scene to scene is named in `ragged`; else each such scene would wait for a compilation.
@@ -87,7 +87,7 @@ def _rebuilt(fields: Any, writable: bool, ragged: tuple[str, ...]) -> Bundle:
 
 
 class FieldLayout(NamedTuple):
-    """What a kernel knows at compile time of one field."""
+    """The layout of one field, known at compile time."""
 
     name: str
     type: types.Type
@@ -122,7 +122,7 @@ class BundleType(types.Type):
 
 @cache
 def bundle_type(entries: tuple[FieldLayout, ...]) -> BundleType:
-    """Cached, because the type's name contains the types of all its arrays."""
+    """Numba's type of a Bundle. Cached, since its name contains the types of all arrays and takes long to build."""
     return BundleType(entries)
 
 
@@ -132,7 +132,7 @@ class _AddressModel(models.PrimitiveModel):
 
 
 register_model(BundleType)(_AddressModel)
-register_model(FunctionTableType)(models.OpaqueModel)  # reference counting asks for it, though it holds nothing
+register_model(FunctionTableType)(models.OpaqueModel)  # reference counting needs a model, though there is no data
 
 
 @typeof_impl.register(Bundle)

@@ -1,8 +1,8 @@
 """Decorators that compile plain Python with Numba.
 
-`kernel` marks an entry point: it is compiled at its first call, runs without the interpreter lock, and is cached on
-disk. `inlined` and `compiled` mark functions that kernels call. From Python they stay what they are, so each formula
-exists once, can be tested by itself, and can be stepped through with NUMBA_DISABLE_JIT=1.
+`kernel` marks an entry point: it is compiled at its first call, runs without the GIL, and is cached on disk.
+`inlined` and `compiled` mark functions that kernels call. Called from Python they remain plain functions, so each
+formula exists once, can be tested by itself, and can be stepped through with NUMBA_DISABLE_JIT=1.
 """
 
 from collections.abc import Callable

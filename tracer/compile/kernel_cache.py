@@ -29,7 +29,9 @@ def source_digest() -> str:
 
 @cache
 def versions() -> dict[str, str]:
-    """Versions of all that produces machine code. On one machine, processes that agree in them trace the same bits."""
+    """Versions of the packages that produce machine code. On one machine, processes that agree in them trace the same
+    bits.
+    """
     from importlib.metadata import version
 
     return {

@@ -13,8 +13,9 @@ Without the first three the kernel of an image takes 36 s to compile instead of 
 They are tested up to the version TESTED. With a newer Numba they are left out: kernels are compiled by plain `njit`,
 cached by Numba's own cache, and compute the same bits. `NOTE` says so.
 
-The extension interface that `bundle`, `simd` and `intrinsics` build on (`numba.extending`, `numba.core.types`,
-`datamodel`, `cgutils`) is documented by Numba and needed in any case.
+`bundle`, `simd` and `intrinsics` build on Numba's interface for extensions (`numba.extending`, `numba.core.types`,
+`datamodel`, `cgutils`), which is documented, and on `make_array` and `populate_array` of `numba.np.arrayobj`, which
+Numba's own examples of extensions use. These are needed in any case.
 """
 
 from pathlib import Path

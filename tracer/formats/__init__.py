@@ -1,4 +1,4 @@
-"""Files into scenes. A new format: a file beside this one, and a line in READERS.
+"""Readers of scene files. A new format needs a file in this folder and a line in READERS.
 
 Importing this package loads no reader.
 """
@@ -28,7 +28,8 @@ READERS = {
 def load(path: str | Path, progress: Progress = lambda share: None) -> Scene:
     """Read the scene in a file. The suffix decides on the format.
 
-    `progress` is called with the share that has been read, if the format tells. Raises SceneError with every fault.
+    `progress` is called with the fraction that has been read, if the reader knows it. Raises SceneError with every
+    fault.
     """
     from tracer.scene import SceneError
 

@@ -1,6 +1,6 @@
 """Mesh files (OBJ with its materials, PLY, STL, GLB), read by trimesh and checked before and after.
 
-A mesh may come from anywhere: a file of 400 bytes may ask for a gigabyte, or a vertex may not be a number. Counts
+A mesh file is untrusted input: a file of 400 bytes may declare a gigabyte of data, or a vertex may be NaN. Counts
 are compared with the file's size before memory is allocated, and every failure becomes one line.
 """
 
@@ -23,7 +23,7 @@ from tracer.shapes.mesh import Geometry, Mesh
 LARGEST_FILE = 2**30  # bytes
 MOST_FACES = 4_000_000
 
-# The material of a file without materials. Its ambient term is also added to a file's colours, so that no side is
+# The material of a file without materials. Materials from a file get the same ambient coefficient, so that no side is
 # black.
 CLAY = Material(name="clay", color=(0.8, 0.78, 0.74), ambient=0.15, diffuse=0.8)
 AMBIENT = 0.15
@@ -45,8 +45,8 @@ class Part:
 
 
 def read_mesh_scene(path: Path, progress: Callable[[float], None]) -> Scene:
-    """A scene that consists of this mesh, lit from above the camera. trimesh reads the file in one go, so there is no
-    progress.
+    """A scene that consists of this mesh, lit from above the camera. trimesh reads the whole file in one call, so
+    `progress` is not called.
     """
     if not path.exists():
         raise FileNotFoundError(path)
@@ -87,17 +87,16 @@ def _load(path: Path) -> list[tuple[str, Any, np.ndarray]]:
     """(name, mesh, placement as a 4x4 matrix) of everything in the file that has faces."""
     import trimesh  # most scenes do not need it, and it is slow to import
 
-    logging.getLogger("trimesh").setLevel(logging.CRITICAL)  # its complaints become our one line
+    logging.getLogger("trimesh").setLevel(logging.CRITICAL)  # its warnings are replaced by our one-line error
     try:
-        # Without processing: trimesh would drop vertices that are not numbers, and merge vertices of flat faces into
-        # smooth ones.
+        # Without processing: trimesh would drop NaN vertices, and merge the vertices of flat faces into smooth ones.
         scene = trimesh.load_scene(path, process=False)
         placed = [scene.graph[node] for node in scene.graph.nodes_geometry]
         found = [(str(name), scene.geometry[name], np.array(place, float)) for place, name in placed]
     except Exception as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         if isinstance(error, IndexError):
-            reason = "an index in it is out of range, like a face that names a vertex beyond the last"
+            reason = "an index is out of range, for example a face refers to a vertex that does not exist"
         raise MeshError(f"mesh {path.name} cannot be read as {path.suffix[1:].upper()}: {reason[:120]}") from None
     return [item for item in found if isinstance(item[1], trimesh.Trimesh) and len(item[1].faces)]
 
@@ -106,15 +105,19 @@ def _geometry(path: Path, mesh: Any, place: np.ndarray) -> Geometry:
     vertices = np.array(mesh.vertices, np.float64) @ place[:3, :3].T + place[:3, 3]
     faces = np.array(mesh.faces, np.int64)
     if not np.isfinite(place).all():
-        raise MeshError(f"mesh {path.name}: a part's place in the scene must be finite numbers")
+        raise MeshError(f"mesh {path.name}: the transformation matrix of a part must be finite")
     if faces.min() < 0 or faces.max() >= len(vertices):
-        raise MeshError(f"mesh {path.name}: faces must name one of its {len(vertices)} vertices, got {faces.max()}")
+        raise MeshError(
+            f"mesh {path.name}: vertex indices of faces must be from 0 to {len(vertices) - 1}, "
+            f"got {faces.min()} to {faces.max()}"
+        )
     bad = ~np.isfinite(vertices).all(axis=1)
     if bad.any():
         raise MeshError(f"mesh {path.name}: vertex {int(bad.argmax())} must be three finite numbers")
     normals = None
     try:
-        # A private part of trimesh, in which it keeps what a file said. Its public `vertex_normals` makes up normals.
+        # A private cache of trimesh, which holds the normals of the file. The public `vertex_normals` computes normals
+        # if the file has none.
         has_normals = "vertex_normals" in mesh._cache.cache
     except AttributeError:
         return Geometry(vertices, faces, note=UNKNOWN_NORMALS)
@@ -205,12 +208,12 @@ def _index(ior: float) -> float:
 
 
 def _check_glb(path: Path) -> dict[str, Any]:
-    """The JSON part of a GLB file. Checks its counts against the file's size (glTF 2.0, 4.4)."""
+    """The JSON chunk of a GLB file. Checks its counts against the file's size (glTF 2.0, 4.4)."""
     size = path.stat().st_size
     with path.open("rb") as file:
         header = file.read(20)
         if len(header) < 20 or header[:4] != b"glTF" or header[16:20] != b"JSON":
-            raise MeshError(f'mesh {path.name} cannot be read as GLB: it must begin with "glTF" and a JSON part')
+            raise MeshError(f'mesh {path.name} cannot be read as GLB: it must begin with "glTF" and a JSON chunk')
         length = struct.unpack("<I", header[12:16])[0]
         text = file.read(min(length, size))
     try:
@@ -218,9 +221,9 @@ def _check_glb(path: Path) -> dict[str, Any]:
         accessors = document.get("accessors", [])
         counts = [int(accessor.get("count", 0)) for accessor in accessors]
     except (ValueError, AttributeError, TypeError, RecursionError):
-        raise MeshError(f"mesh {path.name} cannot be read as GLB: its JSON part is damaged") from None
+        raise MeshError(f"mesh {path.name} cannot be read as GLB: its JSON chunk is invalid") from None
     for k, count in enumerate(counts):
-        # Every element takes at least a byte of the file, unless an accessor leaves its data out.
+        # Every element takes at least a byte of the file, unless the accessor has no buffer view.
         if not 0 <= count <= size or ("bufferView" not in accessors[k] and count > MOST_FACES // 100):
             raise MeshError(
                 f"mesh {path.name}: accessor {k} must have no more elements than the file holds, got {count}"

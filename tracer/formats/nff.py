@@ -1,16 +1,17 @@
 """Eric Haines' Neutral File Format, in which ray tracers have been compared since 1987.
 
 E. Haines, "A Proposal for Standard Graphics Environments", IEEE CG&A 7(11), 1987, and the text NFF.TXT of his
-Standard Procedural Databases. A file is a sequence of entities, each a letter and its numbers. Line ends only end
-comments:
+Standard Procedural Databases. A file is a sequence of entities, each a letter and its numbers. A line end only ends
+a comment:
 
     v   from, at, up, angle, hither, resolution        f   r g b Kd Ks shine T ior, of all objects that follow
     b   r g b of the background                        s   centre, radius
     l   position [r g b]                               p   count, corners;  pp  the same, each corner with its normal
     c   base, its radius, apex, its radius: the side of a cone or a cylinder
 
-Ks is both the highlight and the mirror. Consecutive triangles and patches of one material become one mesh. Surfaces
-are seen from both sides, also those with a negative radius, which the format means to be seen from inside.
+Ks is both the specular and the reflection coefficient. Consecutive triangles and patches of one material become one
+mesh. Surfaces are seen from both sides, also those with a negative radius, which the format means to be seen from
+inside.
 """
 
 import math
@@ -47,7 +48,7 @@ FORMAT_NAMES: dict[type, dict[str, str]] = {
     },
 }  # fmt: skip
 
-BENT = 1e-3  # of a polygon's size: if its printed corners are off its plane by no more, it is meant to be flat
+BENT = 1e-3  # relative to a polygon's size: corners that are off the plane by less than this are moved into it
 MOST_CORNERS = 10**6
 
 
@@ -61,7 +62,7 @@ class Patches:
     normals: list[Any]
 
     def mesh(self) -> Mesh | None:
-        """The mesh; None if it has no area: generators leave slivers where a patch runs to a point."""
+        """The mesh; None if it has no area: generators write degenerate triangles where a patch ends in a point."""
         corners = np.array(self.corners).reshape(-1, 3)
         normals = np.array(self.normals).reshape(-1, 3) if self.smooth else None
         faces = np.arange(len(corners)).reshape(-1, 3)
@@ -151,7 +152,7 @@ class Reader:
             found[name] = [self.words.number(f"{name} of v") for _ in range(VIEW[name])]
         missing = [name for name in VIEW if name not in found and name != "hither"]
         if missing:
-            raise Fault(f"v must have {', '.join(VIEW)}, got none of {', '.join(missing)}")
+            raise Fault(f"v must have from, at, up, angle and resolution, got no {', '.join(missing)}")
         width, height = found["resolution"]
         if not (width.is_integer() and height.is_integer()):
             raise Fault(f"resolution must be two whole numbers, got {width:g} {height:g}", lines["resolution"])
@@ -159,7 +160,8 @@ class Reader:
         angle = found["angle"][0]
         if not 0.0 < angle < 180.0:
             raise Fault(f"angle must be > 0 and < 180, got {angle:g}", lines["angle"])
-        # The angle is from the middle of the top row of pixels to that of the bottom row. Ours is from edge to edge.
+        # The angle is from the middle of the top row of pixels to that of the bottom row. The field of view of a Camera
+        # is from edge to edge.
         edge = math.tan(0.5 * math.radians(angle)) * height / max(1.0, height - 1.0)
         eye, middle, up = (as_floats(found[name]) for name in ("from", "at", "up"))
         self.camera = self._checked(Camera(eye, middle, up, 2.0 * math.degrees(math.atan(edge))), "v", lines["at"])
@@ -174,7 +176,7 @@ class Reader:
         color = self.words.vector("r g b of f")
         names = ("Kd", "Ks", "shine", "T", "ior")
         diffuse, mirror, shine, transmit, ior = (self.words.number(f"{name} of f") for name in names)
-        # Files have 0 for values without a meaning: the power of no highlight, the index of an opaque material.
+        # Files have 0 for unused values: the exponent if there is no highlight, the index of an opaque material.
         material = Material(
             color=color,
             diffuse=diffuse,
@@ -202,7 +204,7 @@ class Reader:
             if any(abs(value) > fields.LARGEST for point in points for value in point):
                 self._checked(Polygon(tuple(points)), "polygon")  # reports the fault
             self._patch(points, normals)
-        elif unit_normal(np.array(points)).any():  # slivers are left out, as in a run of triangles
+        elif unit_normal(np.array(points)).any():  # degenerate polygons are left out, like degenerate triangles
             self._add(Polygon(tuple(flattened(points))), "polygon")
 
     def _patch(self, points: list[Vector], normals: list[Vector]) -> None:
@@ -232,7 +234,7 @@ class Reader:
         return self.material
 
     def _lights(self) -> Iterator[Light]:
-        """Add the lights. Those without a colour share a fixed total brightness, whatever their number."""
+        """Yield the lights. A light without a colour has the brightness 1 / sqrt(number of lights)."""
         share = 1.0 / math.sqrt(max(1, len(self.lights)))
         for position, color in self.lights:
             yield Light(position=position, color=color or (share, share, share))

@@ -75,7 +75,7 @@ class Reader:
     def _format(self, document: dict[str, Any]) -> None:
         found = document.get("format")
         if found is None:
-            self.fault("", f"format is missing: the file begins with format = {FORMAT}")
+            self.fault("", f"format is missing: add the line format = {FORMAT} before the first table")
         elif found != FORMAT or isinstance(found, bool):
             self.fault("", fields.refusal("format", str(FORMAT), found))
 
@@ -110,7 +110,7 @@ class Reader:
         return None if found else made
 
     def _materials(self, document: dict[str, Any]) -> dict[str, Material | None]:
-        """Materials by name; None for one with faults, so that objects that use it are not blamed as well."""
+        """Materials by name; None for one with errors, so that objects that use it do not cause a second error."""
         materials: dict[str, Material | None] = {}
         for where, table in self.tables(document, "material"):
             checker = None
@@ -120,9 +120,9 @@ class Reader:
             name = table.get("name") if isinstance(table, dict) else None
             if not isinstance(name, str):
                 if name is None:
-                    self.fault(where, "name is missing: objects name their material")
+                    self.fault(where, "name is missing: objects refer to materials by name")
             elif name in materials:
-                self.fault(where, f'name must be unlike every other material\'s, got "{name}" again')
+                self.fault(where, f'name must be unique, got "{name}" twice')
             else:
                 materials[name] = material
         return materials
@@ -175,7 +175,7 @@ class Reader:
     def _mesh(self, where: str, own: dict[str, Any]) -> list[tuple[Any, str, Material]]:
         values = self.values(Mesh, where, own, OBJECT_KEYS)
         if "file" not in own:
-            self.fault(where, "file is missing: the path of a mesh, beside the scene file")
+            self.fault(where, "file is missing: it must be the path of a mesh, relative to the scene file")
         if values is None or "file" not in values:
             return []
         try:

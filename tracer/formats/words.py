@@ -1,4 +1,6 @@
-"""A text file word by word. Each number is asked for by its meaning, so that a fault can say what is missing."""
+"""Reads a text file word by word. The caller names each number that it reads, so that an error can say which one is
+missing.
+"""
 
 import math
 from collections.abc import Container
@@ -13,7 +15,7 @@ class Word(NamedTuple):
 
 
 class Fault(Exception):
-    """A fault, without the file. `line` if it is not the entity's own."""
+    """An error, without the file's name. `line` is set if it is not the line of the entity."""
 
     def __init__(self, text: str, line: int | None = None) -> None:
         super().__init__(text)
@@ -55,7 +57,7 @@ class Words:
         return self.left() and is_number(self.texts[self.at])
 
     def number(self, what: str) -> float:
-        """Read a finite number. Raises Fault for any other word, which is read again."""
+        """Read a finite number. Raises Fault for any other word, which remains the next one."""
         if not self.left():
             raise Fault(f"{what} must be a number, got the end of the file", self.lines[-1])
         found = self.texts[self.at]

@@ -14,7 +14,7 @@ BATCH = 64  # pixels whose directions are computed together
 
 
 class View(NamedTuple):
-    """A camera as kernels take it. `right` and `up` are as long as half the image's height at distance 1."""
+    """A camera in the form that kernels use. `right` and `up` are as long as half the image's height at distance 1."""
 
     eye: Vector
     forward: Vector
@@ -30,7 +30,7 @@ def make_view(eye: Vector, look_at: Vector, up: Vector, fov: float, size: tuple[
     gaze = subtract(look_at, eye)
     forward = unit(rescale(gaze)) if any(gaze) else (0.0, 0.0, -1.0)
     aside = cross(forward, rescale(up))
-    if not any(aside):  # looking straight along `up`, which only a camera that the author left open can do
+    if not any(aside):  # the view is along `up`, which is possible only if the scene leaves out `position` or `look_at`
         aside = cross(forward, (0.0, 0.0, 1.0) if abs(forward[2]) < 0.5 else (1.0, 0.0, 0.0))
     right = unit(rescale(aside))
     half = math.tan(math.radians(fov) / 2)
@@ -50,7 +50,7 @@ def center_directions(direction_of: Any, view: View, pixels: Any, first: int, di
     """Store the directions through the centres of pixels `first`, `first` + 1, ... in the columns of `directions`.
 
     Computed BATCH at a time, so that the processor takes several roots and quotients at once. `direction_of` is
-    `pixel_direction`, or what stands for it.
+    `pixel_direction` or a replacement.
     """
     for k in range(min(BATCH, len(pixels) - first)):
         d = direction_of(view, pixels[first + k].x + 0.5, pixels[first + k].y + 0.5)

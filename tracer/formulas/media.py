@@ -67,7 +67,7 @@ def medium(solids: Numbers) -> int:
 
 
 class MediaArrays(Protocol):
-    """What `index_of` reads of the world."""
+    """The array of the world that `index_of` reads."""
 
     @property
     def indices(self) -> Numbers: ...

@@ -31,8 +31,8 @@ from tracer.formulas.vector import (
 
 @inlined
 def mirrored(v: Vector, n: Vector) -> Vector:
-    """r = v - 2 (n.v) n for unit v. The factor 2 - n.n stands for 1/n.n, so that rounding in n's length does not turn
-    r.
+    """r = v - 2 (n.v) n for unit v. The factor 2 - n.n approximates 1/n.n, so that rounding in n's length does not
+    change the direction of r.
     """
     return renormalize(subtract(v, scale(2.0 * (dot(n, v) * (2.0 - dot(n, n))), n)))
 
@@ -65,7 +65,7 @@ def transmission(v: Vector, n: Vector, n1: float, n2: float, c1: float, c2: floa
 
 @inlined
 def fresnel_shares(c1: float, s1: float, c2: float, n1: float, n2: float) -> tuple[float, float]:
-    """(R, T): the shares of unpolarised light that are reflected and refracted, each computed by itself.
+    """(R, T): reflectance and transmittance for unpolarised light, computed separately.
 
     The mean of r_s = (n1 c1 - n2 c2)/(n1 c1 + n2 c2) and r_p = (n2 c1 - n1 c2)/(n2 c1 + n1 c2), squared. The
     numerators are multiplied out, so that no difference of rounded numbers is left (Born & Wolf, Principles of
@@ -90,7 +90,8 @@ def angle(a: Vector, b: Vector) -> float:
     return math.atan2(length(cross(a, b)), dot(a, b))
 
 
-# The functions below are for people: they take any sequence of three numbers and vectors of any length above 0.
+# The functions below are the public interface: they take any sequence of three numbers and vectors of any length above
+# 0.
 
 
 def reflect(v: VectorLike, n: VectorLike) -> Vector:
@@ -116,7 +117,7 @@ def refract(v: VectorLike, n: VectorLike, n1: float, n2: float) -> Vector | None
 
 
 def fresnel(cos1: float, n1: float, n2: float) -> tuple[float, float]:
-    """Fresnel's (R, T) for unpolarised light: the shares that are reflected and refracted, R + T = 1.
+    """(R, T): Fresnel reflectance and transmittance for unpolarised light, R + T = 1.
 
     `cos1`, the cosine of the angle of incidence, is in 0..1. (1.0, 0.0) on total internal reflection.
     """

@@ -26,10 +26,10 @@ GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 
 class Sampler(NamedTuple):
-    """How a pixel's sample points lie."""
+    """The placement of a pixel's sample points."""
 
     kind: int  # as SAMPLERS numbers them, or CENTER
-    side: int = 1  # of the grid of jittered points
+    side: int = 1  # cells along a side of the jittered grid
 
 
 class Samples(NamedTuple):
@@ -47,7 +47,7 @@ PIXEL_CENTER = Samples(0, 1, Sampler(CENTER))
 def make_sampler(name: str, count: int) -> Sampler:
     """The sampler of this name, for `count` points of a pixel.
 
-    ValueError for an unknown name, a count below 1, or a count of jittered points that is no square.
+    ValueError for an unknown name, a count below 1, or a count of jittered points that is not a square number.
     """
     if name not in SAMPLERS:
         raise ValueError(f"sampler must be one of {', '.join(SAMPLERS)}, got {name!r}")

@@ -2,7 +2,7 @@
 
 Whitted's model with Phong's highlight (CACM 23(6), 1980; slides "Ray Tracing" and "Reflection direction for Phong
 model"): I = A ka C + sum over the lights of S L (kd C (N.L) + ks (R.V)^p). A is the ambient light, C the surface's
-colour, L a light's colour, S the share of it that its shadow ray lets through.
+colour, L a light's colour, S the fraction of it that the shadow ray lets through.
 """
 
 import math
@@ -43,8 +43,8 @@ def ambient(material: Material, color: Vector, world_ambient: Vector) -> Vector:
 
 @inlined
 def phong(material: Material, color: Vector, light: Vector, n: Vector, to_light: Vector, v: Vector) -> Vector:
-    """L (kd C (N.L) + ks (R.V)^p): the share of one unshadowed light. `to_light` is a unit vector with N.L > 0, `v` the
-    ray.
+    """L (kd C (N.L) + ks (R.V)^p): the contribution of one unshadowed light. `to_light` is a unit vector with N.L > 0,
+    `v` the ray.
     """
     n_l = dot(n, to_light)
     r = subtract(scale(2.0 * n_l, n), to_light)

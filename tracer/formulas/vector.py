@@ -1,8 +1,8 @@
 """Vectors as tuples of three floats: points, directions and linear RGB colours.
 
-Compiled, tuples live in registers and cost no allocation; they cannot be changed behind a reader's back. Sums are
-written out so that flipping the sign of one axis flips just that component of the result: a mirrored scene is traced
-into the mirrored tree, bit for bit.
+Compiled, tuples live in registers and cost no allocation; they are immutable. Sums are written out so that flipping
+the sign of one axis flips just that component of the result: a mirrored scene is traced into the mirrored tree, bit
+for bit.
 """
 
 import math
@@ -105,5 +105,5 @@ def rescale(a: VectorLike) -> Vector:
 
 @inlined
 def max_component(a: Vector) -> float:
-    """The largest component: an upper bound on how much a colour matters."""
+    """The largest component. Rays are cut and ordered by that of their weight."""
     return max(a[0], max(a[1], a[2]))

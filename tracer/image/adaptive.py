@@ -1,16 +1,17 @@
 """Adaptive sampling: each pixel gets as many samples as its estimated error asks for.
 
-The samples of a pixel are doubled, again and again. How far its mean moves when they are doubled tells how far it is
-still off: if the samples are independent, the root mean square of the move equals the error, since both halves are
-off independently. If the error falls as N^-3/4, as that of low-discrepancy points at edges, the move is 1.35 times
-the error; if it falls as 1/N, 1.7 times. So as a mean over many pixels the estimate is on the safe side; for one
-pixel it is a single random draw.
+The samples of a pixel are doubled, again and again. The change of its mean when they are doubled estimates the error
+of the mean: if the samples are independent, the root mean square of the change equals the error, since the errors of
+both halves are independent. If the error falls as N^-3/4, as for low-discrepancy points at edges, the change is 1.35
+times the error; if it falls as 1/N, 1.7 times. So the mean over many pixels is a conservative estimate; for one
+pixel it is a single random value.
 
 The pixels that gain most per sample are doubled next. The squared error of an edge falls as N^-3/2, so the gain is
-the squared error over N. A single draw would fail as soon as it is small by chance, so it is pooled over all
-doublings of the pixel, with a fifth from its neighbours, and at first with its contrast to them: else an edge could
-hide between two samples. (Mitchell, SIGGRAPH 1987, refines by contrast; Kirk & Arvo, SIGGRAPH 1991, show the bias of
-stopping where samples agree.) A pixel with N samples has the very bits of an image with N samples per pixel.
+the squared error over N. A single estimate may be small by chance, so the estimates of all doublings of a pixel are
+averaged, with a weight of 0.2 for its neighbours, and at first with its contrast to them. Otherwise an edge between
+two samples could be missed. (Mitchell, SIGGRAPH 1987, refines by contrast; Kirk & Arvo, SIGGRAPH 1991, show the bias
+of stopping where samples agree.) A pixel with N samples equals, bit for bit, that of an image with N samples per
+pixel.
 """
 
 import math
@@ -26,10 +27,10 @@ from tracer.image.task import Work
 from tracer.image.tiles import Tile, pixel_list
 from tracer.kernel.entry import PixelRow
 
-OWN_SHARE = 0.8  # of a pixel's pooled error that is its own; the rest is its neighbours'
-CONTRAST_WEIGHT = 0.25  # of the contrast to the neighbours, in doublings
-GROWTH = 0.2  # samples that a round adds at least, relative to all samples so far
-RESTART_FACTOR = 5.0  # if 4 N new samples replace N: the squared move over the new squared error, at least
+OWN_SHARE = 0.8  # weight of a pixel's own error in its pooled error; the rest is its neighbours'
+CONTRAST_WEIGHT = 0.25  # weight of the contrast to the neighbours; a doubling has the weight 1
+GROWTH = 0.2  # smallest number of samples that a round adds, relative to all samples so far
+RESTART_FACTOR = 5.0  # if 4 N new samples replace N: lower bound of the squared change over the new squared error
 RANKS = 4 * 2400  # ranks of gains, a quarter of an octave each: the whole range of a double
 QUARTERS = (2.0**-0.75, 2.0**-0.5, 2.0**-0.25)
 
@@ -55,7 +56,8 @@ class PixelStatistics:
     def error(self) -> float:
         """Estimated root mean square error over pixels and components; NaN until every pixel has been doubled.
 
-        Random samples leave no margin for stopping where the last draw was small by chance, so all draws count.
+        With random samples, stopping where the last estimate is small by chance would bias the result, so all
+        estimates are used.
         """
         if self.adaptive and self.power == 1.0 and self.counts.min() > 1:
             return math.sqrt(float((self.errors() ** 2).mean()))
@@ -91,7 +93,7 @@ class PixelStatistics:
         return Work(tile, have, wanted, before)
 
     def update(self, tile: Tile, sums: np.ndarray) -> None:
-        """Take in the new sums (n, 4) of a tile's pixels, in the order of its list."""
+        """Store the new sums (n, 4) of a tile's pixels, in the order of its list."""
         work = self._work(tile)
         pixels = pixel_list(tile, work.first, work.end)
         factor = RESTART_FACTOR if self.restarts else 1.0
@@ -120,7 +122,7 @@ def update_statistics(
     moved: Numbers,
     pooled: Numbers,
 ) -> None:
-    """`PixelStatistics.update`: each pixel's sums, and how far its mean has moved."""
+    """`PixelStatistics.update`: update each pixel's sums and the squared change of its mean."""
     for k in range(len(pixels)):
         x, y, count, have = pixels[k].x, pixels[k].y, pixels[k].end, counts[pixels[k].y, pixels[k].x]
         if have > 0:
@@ -135,7 +137,9 @@ def update_statistics(
 
 @kernel
 def add_contrast(sums: Numbers, counts: Numbers, power: float, pooled: Numbers) -> None:
-    """Pool in half the mean squared difference from the eight neighbours: their variance, if all were alike."""
+    """Add half the mean squared difference from the eight neighbours to the pooled error. It is the variance if all
+    have the same distribution.
+    """
     height, width = counts.shape
     for y in range(height):
         for x in range(width):

@@ -23,11 +23,11 @@ from tracer.image.warmup import warm_up as warm_up_kernels
 
 CONNECTING = 5  # seconds for the scheduler to answer
 WAITING = 120.0  # seconds for a first worker to appear
-LOOKING = 5.0  # seconds between looks for more workers
-RETRIES = 3  # of a call that failed
+LOOKING = 5.0  # seconds between checks for more workers
+RETRIES = 3  # repetitions of a failed call
 SCHEMES = ("tcp", "tls", "ws", "wss", "ucx")
 LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")  # Dask sets them one by one
-LARGEST = "8 GiB"  # of a world, above which Dask would advise to send it in another way
+LARGEST = "8 GiB"  # size of a world up to which Dask's warning about large graphs is suppressed
 
 
 class ClusterError(RuntimeError):
@@ -92,9 +92,9 @@ def connect(
 ) -> Iterator[Cluster]:
     """Connect to the cluster of the scheduler at this address.
 
-    `say` is called with what is being done, `note` with a line on what may surprise: that there is no worker yet,
-    that last bits may differ. Leaving the context cancels calls that still run. ClusterError if there is no cluster,
-    or if its workers have other versions.
+    `say` is called with the current activity, `note` with a warning: no worker yet, or last bits that may differ.
+    Leaving the context cancels calls that still run. ClusterError if there is no cluster, or if its workers have
+    other versions.
     """
     address = checked(address)
     try:
@@ -119,16 +119,16 @@ def connect(
                 wait_for_worker(client, address, waiting)
             for line in compare(client):
                 note(line)
-            say("prepare the tracer on the cluster, the first time in about twenty seconds")
+            say("compile the kernels on the cluster (only the first time, about twenty seconds)")
             warm_up(client)
             yield Cluster(client)
         except Mismatch as error:
             raise ClusterError(f"{address}: a worker that came later has {error}") from None
         except KilledWorker as error:
-            raise ClusterError(f"{address}: one worker after the other was killed at it: {_line(error)}") from None
+            raise ClusterError(f"{address}: several workers were killed during the same call: {_line(error)}") from None
         except (CancelledError, asyncio.CancelledError, CommClosedError, TimeoutError) as error:
             raise ClusterError(f"{address}: the scheduler was lost: {_line(error)}") from None
-        except OSError as error:  # of a connection, or of anything else in this context
+        except OSError as error:  # raised by the connection, or by anything else in this context
             if address not in str(error):
                 raise
             raise ClusterError(f"{address}: the scheduler was lost: {_line(error)}") from None
@@ -196,7 +196,7 @@ def checked(address: str) -> str:
 
 
 def _several(workers: list[str]) -> str:
-    return f"worker {workers[0]}" + (f" (as {len(workers) - 1} more)" if len(workers) > 1 else "")
+    return f"worker {workers[0]}" + (f" (and {len(workers) - 1} more)" if len(workers) > 1 else "")
 
 
 def _line(error: BaseException) -> str:

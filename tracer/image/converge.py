@@ -1,4 +1,5 @@
-"""An image that converges: rounds of estimating, choosing and sampling, until an error or a time is reached.
+"""Progressive rendering: each round estimates errors, selects pixels and samples them, until an error or a time is
+reached.
 
 A round may be stopped between two tiles; the finished ones count.
 """
@@ -29,13 +30,13 @@ class RoundStats(NamedTuple):
     seconds: float  # of tracing and choosing
     rays: int  # of all kinds
     samples: float  # mean per pixel
-    least: int  # samples of a pixel
+    least: int  # smallest number of samples of a pixel
     most: int
     error: float  # estimated root mean square over pixels and components, linear light; NaN: not known yet
 
 
 class ConvergingImage:
-    """An image that gets more samples from round to round: where its error is, or everywhere."""
+    """An image that gets more samples in each round: in the pixels with the largest errors, or in all."""
 
     def __init__(
         self,
@@ -70,7 +71,7 @@ class ConvergingImage:
         finished: Finished = lambda traced, share: None,
         cancelled: Cancelled = never,
     ) -> Iterator[RoundStats]:
-        """Trace round after round, until there is nothing to gain. Stopped where `cancelled` turns true."""
+        """Trace rounds until no pixel gets more samples. Raises Stopped if `cancelled` returns true."""
         while True:
             began = time.perf_counter()
             if not self.statistics.plan_round(self.most):

@@ -15,7 +15,7 @@ from tracer.kernel.nodes import KINDS
 
 
 class Traced(NamedTuple):
-    """A finished tile. An image gets colours, pixels that are to have more samples get their sums."""
+    """A finished tile. `colors` is set for a plain image, `sums` in adaptive sampling."""
 
     tile: Tile
     counts: Counts
@@ -25,11 +25,11 @@ class Traced(NamedTuple):
 
 
 class Totals:
-    """What was traced, added up."""
+    """Total numbers of rays and intersection tests."""
 
     def __init__(self) -> None:
         self.rays = np.zeros(len(KINDS), np.int64)  # by kind
-        self.tests = 0  # of a ray against a surface
+        self.tests = 0  # ray-surface intersection tests
 
     def add(self, counts: Counts) -> None:
         """Add the counts of a tile."""
@@ -46,7 +46,7 @@ class Film:
         self.residuals: list[tuple[float, float]] = []
 
     def add(self, traced: Traced) -> None:
-        """Take in a finished tile."""
+        """Add a finished tile."""
         self.totals.add(traced.counts)
         self.residuals.append(traced.residual)
         if traced.colors is not None:

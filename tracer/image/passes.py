@@ -32,15 +32,15 @@ def trace_passes(
     image: np.ndarray | None = None,
     cancelled: Cancelled = never,
 ) -> None:
-    """Trace the tiles of each pass. Stopped where `cancelled` turns true.
+    """Trace the tiles of each pass. Raises Stopped if `cancelled` returns true.
 
-    `task` is a Task, or what stands for it (`tracer.image.task.shared`). A pass begins when the one before has
-    ended, since a coarse square must not overwrite finer pixels. `finished` is called in this thread, with each tile
-    and the share done. `image`: where threads of this process write their colours.
+    `task` is a Task or a handle of it (`tracer.image.task.shared`). A pass begins when the one before has ended,
+    since a coarse square must not overwrite finer pixels. `finished` is called in this thread, with each tile and
+    the share done. `image` is the array that threads of this process write colours into.
     """
     here = isinstance(executor, ThreadPoolExecutor)
     if not here and len(passes) > 1:
-        raise ValueError("several passes need threads of this process: a finer pass leaves the pixels of a coarser one")
+        raise ValueError("several passes need a ThreadPoolExecutor: a finer pass keeps the pixels of the coarser ones")
     total = sum(len(works) for works in passes)
     done = due = 0
     ended = threading.Event()  # if this thread is interrupted, the others stop, too
@@ -78,7 +78,7 @@ def trace_passes(
 
 
 def shared_out(works: Sequence[Work], threads: int, most: int) -> Iterator[Sequence[Work]]:
-    """The tiles of each call, fewer and fewer, so that all threads finish together.
+    """Split the tiles into calls of decreasing size, so that all threads finish together.
 
     Guided self-scheduling: Polychronopoulos & Kuck, IEEE Trans. Computers 36(12), 1987.
     """

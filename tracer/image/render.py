@@ -1,4 +1,4 @@
-"""Renders an image: every pixel's tree, of which only the colour is kept."""
+"""Renders an image: traces every pixel's tree and keeps its colour."""
 
 import math
 import os
@@ -29,22 +29,22 @@ Progress = Callable[[float], None]
 
 @dataclass(eq=False, repr=False)
 class Image:
-    """A finished image, and what it took."""
+    """A rendered image and its statistics."""
 
     pixels: np.ndarray  # (height, width, 3) float64, linear RGB
     seconds: dict[str, float]  # of "compile" and "trace"
     rays: dict[str, int]  # by kind
-    tests: int  # of a ray against a surface
+    tests: int  # ray-surface intersection tests
     residual: dict[str, float]  # weight that was cut: "max" of a pixel, "mean" over the pixels
     threads: int
     size: tuple[int, int]  # width, height
-    samples: int  # of a pixel; the most, where they differ
+    samples: int  # per pixel; the maximum if they differ
     depth: int | None  # None: limited by the tolerance only
     tolerance: float | None
     bound: float  # no component of a pixel lacks more than this because rays were cut; inf where there is no bound
-    left_out: list[str]  # capabilities that the scene did without
+    left_out: list[str]  # capabilities that the scene does not need
     counts: np.ndarray | None = None  # (height, width) samples of each pixel, of an image that converged
-    stats: RoundStats | None = None  # how far it converged
+    stats: RoundStats | None = None  # statistics of the last round, of an image that converged
     ended: str = ""  # what ended it: "error", "seconds", or "samples" if no pixel may have more
 
     def __repr__(self) -> str:
@@ -54,7 +54,7 @@ class Image:
 
 @dataclass(frozen=True)
 class Goal:
-    """When an image that converges is good enough; whichever comes first."""
+    """The stopping criterion of an image that converges: an error or a time, whichever is reached first."""
 
     error: float | None = None  # estimated root mean square over pixels and components, linear light
     seconds: float | None = None
@@ -107,7 +107,7 @@ def render(
     processors. With an `executor` (of `concurrent.futures`, or a `tracer.cluster`), the tiles are traced there,
     `threads` calls at a time. The pixels have the same bits.
 
-    One of `samples` is the pixel's centre; of more, the pixel is the mean over the first points of the `sampler`.
+    A pixel is the mean over the first `samples` points of the `sampler`; a single Sobol point is the pixel's centre.
     The number of jittered points must be a square. `until_error` and `until_seconds` give each pixel as many samples
     as its error asks for, until the image's estimated error is that low or so much time has passed; each gets two at
     least, and `samples` at most.
@@ -115,15 +115,15 @@ def render(
     `min_weight` cuts rays whose largest weight is below it. With a `tolerance`, the weights of the rays that a pixel
     lacks sum up to no more than that; the depth is then limited only if it is given.
 
-    `progress` is called with the share that is done. Where `cancelled` returns true, Stopped is raised within a
-    tile's time. ValueError for a value that is not allowed.
+    `progress` is called with the share that is done. If `cancelled` returns true, Stopped is raised after at most
+    the time of one tile. ValueError for a value that is not allowed.
     """
     goal = Goal(until_error, until_seconds)
     points = make_samples(1 if goal else samples or 1, sampler)
     if goal and points.sampler.kind == JITTERED:
-        raise ValueError("jittered samples cannot be added to: an image that converges needs sobol or random ones")
+        raise ValueError("until_error and until_seconds need sobol or random samples, got jittered")
     if goal and samples is not None and samples < 2:
-        raise ValueError(f"samples must be >= 2 in an image that converges, got {samples}")
+        raise ValueError(f"samples must be >= 2 with until_error or until_seconds, got {samples}")
     elsewhere = isinstance(executor, Remote)
     threads = threads or (executor.threads if elsewhere else processors())
     compiling = 0.0 if elsewhere else warm_up()

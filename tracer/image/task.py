@@ -1,4 +1,4 @@
-"""The work of an image as pure functions of data, for threads of this process or for other processes.
+"""The work of an image as functions of picklable data, for threads of this process or for other processes.
 
 A `Task` is what all tiles of an image have in common. It is sent to other processes once.
 """
@@ -36,7 +36,7 @@ class Mismatch(RuntimeError):
 
 
 def difference(ours: dict[str, str], theirs: dict[str, str]) -> str:
-    """The versions that differ, as text for people; empty if none does."""
+    """The versions that differ, as text; empty if none does."""
     if theirs == ours:
         return ""
     return ", ".join(
@@ -54,7 +54,7 @@ class Task:
     sampler: Sampler
     eye_solids: np.ndarray
     made_by: dict[str, str] = field(default_factory=versions)
-    workspaces: SimpleQueue[Workspace] = field(default_factory=SimpleQueue)  # not in use by a thread
+    workspaces: SimpleQueue[Workspace] = field(default_factory=SimpleQueue)  # unused workspaces, for the next call
 
     @staticmethod
     def of(world: World, view: View, limits: Limits, sampler: Sampler) -> "Task":
@@ -82,16 +82,16 @@ class Work(NamedTuple):
 class Remote(Executor, ABC):
     """An executor whose calls run in other processes."""
 
-    threads: int  # that can work at a time
-    abandoned: Cancelled  # a module's function, called in the other process: whether nobody waits for the call any more
+    threads: int  # number of calls that can run at the same time
+    abandoned: Cancelled  # a module-level function, called in the other process: whether the call was cancelled
 
     @abstractmethod
     def share(self, task: Task) -> Any:
-        """Send a task ahead. Returns what stands for it in calls."""
+        """Send a task to the other processes. Returns a handle to pass to calls."""
 
 
 def shared(task: Task, executor: Executor) -> Any:
-    """What stands for a task in this executor's calls."""
+    """The task, or its handle for the calls of a Remote executor."""
     return executor.share(task) if isinstance(executor, Remote) else task
 
 

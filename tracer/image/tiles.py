@@ -1,8 +1,8 @@
-"""Tiles of an image, and the list of pixels that each of them is for the kernel.
+"""Tiles of an image, and the list of pixels that the kernel traces for each.
 
-An image that is watched is traced in several passes, coarse to fine: in a coarse pass, each traced pixel stands for a
-square. Tiles write disjoint pixels, and no sum crosses a tile's border. So an image has the same bits for any number of
-threads and any order of tiles.
+An image that is watched is traced in several passes, coarse to fine: in a coarse pass, each traced pixel stands for
+a square. Tiles write disjoint pixels, and no sum crosses a tile's border. So an image has the same bits for any
+number of threads and any order of tiles.
 """
 
 from collections.abc import Sequence

@@ -20,7 +20,9 @@ class ObjectRow(Row):
 
 
 class MaterialRow(Row):
-    """One material. Fields are the author's of the same name (`tracer.scene.Material`); `checker_x` is `checker.x`."""
+    """One material. Fields are copied from the fields of the same name in `tracer.scene.Material`; `checker_x` from
+    `checker.x`.
+    """
 
     color: Float3
     checker_color: Float3
@@ -35,7 +37,7 @@ class MaterialRow(Row):
 
 
 class LightRow(Row):
-    """One light. Fields are the author's of the same name (`tracer.scene.Light`), and two derived ones."""
+    """One light. Fields are copied from the fields of the same name in `tracer.scene.Light`; two are derived."""
 
     position: Float3
     color: Float3

@@ -1,12 +1,13 @@
-"""One pixel's ray tree, best-first, to a tolerance: the heaviest ray next, until the rest weighs too little in sum.
+"""Traces one pixel's ray tree best-first: the ray of largest weight is next, until the weights of the others sum up to
+at most the tolerance.
 
 Between glass plates the tree doubles at every face while the weights hardly decay. A limit on the depth, or on the
-weight of a single ray, then cuts off an unknown amount. Here the rays that are not traced yet are in a priority queue.
-The sum of their weights bounds what is missing, and tracing the heaviest lowers it fastest. Whenever tracing stops, the
-tree is the best so far.
+weight of a single ray, then cuts off an unknown amount. Here the rays that are not traced yet are in a priority
+queue. The sum of their weights bounds what is missing, and tracing the heaviest lowers it fastest. Whenever tracing
+stops, the tree is the best so far.
 
-The queue is a binary heap (Williams, CACM 7(6), 1964). An open ray takes little memory: when its turn comes, the hit of
-its parent is scattered again.
+The queue is a binary heap (Williams, CACM 7(6), 1964). An open ray takes little memory: when its turn comes, the hit
+of its parent is scattered again.
 """
 
 from tracer.compile.jit import compiled, inlined

@@ -20,33 +20,33 @@ from tracer.rays import Ray
 
 @inlined
 def hit_distance(
-    world: Arrays, s: int, ray: Ray, floor: float, floor_id: int, above: float, ceiling: float, exact: bool
+    world: Arrays, s: int, ray: Ray, t_min: float, min_id: int, next_t: float, t_max: float, exact: bool
 ) -> float:
-    """Distance to surface s, if the hit comes after (floor, floor_id) and not beyond the ceiling; else inf.
+    """Distance to surface s, if the hit comes after (t_min, min_id) and at most at t_max; else inf.
 
-    `above` is the float after `floor`. Unless `exact`, only whether there is a hit counts.
+    `next_t` is the float after `t_min`. Unless `exact`, the result only tells whether there is a hit.
     """
-    least = floor if s > floor_id else above
+    least = t_min if s > min_id else next_t
     surface = world.surfaces[as_unsigned(s)]
     if surface.coincident == ray.start:
         t = world.formulas.next_hit(world, surface, ray)
         return t if t >= least else math.inf
-    return world.formulas.intersect(world, surface, ray, least, ceiling, exact)
+    return world.formulas.intersect(world, surface, ray, least, t_max, exact)
 
 
 @inlined
-def closest(world: Arrays, ray: Ray, floor: float, floor_id: int, space: Space) -> tuple[float, int, bool]:
-    """(t, surface, tied) of the first hit after (floor, floor_id). Surface -1: none; tied: another is at the same t."""
-    return closest_within(world, ray, floor, floor_id, math.inf, space)
+def closest(world: Arrays, ray: Ray, t_min: float, min_id: int, space: Space) -> tuple[float, int, bool]:
+    """(t, surface, tied) of the first hit after (t_min, min_id). Surface -1: none; tied: another is at the same t."""
+    return closest_within(world, ray, t_min, min_id, math.inf, space)
 
 
 @compiled
 def closest_within(
-    world: Arrays, ray: Ray, floor: float, floor_id: int, limit: float, space: Space
+    world: Arrays, ray: Ray, t_min: float, min_id: int, limit: float, space: Space
 ) -> tuple[float, int, bool]:
     """`closest` among the hits with t <= limit."""
-    above = np.nextafter(floor, math.inf) if floor > 0.0 else SMALLEST
-    return search_closest(world, ray, (floor, floor_id, above), (limit, -1, False), space)
+    next_t = np.nextafter(t_min, math.inf) if t_min > 0.0 else SMALLEST
+    return search_closest(world, ray, (t_min, min_id, next_t), (limit, -1, False), space)
 
 
 @inlined

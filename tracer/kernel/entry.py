@@ -1,7 +1,7 @@
 """The kernel's entry point: it traces a list of pixels.
 
-An image is traced as many lists, a click as a list of one pixel, whose table is then kept. A ray given by hand is the
-only pixel of a view that sees nothing else.
+An image is traced as many lists, a click as a list of one pixel, whose table is then kept. A single given ray is
+traced as a view of one pixel.
 """
 
 from collections.abc import Callable
@@ -41,10 +41,10 @@ PIXEL = dtype_of(PixelRow)
 
 
 class Counts(NamedTuple):
-    """How much was traced."""
+    """Numbers of rays and intersection tests."""
 
     rays: np.ndarray  # by kind, as KINDS numbers them
-    tests: np.ndarray  # (1,): tests of a ray against a surface
+    tests: np.ndarray  # (1,): ray-surface intersection tests
 
 
 @kernel
@@ -60,9 +60,9 @@ def trace_pixels(
 ) -> int:
     """Trace the samples of each pixel, and add them up.
 
-    `before` (n, 4) are the sums over the samples so far: red, green, blue, and the weight that was cut. `sums` (n, 4)
-    become the new sums. Returns how many pixels are done: all, or fewer after ENOUGH rays. -1 if a tree needs a longer
-    table; nothing of that call counts.
+    `before` (n, 4) are the sums over the samples so far: red, green, blue, and the weight that was cut. `sums` (n,
+    4) become the new sums. Returns the number of finished pixels: all, or fewer after ENOUGH rays. Returns -1 if a
+    tree needs a longer table; the call must then be repeated.
     """
     rays = space.rays
     rays[:] = 0
@@ -155,7 +155,7 @@ def trace_list(
 ) -> tuple[np.ndarray, Counts] | None:
     """Trace all pixels of a list, with as much memory as their trees need.
 
-    Returns the sums (n, 4) over the samples, onto those `before`, and what was traced; None if cancelled.
+    Returns the sums (n, 4) over the samples, including those in `before`, and the counts; None if cancelled.
     """
     before = np.zeros((len(pixels), 4)) if before is None else before
     sums = np.zeros((len(pixels), 4))

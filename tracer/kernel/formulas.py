@@ -1,7 +1,7 @@
 """The functions that the kernel computes with, as a table that is part of the world.
 
-A kernel calls `world.formulas.intersect(...)`. So the same kernel can be compiled with other formulas, to measure what
-ours are worth (`tracer.measure.precision.textbook_kernel`).
+A kernel calls `world.formulas.intersect(...)`. So the same kernel can be compiled with other formulas, to compare
+their accuracy and speed (`tracer.measure.precision.textbook_kernel`).
 """
 
 from collections.abc import Callable

@@ -2,8 +2,8 @@
 
 All surfaces at bitwise equal t are one interface. If one of them is opaque, the ray ends there. Otherwise the ray
 crosses them all, and its set of solids changes (`tracer.formulas.media`). Where the medium changes, the surface of
-the outranking solid is shown. Where it does not, the surfaces are hidden: they make no row, cost no depth and are
-not shaded. A thin sheet bounds no medium and is always shown.
+the solid of higher priority is visible. Where it does not, the surfaces are hidden: they add no row and no depth,
+and are not shaded. A thin sheet bounds no medium and is always shown.
 """
 
 from tracer.compile.jit import compiled, inlined
@@ -96,7 +96,9 @@ def is_entering(world: Arrays, s: int, ray: Ray, t: float) -> bool:
 
 @inlined
 def distance_uncertainty(world: Arrays, s: int, ray: Ray) -> float:
-    """How far apart rounding may put the hits with two faces of a mesh that really meet there; 0 for other shapes."""
+    """Bound on the difference that rounding makes between the distances to two faces of a mesh that meet at the hit; 0
+    for other shapes.
+    """
     surface = world.surfaces[s]
     if surface.count != 3:
         return 0.0

@@ -12,7 +12,7 @@ from tracer.shapes.mesh import NO_FILE, Mesh
 
 
 class Capability(StrEnum):
-    """What an image may need. `tracer.measure.plan` renders each scene with and without it."""
+    """A kind of work that an image may need. `tracer.measure.plan` renders each scene with and without it."""
 
     REFLECTION = "reflection"
     REFRACTION = "refraction"
@@ -60,7 +60,10 @@ def needs(scene: Scene, surfaces: int, nodes: int, blocks: int) -> tuple[Need, .
         Capability.MEDIA: (bool(solids), _which(solids, "bounds a medium", "bound media")),
         Capability.FRESNEL: (fresnel and bool(glass), f'model = "{scene.tracing.model}"'),
         Capability.SHADOW_RAYS: (bool(scene.lights and lit), _shadow_reason(len(scene.lights), len(lit))),
-        Capability.LIGHT_FROM_BEHIND: (False, "it adds nothing to a surface" if scene.lights else "no light"),
+        Capability.LIGHT_FROM_BEHIND: (
+            False,
+            "a light behind a surface adds nothing to it" if scene.lights else "no light",
+        ),
         Capability.LIGHT_THROUGH_GLASS: (filtered, _filter_reason(scene, glass)),
         Capability.CHECKER: (any(m.checker for m in materials), _checkered(materials)),
         Capability.HIERARCHY: (nodes > 0, _hierarchy(surfaces, nodes, blocks)),

@@ -1,4 +1,4 @@
-"""How far a ray tree goes, and by which model its rays are weighted."""
+"""Limits of a ray tree, and the model that weights its rays."""
 
 from numbers import Integral, Real
 from typing import NamedTuple
@@ -8,7 +8,7 @@ from tracer.kernel.world import World
 
 MAX_NODES = 10**6  # rows of a tree, unless asked otherwise
 MAX_DEPTH = 2**31 - 1  # limit of a row's `depth`
-BREADTH_FIRST = -1.0  # instead of a tolerance
+BREADTH_FIRST = -1.0  # value of `tolerance` for breadth-first tracing
 
 
 class Limits(NamedTuple):
@@ -33,7 +33,9 @@ def make_limits(
     *,
     records: bool,
 ) -> Limits:
-    """The limits for a world. What is not given is the scene's own. ValueError for a value that is not allowed."""
+    """The limits for a world. A `depth` or `model` of None is taken from the scene. ValueError for a value that is not
+    allowed.
+    """
     tracing = world.scene.tracing
     if depth is None:
         depth = tracing.depth if tolerance is None else MAX_DEPTH

@@ -18,7 +18,7 @@ from tracer.rays import Ray, make_ray
 def start_row(
     limits: Limits, table: Rows[NodeRow], i: int, parent: int, kind: int, depth: int, factor: Vector, weight: Vector
 ) -> NodeRow:
-    """Row i before its ray is traced. All that is not given is absent."""
+    """Initialise row i, before its ray is traced. All other fields are set to absent."""
     row = table[i]
     row.kind = kind
     row.depth = depth
@@ -80,7 +80,7 @@ def record_unlit(
 ) -> None:
     """Write row i, a shadow ray to a light that adds nothing to the local term, whether it is reached or not.
 
-    A surface that faces away from the light blocks its own shadow ray, at distance 0.
+    An opaque surface that faces away from the light blocks its own shadow ray, at distance 0.
     """
     row = space.table[parent]
     s, nothing = row.surface, (0.0, 0.0, 0.0)

@@ -9,7 +9,7 @@ from tracer.compile.rows import Float, Float3, Int32, Int64, Row, dtype_of
 KINDS = ("camera", "reflection", "refraction", "tir", "shadow")
 CAMERA, REFLECTION, REFRACTION, TIR, SHADOW = range(5)
 
-# Why a ray has nothing below it; of a shadow ray, what it met. -1: it has children, and none was cut.
+# The reason why a ray has no children; for a shadow ray, its result. -1: it has children, and none was cut.
 ENDS = ("surface", "background", "depth", "weight", "tolerance", "nodes", "invalid", "lit", "filtered", "blocked")
 SURFACE, BACKGROUND, DEPTH, WEIGHT, TOLERANCE, NODES, INVALID, LIT, FILTERED, BLOCKED = range(10)
 
@@ -34,7 +34,7 @@ class PublicRow(Row):
     n2: Float  # index behind a transparent surface
     theta1: Float  # angle of incidence, radians
     theta2: Float  # angle of refraction, radians
-    factor: Float3  # what the parent multiplies this ray's radiance by
+    factor: Float3  # factor by which the parent multiplies this ray's radiance
     weight: Float3  # product of the factors from the eye down
     radicand: Float  # 1 - n^2 (1 - c1^2): total internal reflection where it is <= 0
     local: Float3  # local illumination

@@ -1,4 +1,4 @@
-"""From a scene to the rows that kernels read. Surfaces are in the file's order: their ids decide ties."""
+"""Packs a scene into the rows that kernels read. Surfaces are in the file's order: their ids decide ties."""
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
@@ -62,7 +62,9 @@ def pack_surfaces(scene: Scene) -> Surfaces:
 
 
 def pack_objects(scene: Scene, materials: dict[Material, int], solids: list[int]) -> Rows[ObjectRow]:
-    """`materials` are numbered, `solids` are the objects that bound a medium, by rank."""
+    """One row for each object. `materials` maps a material to its number, `solids` lists the objects that bound a
+    medium, by rank.
+    """
     ranks = {k: rank for rank, k in enumerate(solids)}
     rows = [_object(item, materials[item.material], ranks.get(k, -1)) for k, item in enumerate(scene.objects)]
     return as_rows(np.array(rows, OBJECT), ObjectRow)

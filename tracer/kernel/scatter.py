@@ -1,7 +1,8 @@
-"""The rays that a hit sends out: a reflected one, a refracted one, both or none, each with its weight.
+"""The rays that a hit sends out: a reflected one, a refracted one, both or none, each with its factor.
 
-In Whitted's model every surface reflects kr and transmits kt. In Fresnel's, transparent surfaces divide kt between the
-two by the angle. On total internal reflection one ray gets kr + kt. Where the indices are equal, nothing is reflected.
+In Whitted's model every surface reflects kr and transmits kt. In Fresnel's model, transparent surfaces divide kt
+between the two according to the angle. On total internal reflection one ray gets kr + kt. Where the indices are
+equal, nothing is reflected.
 """
 
 import math
@@ -106,7 +107,7 @@ def append_child(
 
 @inlined
 def cut_reason(limits: Limits, parent: NodeRow, rays: Scattered, refracted: bool, heaviest: float) -> int:
-    """Why a ray is cut, whatever else is traced; NONE if it may be followed."""
+    """The reason to cut a ray that does not depend on other rays; NONE if it may be followed."""
     through = rays.through
     if refracted and not math.isfinite(through[0] + through[1] + through[2]):
         return INVALID

@@ -1,8 +1,8 @@
-"""Shadow rays: how much of a light's radiance gets through to a point.
+"""Shadow rays: the fraction of a light's radiance that reaches a point.
 
-An opaque surface on the way blocks the light. Each transparent one multiplies it by its `transmit`, without bending the
-ray. This is a simplification: light that really gets there through glass is bent on its way. With `glass_blocks`,
-transparent surfaces block it, too.
+An opaque surface on the way blocks the light. Each transparent one multiplies it by its `transmit`, without bending
+the ray. This is a simplification: light that really gets there through glass is bent on its way. With
+`glass_blocks`, transparent surfaces block it, too.
 """
 
 import math
@@ -134,7 +134,7 @@ def filter_sorted(world: Arrays, crossed: Rows[CrossingRow], count: int) -> tupl
 
 @compiled
 def filter_stepwise(world: Arrays, ray: Ray, end: float, space: Space) -> tuple[float, int]:
-    """The same for any number of crossings, by one closest-hit search each."""
+    """`filter_sorted` for any number of crossings, with one closest-hit search for each."""
     noinline()
     share, first = 1.0, -1
     last_t, last_object = -1.0, -1

@@ -1,4 +1,4 @@
-"""One pixel's ray tree, breadth-first, into the node table: what an image is made of, and what a click shows.
+"""Traces one pixel's ray tree breadth-first into the node table, for images and for clicks.
 
 Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980. `tracer/whitted.py` is the same
 algorithm as a plain recursion. Here the table itself is the queue: the rays of a level are traced, their shadow rays
@@ -66,7 +66,7 @@ def is_pass_through(table: Rows[NodeRow], i: int) -> bool:
 def replace_by_child(space: Space, i: int, count: int) -> int:
     """Replace row i by its only child, the last row, so that a million mirrors in a row need no more memory than one.
 
-    Counts the rays of the rows that go. Returns the number of rows left.
+    Counts the rays of the removed rows. Returns the number of rows left.
     """
     noinline()
     table, solids = space.table, space.solids

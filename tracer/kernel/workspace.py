@@ -42,11 +42,11 @@ class Space(NamedTuple):
     eye_solids: Numbers  # (words,): the solids around the eye
     open: Rows[OpenRow]  # heap of a best-first search
     stack: Rows[StackRow]  # of a traversal
-    near: Numbers  # where the ray enters the boxes of one node
+    near: Numbers  # distances at which the ray enters the boxes of one node
     crossed: Rows[CrossingRow]  # transparent surfaces on the way to a light
     directions: Numbers  # (3, BATCH) of the next camera rays
     rays: Numbers  # traced in this call, by kind
-    tests: Numbers  # (1,): tests of a ray against a surface in this call; a block of eight triangles counts as eight
+    tests: Numbers  # (1,): ray-surface intersection tests in this call; a block of eight triangles counts as eight
     tree: Numbers  # (rows, residual) of the last tree; -1 rows if the table was too short for it
 
 
@@ -71,7 +71,7 @@ class Workspace:
         self._bundle()
 
     def grow(self) -> None:
-        """Four times as many rows."""
+        """Make the table four times as long."""
         rows = 4 * len(self.arrays.table)
         words = len(self.arrays.eye_solids)
         self.arrays = self.arrays._replace(

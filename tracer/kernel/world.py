@@ -32,19 +32,19 @@ class World:
     scene: Scene
     arrays: Arrays  # as a Bundle
     bounds: np.ndarray  # (n, 2, 3): boxes about the bounded surfaces
-    extent: tuple[Vector, float]  # centre and radius of these, for a camera that the author left open
+    extent: tuple[Vector, float]  # centre and radius of these, for a scene without a camera position or target
     needs: tuple[Need, ...]
     solids: tuple[int, ...]  # objects that bound a medium, by rank
     _solids_around: dict[Vector, np.ndarray] = field(default_factory=dict)  # cache: the eye seldom moves
 
     @property
     def left_out(self) -> list[str]:
-        """The capabilities that this scene does without."""
+        """The capabilities that this scene does not need."""
         return [need.name for need in self.needs if not need.needed]
 
     @property
     def notes(self) -> list[str]:
-        """What an author hardly intends, though it is no fault; a line each."""
+        """Warnings, one line each: valid input that is probably not intended."""
         objects, closed = self.scene.objects, self.arrays.objects["closed"]
         solids = [objects[k] for k in self.solids]
         opened = [objects[k] for k in self.solids if not closed[k]]
@@ -76,11 +76,12 @@ class World:
 def prepare(scene: Scene, hierarchy: bool | None = None, formulas: Formulas = STABLE) -> World:
     """Prepare a scene for tracing.
 
-    The hierarchy is built where it pays, or as `hierarchy` says; images have the same bits either way. `formulas` are
-    the functions that kernels compute with. SceneError lists all values that are not allowed.
+    The hierarchy is built for more than MAX_UNBOXED bounded surfaces, or as `hierarchy` says; images have the same
+    bits either way. `formulas` are the functions that kernels compute with. SceneError lists all values that are not
+    allowed.
     """
     if not isinstance(scene, Scene):
-        raise TypeError(f"a Scene is prepared, as tracer.load gives it, got {type(scene).__name__}")
+        raise TypeError(f"prepare needs a Scene, as tracer.load returns it, got {type(scene).__name__}")
     faults = scene.faults()
     if faults:
         raise SceneError(faults)
@@ -128,6 +129,8 @@ def _ranked(scene: Scene) -> list[int]:
 
 
 def _padded(boxes: np.ndarray) -> np.ndarray:
-    """Boxes that also contain a ray's origin on the surface inside, which rounding may have put beside it."""
+    """Boxes enlarged by the rounding error of a hit point, so that a ray that starts on a surface starts inside its
+    box.
+    """
     pad = 4.0 * PLANE_ERROR * np.abs(boxes).sum(axis=2).max(axis=1, initial=0.0)
     return np.stack([boxes[:, 0] - pad[:, None], boxes[:, 1] + pad[:, None]], axis=1)

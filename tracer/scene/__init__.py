@@ -1,4 +1,4 @@
-"""What an author writes: a scene as frozen dataclasses with their defaults, and the camera that follows from them."""
+"""The scene as frozen dataclasses with their defaults, and the camera view that follows from them."""
 
 from tracer.scene.scene import (
     Background as Background,

@@ -1,4 +1,6 @@
-"""The view of a scene's camera. What the author left open frames the scene."""
+"""The view of a scene's camera. A position or target that the scene file leaves out is chosen so that the whole scene
+is visible.
+"""
 
 import math
 import operator
@@ -7,7 +9,7 @@ from tracer.formulas.camera import View, make_view
 from tracer.formulas.vector import Vector, add, cross, rescale, scale, unit
 from tracer.scene.scene import Camera, Scene
 
-MARGIN = 1.1  # how much more than the scene's ball a framing camera sees
+MARGIN = 1.1  # ratio of the radius that a default camera sees to the radius of the scene
 
 
 def scene_view(scene: Scene, extent: tuple[Vector, float], size: tuple[int, int] | None = None) -> View:
@@ -27,7 +29,9 @@ def scene_view(scene: Scene, extent: tuple[Vector, float], size: tuple[int, int]
 
 
 def framing_position(camera: Camera, look_at: Vector, radius: float, size: tuple[int, int]) -> Vector:
-    """Where a camera sees a whole ball about `look_at`, from above and from the side, in an image of this size."""
+    """The position from which a camera sees a whole ball about `look_at`, from above and from the side, in an image of
+    this size.
+    """
     width, height = size
     narrow = math.radians(camera.fov) / 2
     if width < height:
@@ -36,6 +40,6 @@ def framing_position(camera: Camera, look_at: Vector, radius: float, size: tuple
     aside = unit(cross(up, (0.0, 0.0, 1.0) if abs(up[2]) < 0.9 else (1.0, 0.0, 0.0)))
     ahead = cross(aside, up)
     away = unit(add(add(scale(0.35, up), scale(0.45, aside)), ahead))
-    # Near a speck far from the origin the camera's position would have too few digits.
+    # For a tiny scene far from the origin, the camera's position would have too few digits.
     least = 2.0**-40 * max(map(abs, look_at))
     return add(look_at, scale(MARGIN * (max(radius, least) or 1.0) / math.sin(narrow), away))

@@ -1,10 +1,10 @@
-"""An upper bound on the light that any ray of a scene can bring.
+"""An upper bound on the radiance of any ray of a scene.
 
-Let every hit's local term be at most L, and let the factors of the rays that it sends out add up to at most s < 1. Then
-no ray brings more than B = max(background, L / (1 - s)), since L + s B <= B. So a tree lacks at most residual * B: the
-weights that were cut, each times the most light that its ray could have brought. If s >= 1 and something shines, light
-may add up without limit, and there is no bound. (Hall & Greenberg, IEEE CG&A 3(8), 1983, cut rays by weight. The weight
-of one ray is no bound, the sum is.)
+Let every hit's local term be at most L, and let the factors of the rays that it sends out add up to at most s < 1.
+Then the radiance of every ray is at most B = max(background, L / (1 - s)), since L + s B <= B. So a tree lacks at
+most residual * B: the weights that were cut, each times the most light that its ray could have brought. If s >= 1
+and L > 0, or s > 1 and the background emits light, radiance may grow without limit, and there is no bound. (Hall &
+Greenberg, IEEE CG&A 3(8), 1983, cut rays by weight. The weight of one ray is no bound, the sum is.)
 """
 
 import math

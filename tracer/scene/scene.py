@@ -1,7 +1,7 @@
-"""What an author writes: a scene as frozen dataclasses, each field with its rule and its default beside it.
+"""The scene as frozen dataclasses, each field with its rule and its default.
 
-Format 1 of scene files uses the same names. Lengths are in the author's unit, colours in linear RGB, angles in degrees;
-the frame is right-handed.
+Format 1 of scene files uses the same names. Lengths are in the author's unit, colours in linear RGB, angles in
+degrees; the frame is right-handed.
 """
 
 import math
@@ -78,7 +78,7 @@ class Background:
 @dataclass(frozen=True, slots=True)
 class Tracing:
     depth: int = field(default=3, metadata=fields.whole(0, 10**9))  # 0: camera rays and their shadow rays only
-    shadows: str = field(default=SHADOWS[0], metadata=fields.choice(*SHADOWS))  # what glass does to shadow rays
+    shadows: str = field(default=SHADOWS[0], metadata=fields.choice(*SHADOWS))  # of transparent surfaces
     model: str = field(default=MODELS[0], metadata=fields.choice(*MODELS))
     ambient: Vector = field(default=(1.0, 1.0, 1.0), metadata=fields.color())
 
@@ -120,7 +120,7 @@ class Material:
 
     @property
     def is_lit(self) -> bool:
-        """Whether light makes it brighter."""
+        """Whether its local term depends on the lights."""
         return self.diffuse > 0.0 or self.specular > 0.0
 
 

@@ -3,9 +3,9 @@
 A shape's file has its class (see `shape.py`) and the functions that kernels call. `surface` is its row of
 `world.surfaces`.
 
-    intersect(world, surface, ray, floor, ceiling, exact) -> t
-        The smallest distance t > 0 with floor <= t <= ceiling at which the ray meets the surface, inf for none. Unless
-        `exact`, any number between floor and ceiling will do for t: only whether the surface is met counts.
+    intersect(world, surface, ray, t_min, t_max, exact) -> t
+        The smallest distance t > 0 with t_min <= t <= t_max at which the ray meets the surface, inf for none. Unless
+        `exact`, any number between t_min and t_max will do for t: only whether the surface is met counts.
     next_hit(world, surface, ray) -> t
         The same for a ray that starts on this very surface.
     interaction(world, surface, ray, t) -> (point, normal, shading normal)
@@ -56,17 +56,17 @@ def choose_intersect(replaced: Mapping[str, Function] | None = None) -> Function
     """`intersect` for any shape."""
 
     @inlined
-    def none(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
+    def none(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
         return math.inf
 
     def link(code: int, own: Function, rest: Function) -> Function:
         @inlined
         def intersect(
-            world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool
+            world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool
         ) -> float:
             if surface.shape_code == code:
-                return own(world, surface, ray, floor, ceiling, exact)
-            return rest(world, surface, ray, floor, ceiling, exact)
+                return own(world, surface, ray, t_min, t_max, exact)
+            return rest(world, surface, ray, t_min, t_max, exact)
 
         return intersect
 

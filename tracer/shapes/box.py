@@ -99,14 +99,14 @@ def slab_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
 
 
 @inlined
-def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
-    """Where the ray enters the box or, from inside, leaves it."""
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
+    """The distance at which the ray enters the box or, from inside, leaves it."""
     enter, leave = slab_interval(surface, ray)
     if enter > leave:
         return math.inf
-    if enter > 0.0 and enter >= floor:
+    if enter > 0.0 and enter >= t_min:
         return enter
-    if leave > 0.0 and leave >= floor:
+    if leave > 0.0 and leave >= t_min:
         return leave
     return math.inf
 

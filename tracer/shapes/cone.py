@@ -126,7 +126,7 @@ def is_within_height(surface: SurfaceRow, height: float) -> bool:
 
 
 @compiled
-def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
     """The first root of the quadratic that is between the two ends."""
     noinline()
     height, climb, f, d, rho, rise = quadratic_terms(surface, ray)
@@ -143,16 +143,16 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, c
     one = difference_of_squares(length(f), rho) / q
     other = q / a if a != 0.0 else math.inf  # one root only: the ray is parallel to a line of the side
     near, far = min(one, other), max(one, other)
-    if near > 0.0 and near >= floor and is_within_height(surface, height + near * climb):
+    if near > 0.0 and near >= t_min and is_within_height(surface, height + near * climb):
         return near
-    if 0.0 < far < math.inf and far >= floor and is_within_height(surface, height + far * climb):
+    if 0.0 < far < math.inf and far >= t_min and is_within_height(surface, height + far * climb):
         return far
     return math.inf
 
 
 @inlined
 def next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
-    """Where a ray that leaves the side inwards meets it again: C is 0, so t = -2 B / A.
+    """The distance at which a ray that starts on the side and goes inwards meets it again: C is 0, so t = -2 B / A.
 
     Inwards, B < 0. Where A <= 0, the ray is steeper than the side and meets the double cone only behind its origin.
     """

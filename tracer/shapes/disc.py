@@ -55,12 +55,12 @@ class Disc(Shape):
 
 
 @compiled
-def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
-    """The distance to the plane, where the hit is no farther from the centre than the radius."""
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
+    """The distance to the plane if the hit is within the radius of the centre, else inf."""
     noinline()
-    if not may_cross(surface, ray, ceiling):
+    if not may_cross(surface, ray, t_max):
         return math.inf
-    t = world.formulas.plane_distance(world, surface, ray, floor, ceiling, True)
+    t = world.formulas.plane_distance(world, surface, ray, t_min, t_max, True)
     if t == math.inf:
         return math.inf
     from_center = add(subtract(ray.origin, vector(surface.a)), scale(t, ray.direction))

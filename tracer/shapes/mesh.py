@@ -15,7 +15,7 @@ from tracer.shapes.shape import Shape
 from tracer.shapes.tessellation import flat, normals_of
 from tracer.shapes.triangle import Triangle, pack_triangles
 
-MAX_FACETS = 400  # triangles of a cut stone whose edges are drawn. A finer mesh counts as round
+MAX_FACETS = 400  # largest number of triangles of a mesh whose edges figures draw; a finer mesh is drawn as curved
 NO_FILE = "mesh"  # stands for the file's name, where a mesh came from no file
 
 
@@ -26,7 +26,7 @@ class Geometry:
     vertices: np.ndarray  # (n, 3)
     faces: np.ndarray  # (m, 3) indices of vertices, counter-clockwise seen from outside
     normals: np.ndarray | None = None  # (n, 3) vertex normals, if the file has them
-    note: str = ""  # what a user should know about how the file was read
+    note: str = ""  # warning of the reader
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,7 +100,7 @@ class Mesh(Shape):
         return flat(corners) if normals is None else (corners, normals)
 
     def faces(self) -> list[tuple[Shape, ...]]:
-        """The triangles of each plane, as a cut stone has them; the whole mesh if it is smooth or fine."""
+        """The facets: the triangles grouped by plane; the whole mesh if it is smooth or fine."""
         corners = self.placed()
         if len(corners) > MAX_FACETS or self.smooth() is not None:
             return [(self,)]

@@ -83,20 +83,21 @@ def height_and_speed(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
 
 
 @inlined
-def may_cross(surface: SurfaceRow, ray: Ray, ceiling: float) -> bool:
-    """Whether the ray may cross the plane no farther than the ceiling.
+def may_cross(surface: SurfaceRow, ray: Ray, t_max: float) -> bool:
+    """Whether the ray may cross the plane at a distance of at most t_max.
 
     Decides without a division, since most planes lie behind the ray or too far away. Never false because of rounding.
     """
     height, speed = height_and_speed(surface, ray)
     error = plane_rounding(surface, ray)
     behind = (height > 0.0) != (speed > 0.0) and abs(height) > error and abs(speed) > PLANE_ERROR
-    return not behind and abs(height) - error <= (abs(speed) + PLANE_ERROR) * ceiling
+    return not behind and abs(height) - error <= (abs(speed) + PLANE_ERROR) * t_max
 
 
 @inlined
 def outline_slack(surface: SurfaceRow, ray: Ray) -> float:
-    """How far outside the face's outline rounding may have put the start of a ray that starts on its edge.
+    """Bound on the distance by which rounding may put the origin of a ray that starts on the face's edge outside the
+    face.
 
     Such a ray leaves a neighbouring face. The slack is 0 for a ray that starts away from the plane.
     """
@@ -106,22 +107,20 @@ def outline_slack(surface: SurfaceRow, ray: Ray) -> float:
 
 
 @inlined
-def plane_distance(
-    world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool
-) -> float:
-    """Distance t > 0 to the plane, 0 if the ray starts on it and crosses it; inf if not between floor and ceiling."""
+def plane_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
+    """Distance t > 0 to the plane, 0 if the ray starts on it and crosses it; inf if not between t_min and t_max."""
     height, speed = height_and_speed(surface, ray)
     error = plane_rounding(surface, ray)
     if ray.start >= 0 and abs(height) <= error:
         t = contact_distance(world, surface, ray, speed)
     elif is_axis_aligned(surface) or (
         not exact
-        and (abs(speed) + PLANE_ERROR) * floor + error < abs(height) < (abs(speed) - PLANE_ERROR) * ceiling - error
+        and (abs(speed) + PLANE_ERROR) * t_min + error < abs(height) < (abs(speed) - PLANE_ERROR) * t_max - error
     ):
         t = height / speed
     else:
         t = exact_distance(surface, ray)
-    return t if floor <= t <= ceiling and 0.0 <= t < math.inf else math.inf
+    return t if t_min <= t <= t_max and 0.0 <= t < math.inf else math.inf
 
 
 @inlined
@@ -191,7 +190,7 @@ def plane_interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: floa
 
 @inlined
 def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-    """`plane_interaction`, or what a world's formulas have in its place."""
+    """The `plane_interaction` of the world's formulas."""
     return world.formulas.plane_interaction(world, surface, ray, t)
 
 

@@ -67,11 +67,11 @@ class Plane(Shape):
 
 
 @inlined
-def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
     """The distance to the plane."""
-    if not may_cross(surface, ray, ceiling):
+    if not may_cross(surface, ray, t_max):
         return math.inf
-    return world.formulas.plane_distance(world, surface, ray, floor, ceiling, exact)
+    return world.formulas.plane_distance(world, surface, ray, t_min, t_max, exact)
 
 
 next_hit = planar.no_next_hit

@@ -22,7 +22,7 @@ from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import SURFACE, ShapeArrays, SurfaceRow
 from tracer.shapes.tessellation import flat
 
-FLATNESS = 1e-5  # how far a corner may lie off the polygon's plane, relative to the polygon's size (format 1)
+FLATNESS = 1e-5  # largest distance of a corner from the polygon's plane, relative to the polygon's size (format 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ class Polygon(Shape):
         return []
 
     def triangles(self, middle: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
-        """Its ears, cut off one by one in its own plane."""
+        """Triangulation by ear clipping in the polygon's plane."""
         import mapbox_earcut
 
         corners = self.outline()
@@ -92,9 +92,9 @@ class Polygon(Shape):
 
 
 @inlined
-def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
-    """The distance to the plane, where the ray crosses it inside the outline."""
-    if not may_cross(surface, ray, ceiling):
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
+    """The distance to the plane if the ray crosses it inside the outline, else inf."""
+    if not may_cross(surface, ray, t_max):
         return math.inf
     slack = outline_slack(surface, ray)
     inside = False
@@ -106,13 +106,13 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, c
             # the edge goes through the ray itself, which counts as inside, for both faces that share the edge.
             turn = x0 * y1 - x1 * y0
             if turn == 0.0:
-                return world.formulas.plane_distance(world, surface, ray, floor, ceiling, exact)
+                return world.formulas.plane_distance(world, surface, ray, t_min, t_max, exact)
             if (turn > 0.0) == (y1 > y0):
                 inside = not inside
         if slack > 0.0 and is_near_edge(x0, y0, x1, y1, slack):
-            return world.formulas.plane_distance(world, surface, ray, floor, ceiling, exact)
+            return world.formulas.plane_distance(world, surface, ray, t_min, t_max, exact)
         x0, y0 = x1, y1
-    return world.formulas.plane_distance(world, surface, ray, floor, ceiling, exact) if inside else math.inf
+    return world.formulas.plane_distance(world, surface, ray, t_min, t_max, exact) if inside else math.inf
 
 
 next_hit = planar.no_next_hit

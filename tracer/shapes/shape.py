@@ -1,4 +1,4 @@
-"""The base class of all shapes: what a shape says of itself, with defaults. `sphere.py` is the model to follow."""
+"""The base class of all shapes: their properties, with defaults. `sphere.py` is the model to follow."""
 
 from abc import ABC, abstractmethod
 from typing import ClassVar, Self
@@ -14,9 +14,9 @@ class Shape(ABC):
     __slots__ = ()
 
     name: ClassVar[str]  # in scene files
-    curved: ClassVar[bool] = True  # equal shapes coincide; flat faces find each other by their planes
+    curved: ClassVar[bool] = True  # whether equal shapes count as coincident; flat faces are compared by their planes
     checker_in_plane: ClassVar[bool] = False  # checkers are squares in the shape's plane, not cubes in space
-    has_edges: ClassVar[bool] = True  # where it is of glass, the 3D view draws the edges of its triangles
+    has_edges: ClassVar[bool] = True  # whether the 3D view draws the edges of its triangles if it is transparent
     packed_as: ClassVar[str] = ""  # the shape whose rows it packs, where it has no intersection of its own
 
     @classmethod
@@ -66,5 +66,5 @@ class Shape(ABC):
         return None
 
     def faults(self) -> list[str]:
-        """What is wrong with its values beyond the rules of single fields, a line each."""
+        """Errors that the rules of single fields do not find, a line each."""
         return []

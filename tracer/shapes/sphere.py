@@ -41,15 +41,16 @@ from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
 from tracer.shapes.tessellation import unit_ball
 
-# The first form puts the ray's closest point to the centre off by at most 8 u |f|, f from the centre to the ray's
-# origin. So its discriminant is off by less than SHARE (CLOSE (r^2 + beside^2) + ROUGH |f|^2), since 2xy <= x^2 + y^2.
+# In the first form, the error of the ray's closest point to the centre is at most 8 u |f|, where f leads from the
+# centre to the ray's origin. So its discriminant is off by less than SHARE (CLOSE (r^2 + beside^2) + ROUGH |f|^2),
+# since 2xy <= x^2 + y^2.
 SHARE = 2.0**-10
 CLOSE = 2.0**-20
 ROUGH = (8 * U) ** 2 / (SHARE * SHARE * CLOSE)
 POWER_ERROR = 32 * U  # |f|^2 - r^2 has the right sign where it is more than this times |f|^2 + r^2
 
-# Times the distance to the hit: above LARGE the centre is too far away, below 1/SMALL the surface too fine, for a hit
-# point to be computed from the centre.
+# A hit point is not computed from the centre if the radius is above LARGE times the distance to the hit, or below
+# 1/SMALL times it.
 LARGE = 4.0
 SMALL = 2.0**20
 
@@ -87,8 +88,8 @@ class Sphere(Shape):
 
 
 @inlined
-def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
-    """The first root of the quadratic between floor and ceiling."""
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
+    """The first root of the quadratic between t_min and t_max."""
     f = subtract(ray.origin, vector(surface.a))
     b = -dot(f, ray.direction)
     beside = add(f, scale(b, ray.direction))  # from the centre to the ray's closest point
@@ -99,20 +100,20 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, c
         return math.inf
     power = dot(f, f) - r2  # the product of both roots, positive outside the sphere
     if not (discriminant > error and abs(power) > POWER_ERROR * (power + 2.0 * r2)):
-        return first_root(surface, ray, floor, ceiling)
+        return first_root(surface, ray, t_min, t_max)
     if power > 0.0 and b < 0.0:
         return math.inf
     half_chord = math.sqrt(discriminant)
     first = b - math.copysign(half_chord, power)
     error = SHARE * half_chord + POWER_ERROR * abs(b)
-    if first - error > ceiling:
+    if first - error > t_max:
         return math.inf
-    if not exact and first - error > floor and first + error < ceiling:
+    if not exact and first - error > t_min and first + error < t_max:
         return first
     t = refined_root(surface, ray, first)
-    if t < floor and power > 0.0:
+    if t < t_min and power > 0.0:
         t = refined_root(surface, ray, b + half_chord)
-    return t if floor <= t <= ceiling else math.inf
+    return t if t_min <= t <= t_max else math.inf
 
 
 @inlined
@@ -156,12 +157,12 @@ def dd_coordinate(o: float, c: float, t: float, d: float) -> DD:
 
 
 @compiled
-def first_root(surface: SurfaceRow, ray: Ray, floor: float, ceiling: float) -> float:
+def first_root(surface: SurfaceRow, ray: Ray, t_min: float, t_max: float) -> float:
     """`intersect` where the first form cannot decide."""
     noinline()
     near, far = roots(surface, ray)
-    t = near if near > 0.0 and near >= floor else far
-    return t if t > 0.0 and floor <= t <= ceiling else math.inf
+    t = near if near > 0.0 and near >= t_min else far
+    return t if t > 0.0 and t_min <= t <= t_max else math.inf
 
 
 @compiled

@@ -11,7 +11,7 @@ from tracer.compile.simd import WIDTH
 class SurfaceRow(Row):
     """One surface: a shape, or one face of a mesh."""
 
-    a: Float3  # a to count: as the shape's file says
+    a: Float3  # the shape's file defines the fields from `a` to `count`
     b: Float3
     c: Float3
     normal: Float3  # unit normal of a flat face
@@ -21,12 +21,12 @@ class SurfaceRow(Row):
     count: Int32  # corners of a flat face, 1 for a sphere, 0 for a shape without corners
     shape_code: Int32  # as CODES numbers the shapes
     object: Int32
-    coincident: Int32  # the first surface that is curved in the very same way at the same place; mostly itself
+    coincident: Int32  # the first surface with an equal curved shape; usually itself
     smooth: Int32  # index into `ShapeArrays.smooth`, -1 for a face without vertex normals
 
 
 class BlockRow(Row):
-    """Eight triangles, rounded to float32. They only tell which triangles a ray may hit."""
+    """Up to eight triangles, rounded to float32. They only tell which triangles a ray may hit."""
 
     corners: Annotated[Numbers, np.float32, (9, WIDTH)]  # x, y, z of the first corners, of the second, of the third
     surface: Annotated[Numbers, np.int32, WIDTH]
@@ -41,7 +41,7 @@ SURFACE, BLOCK = dtype_of(SurfaceRow), dtype_of(BlockRow)
 
 
 class ShapeArrays(Protocol):
-    """What the functions of a shape read of the world."""
+    """The arrays of the world that the functions of a shape read."""
 
     @property
     def surfaces(self) -> Rows[SurfaceRow]: ...

@@ -64,9 +64,9 @@ def pack_triangles(rows: np.ndarray, corners: np.ndarray) -> None:
 
 
 @inlined
-def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
-    """The distance to the plane, where the ray passes on the same side of all three edges."""
-    if not may_cross(surface, ray, ceiling):
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
+    """The distance to the plane if the ray passes on the same side of all three edges, else inf."""
+    if not may_cross(surface, ray, t_max):
         return math.inf
     ax, ay = sheared(ray, surface.a)
     bx, by = sheared(ray, surface.b)
@@ -83,7 +83,7 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, c
         )
         if not beside:
             return math.inf
-    return world.formulas.plane_distance(world, surface, ray, floor, ceiling, exact)
+    return world.formulas.plane_distance(world, surface, ray, t_min, t_max, exact)
 
 
 @inlined

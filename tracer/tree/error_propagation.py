@@ -141,7 +141,7 @@ def propagate_row(
 
 @compiled
 def apply_jacobian(world: Arrays, step: Step, length: float, c: Numbers, at_start: bool) -> None:
-    """Replace C by J C J' = J (J C)'. J is that of the scattering `at_start`, or of the way from there."""
+    """Replace C by J C J' = J (J C)'. J is that of the scattering (`at_start`), or of the transfer to the next hit."""
     for _ in range(2):
         for b in range(6):
             dp, dd = column(c, b, 0), column(c, b, 3)

@@ -1,4 +1,4 @@
-"""The ledger of a tree: where the weight of 1 that the eye starts with has gone."""
+"""The weight balance of a tree: the camera ray's weight of 1, split into three parts."""
 
 import math
 from typing import NamedTuple
@@ -14,7 +14,7 @@ class Ledger(NamedTuple):
 
     leaves: float  # rays that ended: on opaque surfaces, in the background
     cut: float  # rays that were not followed
-    absorbed: float  # what surfaces on the way passed on to no ray
+    absorbed: float  # weight that surfaces on the way absorbed
 
 
 def make_ledger(nodes: np.ndarray, residual: float, scene: Scene) -> Ledger:
@@ -27,7 +27,7 @@ def make_ledger(nodes: np.ndarray, residual: float, scene: Scene) -> Ledger:
 
 
 def _absorbed(scene: Scene, row: np.void) -> float:
-    """The share that the surface hit passes on to no ray."""
+    """The fraction of a ray's weight that the surface absorbs."""
     item = scene.objects[row["object"]]
     material = item.material
     if material.transmit > 0.0 and row["n1"] == row["n2"] and not item.thin:

@@ -22,7 +22,7 @@ class RayTree(TreeTable):
     """
 
     def to_text(self, most: int | None = None) -> str:
-        """The tree as a terminal shows it; of more than `most` rays, the heaviest."""
+        """The tree as text for a terminal: the heaviest rays if there are more than `most`."""
         return tree_text(self, most)
 
     def to_dict(self) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The rows of a ray tree, and what can be asked of them."""
+"""The rows of a ray tree, and queries on them."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -38,7 +38,7 @@ class TreeTable:
 
     @cached_property
     def ledger(self) -> Ledger:
-        """Where the weight of 1 has gone: leaves, cut, absorbed."""
+        """The camera ray's weight of 1, split into leaves, cut and absorbed."""
         return make_ledger(self.nodes, self.residual, self.scene)
 
     @property
@@ -75,7 +75,7 @@ class TreeTable:
         return KINDS[self.nodes["kind"][i]]
 
     def end(self, i: int) -> str | None:
-        """Why nothing follows ray i, one of ENDS; None if it has children and none was cut."""
+        """The reason why no ray follows ray i, one of ENDS; None if it has children and none was cut."""
         code = self.nodes["end"][i]
         return ENDS[code] if code >= 0 else None
 

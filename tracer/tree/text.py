@@ -11,7 +11,7 @@ HEADINGS = ("ray", "meets", "distance", "index", "angle", "weight", "radiance (r
 
 END_REASONS = {
     None: "",
-    "surface": "opaque: nothing to follow",
+    "surface": "it neither reflects nor transmits",
     "background": "leaves the scene",
     "depth": "cut: depth limit",
     "weight": "cut: too little weight",
@@ -27,7 +27,9 @@ MAX_INDENT = 60  # levels that are indented; a deeper tree shows its levels as n
 
 
 def tree_text(tree: TreeTable, most: int | None = None) -> str:
-    """The tree with each ray's children below it, after a head of two lines. Of more than `most` rays, the heaviest."""
+    """The tree with each ray's children below it, after a head of two lines. If there are more than `most` rays, only
+    the heaviest are listed.
+    """
     rows: list[tuple[str, ...]] = [HEADINGS]
     shown = set(range(len(tree)))
     head = _head(tree)
@@ -42,7 +44,7 @@ def tree_text(tree: TreeTable, most: int | None = None) -> str:
 
 
 def heaviest_rows(tree: TreeTable, most: int, rows: set[int]) -> set[int]:
-    """About `most` of the rows at most: the heaviest rays, with their shadow rays.
+    """The heaviest rays with their shadow rays: at most `most` rows, but at least one ray.
 
     The parent of a row that is kept is kept, too, since no ray is heavier than its parent.
     """
@@ -73,7 +75,7 @@ def _head(tree: TreeTable) -> list[str]:
     lost = [i for i in range(len(tree)) if tree.object_name(i) and tree.nodes["error"][i] > 0.0 and tree.digits(i) == 0]
     if lost:
         head.append(
-            f"from ray {lost[0]} on, rounding has left no correct digit of directions: the rays below may be wrong"
+            f"from ray {lost[0]} on, rounding has left no correct digit of the hit points: the rays below may be wrong"
         )
     return head
 
@@ -91,14 +93,14 @@ def cut_summary(tree: TreeTable) -> str:
 
 
 def missing_light(bound: float) -> str:
-    """The end of a sentence on rays that were cut: how much light they miss."""
+    """The end of a sentence about rays that were cut: the bound on the missing light."""
     if math.isinf(bound):
-        return ", and no upper bound is known for the light they miss"
+        return ", and no upper bound is known for the missing light"
     return f": at most {number_text(bound)} of light is missing"
 
 
 def _stems(tree: TreeTable, shown: set[int]) -> dict[int, str]:
-    """What each line begins with: the branches that lead to it, or its level in a very deep tree."""
+    """The prefix of each line: the branches that lead to it, or its level in a very deep tree."""
     levels = tree.nodes["depth"]
     if levels.max() > MAX_INDENT:
         return {i: f"level {levels[i]}: " for i in shown}
@@ -133,7 +135,7 @@ def _row(tree: TreeTable, i: int, stem: str) -> tuple[str, ...]:
 
 
 def end_reason(tree: TreeTable, i: int) -> str:
-    """Why nothing follows ray i; of a shadow ray, whether it reaches its light."""
+    """The reason why no ray follows ray i; for a shadow ray, whether it reaches its light."""
     return "adds nothing: the surface faces away" if tree.faces_away(i) else END_REASONS[tree.end(i)]
 
 

@@ -1,1 +1,1 @@
-"""Parts that all rooms of the viewer use: theme, files, pictures, progress, options, wording, the orbit camera."""
+"""Parts that all packages of the viewer use: theme, files, pictures, progress, options, wording, the orbit camera."""

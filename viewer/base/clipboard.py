@@ -1,6 +1,7 @@
 """The system's clipboard, for text and pictures.
 
-Not the window's own clipboard: that one knows text only, and answers no program while the window is busy.
+The window's own clipboard is not used: it supports text only, and does not respond to other programs while the
+window is busy.
 """
 
 import io
@@ -21,4 +22,4 @@ def copy_to_clipboard(content: str | bytes) -> None:
         with Image.open(io.BytesIO(content)) as picture:
             copykitten.copy_image(picture.convert("RGBA").tobytes(), *picture.size)
     except copykitten.CopykittenError as error:
-        raise Unusable(f"nothing can be copied here: {error}; Ctrl+S writes the figure into a file") from None
+        raise Unusable(f"cannot copy to the clipboard: {error}; Ctrl+S writes the figure to a file") from None

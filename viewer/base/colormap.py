@@ -1,7 +1,7 @@
 """Numbers to colours, on a logarithmic scale: dark for small, bright for large.
 
-The scale goes from blue over red to yellow and gets lighter all the way, so that it also reads in grey and with any
-colour vision.
+The scale goes from blue over red to yellow and gets lighter all the way, so that it also works in greyscale and with
+any colour vision.
 """
 
 import math

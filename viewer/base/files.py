@@ -9,7 +9,7 @@ from typing import Any
 
 
 class Unusable(Exception):
-    """Input or arguments that cannot be used: one line for each fault, for people."""
+    """Input or arguments that cannot be used. The message has one line for each error."""
 
     def __init__(self, *faults: str) -> None:
         super().__init__("\n".join(faults))

@@ -24,7 +24,7 @@ SPELLING = "spelling"  # key of a field's metadata
 
 @dataclass(frozen=True)
 class Spelling:
-    """How a field is written on a command line."""
+    """The form of a field on a command line."""
 
     help: str
     value: Value | None = None  # None: a switch
@@ -72,7 +72,7 @@ def flag(name: str) -> str:
 
 
 def spelling(item: Field[Any]) -> Spelling:
-    """How a field of a dataclass of options is written."""
+    """The Spelling of a field."""
     return item.metadata[SPELLING]
 
 

@@ -1,4 +1,4 @@
-"""The camera of the 3D view: it orbits around a target, moves nearer and farther, and slides sideways.
+"""The camera of the 3D view: it orbits around a target, zooms and pans.
 
 It works in a frame of its own (`Frame`), whose origin is the centre of the scene and whose unit is the scene's
 radius. So the same numbers suit a scene of light years and one of nanometres, and float32 is enough to draw either.
@@ -16,7 +16,7 @@ from tracer.formulas.vector import rescale, unit
 from tracer.kernel.world import World
 from tracer.scene.scene import middle_and_radius
 
-ENDLESS = 3.0  # times the distance from camera to `look_at`: a larger radius makes a surface part of the surroundings
+ENDLESS = 3.0  # a surface with a radius above this many distances from camera to `look_at` is ignored in the frame
 FOV = math.radians(35)
 CLOSEST, FARTHEST = 0.02, 60.0  # distance to the target
 STEEPEST = math.radians(89)
@@ -123,12 +123,12 @@ class Orbit:
         return (math.degrees(self.azimuth), math.degrees(self.elevation), self.distance, *target.tolist())
 
     def turn(self, dx: float, dy: float) -> None:
-        """Turn by these angles in radians, so that the scene follows the mouse."""
+        """Rotate by these angles in radians, so that the scene follows the mouse."""
         self.azimuth -= dx
         self.elevation = min(STEEPEST, max(-STEEPEST, self.elevation + dy))
 
     def slide(self, dx: float, dy: float) -> None:
-        """Slide by these shares of the picture's height, so that the point under the mouse stays there."""
+        """Pan by these fractions of the picture's height, so that the point under the mouse stays there."""
         right, up = self.axes
         step = 2.0 * math.tan(FOV / 2) * self.distance
         self.target = self.target - step * dx * right + step * dy * up
@@ -182,7 +182,7 @@ def orbit_beside(
 
 
 def initial_orbit(world: World, frame: Frame, view: ViewAngles | None) -> Orbit:
-    """The first view of a scene: the author's, or beside the scene's camera with both in the picture."""
+    """The first view of a scene: `view`, or one from beside the scene's camera that shows the camera and the scene."""
     if view:
         return orbit_beside(world, frame, view.azimuth, view.elevation, view.distance, view.target)
     orbit = orbit_beside(world, frame, AZIMUTH, ELEVATION, DISTANCE, None)

@@ -1,7 +1,7 @@
 """The progress of work that takes more than a second: one line on a terminal that is updated, a few lines in a log.
 
-A thread of its own writes the line. So a worker only stores a number, and the time counts on even while a compiler
-or a library that reports nothing is at work.
+A thread of its own writes the line. So a worker only stores a number, and the elapsed time is updated even while a
+compiler or a library reports nothing.
 """
 
 import sys
@@ -38,7 +38,7 @@ class Progress:
         self._clear()
 
     def say(self, doing: str) -> None:
-        """Something else begins. Its share is not known yet."""
+        """Start another activity, whose progress is not known yet."""
         self.doing = doing
         self.began = self.told = time.perf_counter()
         self.share = 0.0

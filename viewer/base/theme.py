@@ -1,8 +1,9 @@
-"""Every colour, width and size that is drawn, with its reason.
+"""The colours, line widths and font sizes, with reasons.
 
-There are four hues, and the kinds of rays also differ by dash and arrow, so that nothing depends on colour alone. In
-both palettes, any two kinds are at least 28 units of CIE76 apart, also as seen with deutan, protan or tritan vision
-(simulated after Machado et al. 2009), and have a contrast of at least 4.7 to the background (WCAG asks for 3).
+There are four ray colours (reflected rays and total internal reflection share one), and the kinds of rays also
+differ by dash and arrow. In both palettes, any two of these colours are at least 28 units of CIE76 apart, also as
+seen with deutan, protan or tritan vision (simulated after Machado et al. 2009), and have a contrast of at least 4.7
+to the background (WCAG asks for 3).
 """
 
 from dataclasses import dataclass
@@ -38,7 +39,7 @@ class Arrow(Enum):
 
 @dataclass(frozen=True)
 class RayStyle:
-    """How one kind of ray is drawn, in the window and in figures."""
+    """The style of one kind of ray, in the window and in figures."""
 
     label: str  # in the legend
     letter: str  # at the ray: R, T, L as in Whitted's figure
@@ -61,7 +62,7 @@ STYLES = {
 BLOCKED_DASH = (4.0, 5.0)
 FILTERED_DASH = (12.0, 4.0)
 
-HALO = 1.6  # pixels of background colour on either side of a ray, so that it reads on any picture
+HALO = 1.6  # pixels of background colour on either side of a ray, so that it is visible on any image
 HIDDEN = 0.30  # opacity of what is behind or inside an opaque object
 DIMMED = 0.4  # opacity of rays that are not on the path of the selected one
 ARROW = 11.0  # pixels

@@ -75,7 +75,9 @@ def _orbit(text: str) -> tuple[float, ...]:
     finite = all(map(math.isfinite, numbers))
     if finite and len(numbers) in (3, 6) and -90.0 <= numbers[1] <= 90.0 and numbers[2] > 0.0:
         return numbers
-    asked = "degrees about and above (-90 to 90) and a distance > 0 like 38,22,2.6, or these and a target X,Y,Z"
+    asked = (
+        "azimuth and elevation (-90 to 90) in degrees and a distance > 0, like 38,22,2.6, or these and a target X,Y,Z"
+    )
     raise Unreadable(f'{asked}, got "{text}"')
 
 

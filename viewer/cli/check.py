@@ -18,14 +18,14 @@ from viewer.cli.options import CheckOptions
 from viewer.cli.terminal import compile_once, put
 
 LONGEST = 20  # characters of a word in the table
-NONE = "–"  # the textbook has nothing to compare with
+NONE = "–"  # the textbook has no formula to compare with
 WIDTH = 100  # of running text
 HEADINGS = ("setting", "exact answer", "the textbook's", "error", "ours", "error", "")
 ABOUT = (
-    "Each line is a case, at the setting where the textbook's formula is worst compared with ours. The textbook's\n"
-    "error is relative. Ours is in units of rounding: 2^-53 of the answer times the case's condition number, followed\n"
-    "by the allowed number. If an answer has a bound of its own (some of E and F), the unit is that bound. A dash:\n"
-    "the textbook has no formula to compare with.\n"
+    "Each line is a case, at the setting with the largest ratio of the textbook's error to ours. The textbook's\n"
+    "error is relative. Ours is in units of rounding: 2^-53 of the answer times the case's condition number. The\n"
+    "allowed number of units follows. If an answer has a bound of its own (some of E and F), the unit is that bound.\n"
+    "A dash: the textbook has no formula to compare with.\n"
 )
 
 
@@ -77,7 +77,7 @@ def table(results: Sequence[Result]) -> str:
 
 
 def explained(result: Result) -> str:
-    """One case in full: its title, what goes wrong in the textbook's way, and every setting."""
+    """One case in full: its title, the explanation of the textbook's error, and every setting."""
     case = result.case
     lines = columns([HEADINGS, *(cells(reading) for reading in result.readings)])
     return "\n".join([f"{case.id}  {case.title}", "", textwrap.fill(case.wrong, WIDTH), "", *lines]) + "\n"
@@ -86,7 +86,7 @@ def explained(result: Result) -> str:
 def verdict(results: Sequence[Result], seconds: float) -> str:
     short = [result.case.id for result in results if not result.ok]
     count = f"{len(results)} case{'s' if len(results) != 1 else ''} in {seconds:.1f} s"
-    return f"{count}: " + (f"{', '.join(short)} fell short" if short else "all within what is allowed")
+    return f"{count}: " + (f"{', '.join(short)} failed" if short else "all within what is allowed")
 
 
 def cells(reading: Reading) -> tuple[str, ...]:
@@ -103,7 +103,7 @@ def cells(reading: Reading) -> tuple[str, ...]:
         lost,
         shown(reading.got),
         counted(reading),
-        "ok" if reading.ok else "FALLS SHORT",
+        "ok" if reading.ok else "FAILED",
     )
 
 

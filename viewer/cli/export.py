@@ -20,7 +20,7 @@ def export(options: ExportOptions) -> int:
         pixel = options.pixel or (None if options.ray else lesson.pixel)
         options = replace(options, pixel=pixel, depth=options.depth or own)
     if not options.pixel and not options.ray:
-        raise Unusable("raytree export: which pixel? --pixel X,Y, or --ray ox,oy,oz,dx,dy,dz")
+        raise Unusable("raytree export: give a pixel (--pixel X,Y) or a ray (--ray ox,oy,oz,dx,dy,dz)")
     compile_once()
     with faults():
         world = prepared(path)

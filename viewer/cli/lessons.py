@@ -1,4 +1,4 @@
-"""`raytree lessons`: the lessons, one a line."""
+"""`raytree lessons`: the lessons, one per line."""
 
 from viewer.cli.options import LessonsOptions
 from viewer.cli.terminal import put

@@ -48,7 +48,7 @@ COMMANDS = (
         "report", "error against run time, for each source of error", options.ReportOptions, "viewer.cli.report:report"
     ),
     Command(
-        "plan", "what a scene needs of the tracer, and what is left out", options.PlanOptions, "viewer.cli.plan:plan"
+        "plan", "the capabilities that a scene needs, and those left out", options.PlanOptions, "viewer.cli.plan:plan"
     ),
     Command(
         "check", "numbers against exact answers: cases where textbook formulas fail", options.CheckOptions,
@@ -77,7 +77,7 @@ def program() -> NoReturn:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command. Returns its exit status: 0 done, 1 a check fell short, 2 unusable input or arguments."""
+    """Run one command. Returns its exit status: 0 success, 1 a check failed, 2 unusable input or arguments."""
     command, chosen = parse(sys.argv[1:] if arguments is None else arguments)
     try:
         with interruptible():

@@ -81,9 +81,11 @@ class RenderOptions:
     tolerance: float | None = _tolerance()
     size: tuple[int, int] | None = _size()
     samples: int | None = option(
-        whole(1), "samples per pixel, 1 (its centre) by default; the most, with --until-error or --until-seconds"
+        whole(1), "samples per pixel, 1 (its centre) by default; their maximum with --until-error or --until-seconds"
     )
-    sampler: str = option(one_of(SAMPLERS), "where they are; jittered needs a square number of samples", SAMPLERS[0])
+    sampler: str = option(
+        one_of(SAMPLERS), "placement of the samples; jittered needs a square number of samples", SAMPLERS[0]
+    )
     until_error: float | None = option(POSITIVE, "adaptive sampling, until the estimated error (RMSE) is at most E")
     until_seconds: float | None = option(POSITIVE, "adaptive sampling for S seconds", metavar="S")
     threads: int | None = option(whole(1), "the number of processors by default", group="machine")
@@ -118,7 +120,7 @@ class CheckOptions:
     """`raytree check`."""
 
     cases: tuple[str, ...] = argument("CASE", TEXT, "names like A1, or groups like A; all by default", nargs="*")
-    explain: bool = switch("explain what goes wrong in the textbook's way, and show every setting")
+    explain: bool = switch("explain the error of the textbook's formula, and show every setting")
     json: bool = switch("print JSON")
 
 

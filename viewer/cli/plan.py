@@ -45,11 +45,11 @@ def plan(options: PlanOptions) -> int:
 
 
 def window_needs(scene: Scene, in_lesson: bool) -> list[Need]:
-    """What the scene needs of the window."""
+    """The capabilities of the window that the scene needs."""
     cut = any(isinstance(item.shape, Polygon) for item in scene.objects)
     return [
         *shader_needs(scene),
-        Need("polygon cutter", cut, "polygons in the 3D view" if cut else "no polygon in the 3D view"),
+        Need("polygon triangulation", cut, "polygons in the 3D view" if cut else "no polygon in the 3D view"),
         Need("lesson panel", in_lesson, "a lesson" if in_lesson else "the scene belongs to no lesson"),
     ]
 
@@ -73,14 +73,14 @@ def _measured(image: Measured, width: int) -> Iterator[str]:
     rays = ", ".join(f"{spaced(count)} {kind}" for kind, count in image.rays.items() if count)
     yield f"MEASURED with and without, in turn. The image: {_size(image.size)}, depth {image.depth}, one thread,"
     yield from textwrap.wrap(f"{rays} rays", WIDTH)
-    for needed, title in ((False, "left out: it would add"), (True, "needed: what it takes")):
+    for needed, title in ((False, "left out: added cost"), (True, "needed: cost")):
         savings = [saving for saving in image.savings if saving.need.needed == needed]
         if savings:
             yield ""
             yield f"{title:{width + 9}}{'rays':>5}{'ms':>15}{'times':>8}   {'without' if needed else 'with'}"
             yield from (_row(saving, image, width) for saving in savings)
         if any(s.times and s.times.is_significant and s.times.extra < 0.0 for s in savings):
-            yield f"{'':{width}}  (a minus: it saves time)"
+            yield f"{'':{width}}  (negative: it saves time)"
 
 
 def _row(saving: Saving, image: Measured, width: int) -> str:
@@ -111,7 +111,7 @@ def _together(image: Measured) -> list[str]:
     same = "the same picture" if not together.changed else f"{spaced(together.changed)} pixels differ"
     before, after = 1e3 * times.without, 1e3 * (times.without + times.extra)
     told = (
-        f"At once all that the image leaves out and that would not change it ({together.how}; {same}): "
+        f"With all left-out capabilities that do not change the image ({together.how}; {same}): "
         f"{spaced(together.rays[1])} rays instead of {spaced(together.rays[0])}, {after:.1f} ms instead of "
         f"{before:.1f}, ×{times.ratio:.2f}."
     )

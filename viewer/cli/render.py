@@ -152,17 +152,17 @@ def render_one(
 
 
 def summary(image: Image, stats: RoundStats, options: RenderOptions) -> str:
-    """A line about an image that converged."""
+    """A summary line of an image that converged."""
     mean = f"{stats.samples:,.0f}" if stats.samples >= 100 else f"{stats.samples:.3g}"
     spread = f"{mean} samples a pixel" + (f", {stats.least} to {stats.most}" if stats.most > stats.least else "")
     if stats.error == 0.0:
-        end = "no sample gains more"
+        end = "no pixel changes any more"
     elif image.ended == "error":
         end = f"{options.until_error:g} was asked for"
     elif image.ended == "seconds":
-        end = "time is up"
+        end = "the time limit was reached"
     else:
-        end = f"a pixel may have {options.samples or MAX_SAMPLES}, and they double"
+        end = f"another doubling would exceed the maximum of {options.samples or MAX_SAMPLES} samples per pixel"
     reach = f"{stats.error:.2g} (RMSE, linear light) after {stats.seconds:.2f} s and {stats.rays:,} rays"
     return f"estimated sampling error {reach}: {spread}; {end}"
 

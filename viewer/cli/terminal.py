@@ -7,7 +7,7 @@ from tracer.compile.numba_private import NOTE, USES_PRIVATE
 from tracer.image.warmup import are_kernels_cached, fill_cache
 from viewer.base.progress import Progress
 
-COMPILING = "prepare the tracer: compile its formulas, only at the first start, in about twenty seconds"
+COMPILING = "compile the kernels (only at the first start, about twenty seconds)"
 
 
 def put(text: str) -> None:

@@ -46,7 +46,7 @@ def view(options: ViewOptions) -> int:
 
 
 def take_screenshot(path: Path, lesson: Lesson | None, options: ViewOptions, target: Path) -> None:
-    """Draw the viewer until the first full image and the tree are there, and write it."""
+    """Draw the viewer until the first full image and the tree are finished, and write a screenshot."""
     try:
         app = App(Offscreen(options.size or SIZE), Session())
     except NoWindow as reason:

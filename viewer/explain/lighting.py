@@ -1,4 +1,4 @@
-"""The local term at a hit, the light that comes straight from the lights, with its numbers put in."""
+"""The local term at a hit (ambient light and the contributions of the lights), with its numbers."""
 
 import numpy as np
 
@@ -27,7 +27,7 @@ def local_light(tree: RayTree, world: World, i: int) -> Section:
         child = rows[j]
         n_l, r_v = _cosines(tree, i, child)
         if n_l <= 0.0:
-            detail = f"N·L {format_number(n_l, 3)}: faces away from it"
+            detail = f"N·L {format_number(n_l, 3)}: the surface faces away from it"
         elif tree.end(child) == "blocked":
             detail = f"blocked by {tree.object_name(child)}"
         else:
@@ -41,7 +41,7 @@ def local_light(tree: RayTree, world: World, i: int) -> Section:
 
 
 def one_light(tree: RayTree, world: World, i: int, j: int) -> Section:
-    """The share of light j at hit i."""
+    """The contribution of light j at hit i."""
     row = tree.nodes[i]
     light = world.scene.lights[j]
     child = next(c for c in tree.children[i] if tree.nodes["light"][c] == j)
@@ -58,8 +58,8 @@ def one_light(tree: RayTree, world: World, i: int, j: int) -> Section:
     highlight = material.specular * r_v**material.shininess if r_v > 0.0 else 0.0
     section.add("R·V", format_number(r_v))
     section.add(f"ks (R·V)ᵖ, p = {format_number(material.shininess)}", f"{highlight:.4f}")
-    section.add("S: gets through", format_weight(tree.nodes["factor"][child]))
-    section.add("share", format_rgb(tree.nodes["radiance"][child], 4))
+    section.add("S: fraction that arrives", format_weight(tree.nodes["factor"][child]))
+    section.add("contribution", format_rgb(tree.nodes["radiance"][child], 4))
     return section
 
 

@@ -1,4 +1,4 @@
-"""What a ray does and why, in the lecture's formulas with its numbers put in.
+"""The explanation of one ray: the lecture's formulas with its numbers.
 
 Nothing here draws. Each number comes from the node table, or is computed from it by the formulas of
 `tracer.formulas.optics`.
@@ -26,7 +26,7 @@ KIND_NAMES = {
 
 
 def headline(tree: RayTree, i: int) -> tuple[str, str]:
-    """(which ray it is, what becomes of it), in a few words."""
+    """(name of the ray, its result), in a few words."""
     row = tree.nodes[i]
     name = KIND_NAMES[tree.kind(i)]
     if row["kind"] == SHADOW:
@@ -62,7 +62,7 @@ def ray_numbers(tree: RayTree, i: int) -> Section:
     section.add("distance t", format_number(row["t"], error=error))
     section.add("point", format_point(row["point"], error))
     if not math.isnan(error):
-        section.add("rounding may move it by", f"{error:.1g}".replace("-", "−"))
+        section.add("estimated rounding error", f"{error:.1g}".replace("-", "−"))
     if not shadow:
         section.add("normal n", format_point(row["normal"], turn))
         section.add("n₁ → n₂", format_pair(format_number(row["n1"]), format_number(row["n2"])))
@@ -72,7 +72,7 @@ def ray_numbers(tree: RayTree, i: int) -> Section:
     section.add("factor", format_weight(row["factor"]))
     section.add("weight", format_weight(row["weight"]))
     section.add("radiance", format_rgb(row["radiance"], 4))
-    section.add("ends", END_REASONS[tree.end(i)] or "no: its children follow")
+    section.add("ends", END_REASONS[tree.end(i)] or "no: it has children")
     section.add("path", tree.path(i))
     return section
 

@@ -1,4 +1,4 @@
-"""The rays that a hit sends out, in the lecture's formulas with its numbers put in.
+"""The rays that a hit sends out: the lecture's formulas with their numbers.
 
 Each number comes from the node table, or is computed from it by the formulas of `tracer.formulas.optics`.
 """
@@ -16,7 +16,7 @@ from viewer.explain.sections import Section
 
 
 def direction_error(tree: RayTree, i: int) -> float:
-    """A bound on the rounding error of the directions at hit i: of the ray's own and of those it sends out."""
+    """The largest estimated rounding error of the directions at hit i: of the ray itself and of those it sends out."""
     return float(max(tree.nodes["turn"][k] for k in (i, *tree.children[i])))
 
 

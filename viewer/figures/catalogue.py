@@ -1,7 +1,7 @@
-"""The figures, steps and file formats there are. A new one: a function in a file of its own, and a line here.
+"""The lists of figures, steps and file formats. A new one needs a function in its own file and a line here.
 
-Functions are named as "module:function" and imported when they are first used, so that this list is quick to read for
-the command line and the window's menus.
+Functions are named as "module:function" and imported when they are first used, so that this list is quick to read
+for the command line and the window's menus.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ FIGURES = (
 )
 FIGURE_NAMES = tuple(kind.name for kind in FIGURES)
 
-STEPS = ("depth", "rays", "colour")  # of figures that grow: a page a depth, a ray, or a hit as colour flows back
+STEPS = ("depth", "rays", "colour")  # one page per depth, per ray, or per hit as radiance is summed up
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class FormatKind:
     data: str = ""  # function of (RayTree); returns str
     many_pages: bool = False  # one file holds all pages
     has_width: bool = False  # `figures` takes the width in pixels as well
-    letters: str = ""  # function of (letter): whether the format can show it. Empty: it can show every letter
+    letters: str = ""  # function of (character): whether the format can show it. Empty: it can show every character
 
     def write(self, pages: Sequence[Figure], width: int) -> bytes:
         """The file of these pages. A format without pages takes the first. `width` in pixels counts in PNG only."""

@@ -24,7 +24,7 @@ from viewer.figures.subject import FigureStyle, Subject
 from viewer.figures.targets import Target, check_pages, grouped, mark_of, stem_of
 from viewer.figures.writers.png import PIXELS
 
-FARTHER = 1.8  # the view steps back to show the camera as well, but by no larger factor
+FARTHER = 1.8  # largest factor by which the view moves back to show the scene's camera
 
 
 @dataclass(frozen=True)
@@ -65,8 +65,8 @@ def make(
 ) -> Made:
     """Make the files that the options ask for.
 
-    `scene` is its name in file names. `view` is where a lesson sees it from. ValueError or Unusable for options that
-    the scene or the tree does not allow.
+    `scene` is its name in file names. `view` is the first view that a lesson asks for. ValueError or Unusable for
+    options that the scene or the tree does not allow.
     """
     depth = world.scene.tracing.depth
     depths = options.depth or range(depth, depth + 1)
@@ -148,17 +148,21 @@ def orbit_of(numbers: tuple[float, ...] | None, world: World, view: ViewAngles |
 
 
 def fold_notes(drawn: Sequence[Figure], figure: str, subject: Subject, style: FigureStyle) -> list[str]:
-    """A note on branches that were folded for want of room."""
+    """A note on branches that were folded because they do not fit."""
     if style.fold or not any(mark.name.startswith("fold-") for page in drawn for mark in page.marks):
         return []
     where = both.TREE if figure == "both" else tree.WHERE
     size = fitting_size([step.tree for step in subject.steps], tree.tree_style(style, where))
-    helps = f", --text-size {size:g} all of them" if size else ""
-    return [f"{figure}: branches are folded for want of room; a smaller --depth leaves some out{helps}"]
+    helps = f", and --text-size {size:g} shows all branches" if size else ""
+    return [f"{figure}: branches that do not fit are folded; a smaller --depth has fewer branches{helps}"]
 
 
 def letter_notes(drawn: Sequence[Figure], format_name: str) -> list[str]:
     """A note on letters that a format cannot show."""
     content = "".join(mark.content for page in drawn for mark in page.marks if isinstance(mark, Text))
     missing = FORMATS[format_name].missing_letters(content)
-    return [f'{format_name} has no letter for "{missing}": svg and pptx leave it to the reader'] if missing else []
+    return (
+        [f'{format_name} has no glyph for "{missing}"; svg and pptx use the fonts of the program that shows them']
+        if missing
+        else []
+    )

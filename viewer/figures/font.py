@@ -1,8 +1,8 @@
-"""The widths of texts. Figures are laid out for DejaVu Sans, whose file they carry. If another program replaces the
-font, its letters are narrower in nearly all cases, so that nothing overlaps.
+"""The widths of texts. Figures are laid out for DejaVu Sans, whose font file is part of this package. If another
+program replaces the font, its letters are narrower in nearly all cases, so that nothing overlaps.
 
 The file has the Latin, Greek, Cyrillic, Armenian and Georgian letters of DejaVu Sans 2.37, and the signs of
-formulas. Other letters are left to the program that shows the figure.
+formulas. Other characters need a font of the program that shows the figure.
 """
 
 import unicodedata

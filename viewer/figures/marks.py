@@ -56,8 +56,8 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Mark:
-    """`name` says what the mark stands for, like `ray-3`; marks with the same name belong together. `title` is for
-    people.
+    """`name` identifies the object that the mark shows, like `ray-3`; marks with the same name belong together. `title`
+    is shown as a tooltip.
     """
 
     name: str

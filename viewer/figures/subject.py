@@ -22,7 +22,7 @@ Pages = list[list[Mark]]
 
 @dataclass(frozen=True)
 class FigureStyle:
-    """How a figure is drawn."""
+    """The style of a figure."""
 
     theme: Theme = LIGHT
     text_size: float = TEXT_SIZE
@@ -47,7 +47,7 @@ class Subject:
         from viewer.figures.visible.scene_view import SceneView
 
         if self.world is None or self.orbit is None:
-            raise ValueError("a figure of the scene needs the scene and from where it is seen")
+            raise ValueError("a figure of the scene needs a world and an orbit")
         aspect = (where[2] - where[0]) / (where[3] - where[1])
         farther = max(1.0, math.sqrt(WIDTH / HEIGHT / aspect))  # a narrow picture shows less
         return SceneView(self.world, replace(self.orbit, distance=farther * self.orbit.distance), where)

@@ -1,4 +1,4 @@
-"""The files of an export: one file, or a folder with names of ours, and which pages each file has."""
+"""The files of an export: one file, or a folder for files with generated names; and the pages of each file."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from viewer.figures.steps import Step
 
 @dataclass(frozen=True)
 class Target:
-    """One file, or a folder for files with names of ours; and the formats to write."""
+    """One file, or a folder for files with generated names; and the formats to write."""
 
     path: Path
     is_folder: bool

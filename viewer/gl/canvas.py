@@ -18,7 +18,7 @@ from viewer.session.image_renderer import Picture
 from viewer.session.session import Session
 
 REFRESH = 0.4  # least seconds between the states of an unfinished image that the 3D view shows
-RARELY = 10.0  # the same, in times of what such a frame takes
+RARELY = 10.0  # the same, as a multiple of the duration of such a frame
 
 
 class Seen(NamedTuple):
@@ -30,7 +30,7 @@ class Seen(NamedTuple):
 
 
 class Canvas:
-    """Shared by all panels. Besides the pictures it keeps where things were drawn last, for clicks to hit them."""
+    """The pictures that all panels share, and where things were drawn last, to find what is under a click."""
 
     def __init__(self, ctx: moderngl.Context, session: Session) -> None:
         self.ctx = ctx
@@ -182,5 +182,5 @@ def _release(texture: moderngl.Texture | None) -> None:
 
 
 def texture_ref(texture: moderngl.Texture) -> imgui.ImTextureRef:
-    """The texture as imgui takes it."""
+    """The texture as an imgui texture reference."""
     return imgui.ImTextureRef(texture.glo)

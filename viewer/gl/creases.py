@@ -1,4 +1,4 @@
-"""Edges where the surface of triangles turns or ends: clear glass shows by them."""
+"""Edges where the surface of triangles bends or ends. They make clear glass visible."""
 
 import math
 

@@ -72,7 +72,7 @@ class Stage:
         self.target.use()
         ctx.enable_only(moderngl.BLEND)
         # The target stays opaque, whatever is blended into it.
-        ctx.blend_func = (  # type: ignore[assignment]  # its stub has forgotten the form with four
+        ctx.blend_func = (  # type: ignore[assignment]  # the type stub lacks the form with four factors
             moderngl.SRC_ALPHA,
             moderngl.ONE_MINUS_SRC_ALPHA,
             moderngl.ONE,

@@ -69,7 +69,7 @@ class Surfaces:
             self._draw_group(group, culled="back" if group.wall else None)
 
     def draw_clear(self, orbit: Orbit) -> None:
-        """Draw what one sees through, after the opaque surfaces: glass, the farthest first, and walls from behind."""
+        """Draw transparent surfaces, after the opaque ones: glass, the farthest first, and walls from behind."""
         walls = [group for group in self.groups if group.wall and not group.glass]
         if not walls and "GLASS" not in self.features:
             return
@@ -173,7 +173,7 @@ class Surfaces:
             self._ball_group(shared, row[None], glass=True)
 
     def _is_plain_ball(self, shape: object) -> bool:
-        """Whether it is a ball, but not a room around the camera."""
+        """Whether it is a sphere that does not contain the camera."""
         return isinstance(shape, Sphere) and not shape.contains(self.camera)
 
     def _ball_group(self, shared: moderngl.Buffer, places: np.ndarray, glass: bool) -> None:

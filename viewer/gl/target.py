@@ -24,7 +24,7 @@ class Target:
         color = ctx.renderbuffer(size, 4, samples=samples)
         depth = ctx.depth_renderbuffer(size, samples=samples)
         drawn = ctx.framebuffer([color], depth)
-        drawn.use()  # before the old one is released: OpenGL objects to losing the framebuffer in use
+        drawn.use()  # before the old one is released: OpenGL must not lose the framebuffer in use
         self.release()
         self.drawn = drawn
         self.texture = ctx.texture(size, 4)

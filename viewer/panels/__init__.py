@@ -1,4 +1,4 @@
-"""The panels of the window. A new one: a file with a PANEL, and a line here."""
+"""The panels of the window. A new one needs a file with a PANEL and a line here."""
 
 from viewer.panels import error, image, lesson, ray, scene, tree
 

@@ -55,11 +55,11 @@ def _depth(session: Session) -> None:
     imgui.same_line(0.0, 3 * d.unit())
     if imgui.button("−"):
         session.set_depth(session.depth - 1)
-    d.hint("one less (key -)")
+    d.hint("decrease the depth by one (key -)")
     imgui.same_line(0.0, 3 * d.unit())
     if imgui.button("+"):
         session.set_depth(session.depth + 1)
-    d.hint("one more (key +)")
+    d.hint("increase the depth by one (key +)")
     if session.depth > 3:
         imgui.same_line(0.0, 6 * d.unit())
         imgui.text_colored(session.theme.accent, str(session.depth))
@@ -67,8 +67,8 @@ def _depth(session: Session) -> None:
 
 def _model(session: Session) -> None:
     hints = (
-        "Whitted 1980: every surface reflects and transmits fixed shares",
-        "Fresnel: the shares depend on the angle, as in nature",
+        "Whitted 1980: every surface reflects and transmits fixed fractions",
+        "Fresnel: the fractions depend on the angle, as in nature",
     )
     for k, (model, hint) in enumerate(zip(MODELS, hints, strict=True)):
         if k:
@@ -135,12 +135,12 @@ def _glass_blocks(session: Session) -> bool:
 def _meaning(session: Session, kind: str) -> str:
     if kind == "shadow":
         glass = "blocks it" if _glass_blocks(session) else "dims it"
-        return f"does the light get there? Glass {glass}, straight through and unbent: a simplification"
+        return f"tests whether the light is visible. Glass {glass}, without bending the ray: a simplification"
     return {
         "camera": "from the eye through the pixel",
         "reflection": "reflected as by a mirror",
         "refraction": "through the surface, bent by Snell's law",
-        "tir": "no light can leave, all is reflected",
+        "tir": "no light is refracted, all is reflected",
     }[kind]
 
 

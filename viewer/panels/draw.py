@@ -37,7 +37,7 @@ def shortened(content: str, size: float, room: float) -> str:
 def text(
     draw: imgui.ImDrawList, at: Point, color: Color, content: str, size: float, plate: Color | None = None
 ) -> None:
-    """A text with its top left corner at `at`. On a `plate` of the background's colour it reads on any picture."""
+    """A text with its top left corner at `at`. A `plate` of the background's colour makes it legible on any image."""
     size = round(size)
     x, y = round(at[0]), round(at[1])  # between pixels, letters blur
     if plate:

@@ -58,7 +58,7 @@ def _controls(session: Session) -> None:
                 session.set_strategy(strategy)
             d.hint(strategy.hint)
         imgui.end_combo()
-    d.hint("where the rays of a pixel go")
+    d.hint("placement of the samples")
     imgui.same_line()
     if imgui.get_content_region_avail().x < MAP_WIDTH * unit:
         imgui.new_line()
@@ -72,7 +72,7 @@ def _controls(session: Session) -> None:
 
 
 def _numbers(session: Session) -> None:
-    """The error so far, a forecast for one more second, and the error that no sample removes."""
+    """The error so far, a forecast for one more second, and the error due to rays that were cut."""
     run, theme = session.refinement.current, session.theme
     if not run or not run.points:
         return
@@ -84,7 +84,7 @@ def _numbers(session: Session) -> None:
     if math.isinf(run.floor):
         lines.append((f"* rays cut at depth {run.depth}: no upper bound is known for their light", FLOOR))
     elif run.floor > 0.0:
-        lines.append((f"rays cut at depth {run.depth}: at most {run.floor:.2g} more", FLOOR))
+        lines.append((f"rays cut at depth {run.depth}: they add an error of at most {run.floor:.2g}", FLOOR))
     for content, meaning in lines:
         if imgui.get_content_region_avail().y > (PLOT_HEIGHT + 40) * d.unit():
             imgui.text_colored(theme.muted, content)
@@ -98,20 +98,20 @@ def _picked(session: Session, run: Run) -> str:
         return ""
     x, y = session.pixel
     count, error = run.image.statistics.counts[y, x], float(run.image.statistics.errors((y, x)))
-    return "" if math.isnan(error) else f"; the picked one {count}, {error:.2g} off"
+    return "" if math.isnan(error) else f"; picked pixel: {count} samples, error {error:.2g}"
 
 
 MEAN = "the mean over all pixels, the least and the most; the samples of the picked pixel, and its estimated error"
-FLOOR = "the error that no sample removes: a bound on the light of the rays that were cut"
+FLOOR = "a bound on the error due to rays that were cut; more samples do not reduce it"
 
 
 def _outlook(run: Run) -> str:
     last, after = run.points[-1], forecast(run.points, 1.0)
     if run.ended:
-        return "no sample gains more"
+        return "finished: no pixel gets more samples"
     if math.isnan(after):
         return "1 s more: too early to tell"
-    return f"1 s more: {100.0 * (1.0 - after / last.error):.2g} % less"
+    return f"after 1 s more: error {100.0 * (1.0 - after / last.error):.2g} % lower"
 
 
 def _plot(session: Session) -> None:

@@ -1,4 +1,4 @@
-"""The window that lists the faults of a file, or why an action failed, in the words of the command line."""
+"""The window that lists the errors of a file or of an action, in the words of the command line."""
 
 from pathlib import Path
 

@@ -191,12 +191,15 @@ def _waiting(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, roo
 
 def waiting_lines(session: Session) -> list[str]:
     if session.faults and not session.world:
-        return ["This scene cannot be shown.", "Its faults are listed below. Save the file, and it is read again."]
+        return [
+            "This scene cannot be shown.",
+            "The faults are listed in the other window. Correct the file and save it: it is read again.",
+        ]
     if not session.warmup.ready and session.warmup.compiles:
         seconds = session.warmup.seconds
         return [
-            f"Preparing the tracer: {seconds:.0f} s of about 20",
-            "Only at the first start: its formulas are compiled for this machine.",
+            f"Compiling the kernels: {seconds:.0f} s of about 20",
+            "This happens only at the first start on this machine.",
         ]
     return ["Loading ..."]
 

@@ -1,4 +1,4 @@
-"""The selected ray: what becomes of it, and the lecture's formulas with its numbers put in."""
+"""The selected ray: its result, and the lecture's formulas with its numbers."""
 
 from imgui_bundle import imgui
 

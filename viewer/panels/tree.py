@@ -187,7 +187,7 @@ class _Diagram:
         note = {"depth": "cut: depth", "weight": "cut: weight", "nodes": "cut: limit"}.get(end or "", "")
         size = self.text_size
         color = faded(self.theme.text, opacity)
-        # At the node's height, where the edges from above and to below are apart.
+        # The label is at the node's height, between the incoming and the outgoing edges.
         at = x + self.radius + 7.0 * d.unit()
         room = self._room_beside(i) - 7.0 * d.unit()
         gap = 6.0 * d.unit()
@@ -232,11 +232,11 @@ class _Diagram:
             self.pad.add_circle((x, y), 1.5 * r, d.u32(self.theme.accent), 0, 2.5 * d.unit())
 
     def _note(self) -> None:
-        """A note in a corner: what is not shown of this tree. Shorter if there is less room."""
+        """A note in a corner about the rays that are not shown. Shorter if there is less room."""
         drawn, total, weight = len(self.rows), len(self.tree), format_number(self.tree.residual, 3)
         fewer = f"{drawn} of {total} rays drawn" if self.folded > 0 else ""
         most = self.tree.bound
-        bound = f"at most {format_number(most, 3)} of light" if most < np.inf else "no bound"
+        bound = f"at most {format_number(most, 3)} of light missing" if most < np.inf else "no bound"
         cuts = [
             cut_summary(self.tree),
             f"cut: {weight} of the weight, {bound}",

@@ -72,7 +72,7 @@ def _section(name: str, source: Source, plots: Sequence[bytes]) -> list[str]:
 
 
 def _judged(source: Source) -> str:
-    """The reference of the errors, and the settings that have no place on the plots."""
+    """The reference of the errors, and the settings that the plots cannot show."""
     own = source.reference.own
     said = f"{source.size[0]}x{source.size[1]} pixels. Reference: {source.reference.how}"
     apart = (

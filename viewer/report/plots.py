@@ -18,11 +18,11 @@ INK, GRID = "#14181D", "#D6DBE1"
 WORK: dict[str, tuple[str, Callable[[Point], float]]] = {
     "seconds": ("time (s)", lambda point: point.seconds),
     "rays": ("rays traced", lambda point: float(point.rays)),
-    "tests": ("tests of a ray against a surface", lambda point: float(point.tests)),
+    "tests": ("ray-surface intersection tests", lambda point: float(point.tests)),
 }
 FORMATS = ("svg", "pdf")
 SAME = 40.0  # points: markers nearer than this share a name, if it is the same
-WORDY = 26  # letters of a method's name that leave no room for another beside it
+WORDY = 26  # characters: a longer method name has a legend line of its own
 FEW = 30.0  # an axis with a smaller ratio of its ends also has ticks at 2 and 5
 
 

@@ -22,7 +22,7 @@ HINT = "(Ctrl+Shift+C copies its command line)"
 
 @dataclass(frozen=True)
 class Shown:
-    """What is on show: the options of `raytree export` for it, but for format and theme; and its scene."""
+    """The figure on show: its options of `raytree export` except format and theme, and its scene."""
 
     options: ExportOptions
     theme: str  # the window's
@@ -35,16 +35,16 @@ class FigureExport:
     """The figure, format and theme that were last chosen, and the export in progress."""
 
     def __init__(self, post: Callable[[Callable[[], object]], object]) -> None:
-        self.post = post  # has a call made in the window's thread
+        self.post = post  # posts a call to the window's thread
         self.figure = "both"
         self.format = "svg"
         self.theme = ""  # empty: the window's
         self.command = ""  # that makes the last figure again
         self.making: Future[str] | None = None
-        self.kept: Path | None = None  # where the choice is kept from one start to the next
+        self.kept: Path | None = None  # file that stores the choice
 
     def remember(self, path: Path) -> None:
-        """Choose as at the last start, and keep the choice in this file."""
+        """Restore the last choice from this file, and store later choices in it."""
         self.kept = path
         try:
             found = json.loads(path.read_text("utf-8"))

@@ -6,14 +6,14 @@ from pathlib import Path
 from tracer.scene import Scene
 from tracer.shapes.mesh import Mesh
 
-PERIOD = 0.3  # seconds between looks
-SETTLED = 2  # looks in a row that must agree: an editor may write a file in several parts
+PERIOD = 0.3  # seconds between polls
+SETTLED = 2  # consecutive polls that must agree: an editor may write a file in several parts
 
 Stamp = tuple[int, int] | None  # time of change and size; None: no such file
 
 
 class FileWatch:
-    """Looks at files from time to time."""
+    """Polls the modification times and sizes of files."""
 
     def __init__(self) -> None:
         self.known: dict[Path, Stamp] = {}  # when the files were read

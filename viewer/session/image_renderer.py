@@ -23,7 +23,7 @@ from viewer.base.srgb import srgb
 
 BLACK = (0, 0, 0, 255)
 MAX_KEPT = 8  # finished images, so that stepping the depth back and forth shows them at once
-NICENESS = 10  # of rendering threads: the window goes first
+NICENESS = 10  # of rendering threads, so that the window has priority
 
 
 @dataclass(eq=False)
@@ -36,7 +36,7 @@ class Picture:
     seconds: float = 0.0
     cancelled: threading.Event = field(default_factory=threading.Event)
     tiles: list[Tile] = field(default_factory=list)  # finished so far, for those who show what is new
-    is_endless: bool = False  # gets finer for as long as it may
+    is_endless: bool = False  # it is refined until it is stopped
 
     @property
     def finished(self) -> bool:
@@ -72,7 +72,7 @@ class ImageRenderer:
     def refine(self, image: ConvergingImage, picture: Picture, noted: Callable[[RoundStats | None], None]) -> None:
         """Continue an image that converges, and show it, until it is paused or another image is shown.
 
-        `noted` is called in another thread after each round, with None once nothing more is to be gained.
+        `noted` is called in another thread after each round, with None once no pixel gets more samples.
         """
         self.pause()
         picture.cancelled, picture.share = threading.Event(), 0.0

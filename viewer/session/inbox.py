@@ -1,4 +1,4 @@
-"""Calls that background threads hand over to the window's thread, the only one that changes the session."""
+"""Calls that background threads post to the window's thread, the only one that changes the session."""
 
 from collections.abc import Callable
 from queue import Empty, SimpleQueue
@@ -14,12 +14,14 @@ class Inbox:
         self._calls: SimpleQueue[Call] = SimpleQueue()
 
     def post(self, call: Call = lambda: None) -> None:
-        """Have `call` made in the window's thread, before its next frame. Without a call, only a frame is drawn."""
+        """Post `call` to the window's thread, which runs it before its next frame. Without a call, only a frame is
+        drawn.
+        """
         self._calls.put(call)
         self.wake()
 
     def take(self) -> bool:
-        """Make the calls that have been posted. Returns whether there were any."""
+        """Run the calls that have been posted. Returns whether there were any."""
         some = False
         while True:
             try:

@@ -19,13 +19,13 @@ from tracer.kernel.world import World
 from tracer.scene.radiance_bound import radiance_bound
 from viewer.session.image_renderer import ImageRenderer, Picture
 
-RECENT = 6.0  # a forecast goes by the rounds since 1/6 of the time
+RECENT = 6.0  # a forecast uses the rounds after 1/6 of the time
 MAX_BYTES = 500e6  # of images that can be continued
 BYTES_PER_PIXEL = 60
 
 
 class Strategy(NamedTuple):
-    """How samples are distributed."""
+    """A way to distribute samples."""
 
     name: str
     short: str
@@ -36,7 +36,7 @@ class Strategy(NamedTuple):
 
 STRATEGIES = (
     Strategy(
-        "where the error is",
+        "adaptive",
         "adaptive",
         SOBOL,
         True,
@@ -65,7 +65,7 @@ class Run:
     picture: Picture | None
     points: list[RoundStats] = field(default_factory=list)  # of every round with an estimate
     floor: float = 0.0  # the largest possible error due to cut rays; inf: no bound is known
-    ended: bool = False  # no sample gains more
+    ended: bool = False  # no pixel gets more samples
 
     def name(self, models: Sequence[str]) -> str:
         """The curve's name. It has the model if `models`, those of all runs, differ."""
@@ -73,7 +73,7 @@ class Run:
         return f"depth {self.depth}{model}, {self.strategy.short}" + (" *" if math.isinf(self.floor) else "")
 
     def note(self, stats: RoundStats, bound: float) -> None:
-        """Add a round. `bound` is the largest radiance that a cut ray may carry."""
+        """Add a round. `bound` is an upper bound on the radiance of a ray that was cut."""
         assert self.image
         statistics = self.image.statistics
         lost = statistics.sums[..., 3] / statistics.counts

@@ -14,7 +14,7 @@ from viewer.session.warmup import Warmup
 
 
 class Opening(NamedTuple):
-    """A scene to be opened, and what is shown of it; None: what its lesson or the scene says."""
+    """A scene to open, with depth, pixel and model; None: the value of the lesson or of the scene."""
 
     path: Path
     lesson: Lesson | None = None
@@ -86,7 +86,7 @@ class SceneLoader:
             world = loading.result()
         except tracer.SceneError as error:
             self.failed(error.faults)
-        except Exception as error:  # a bug must not end a lecture: it is shown, and the last scene stays
+        except Exception as error:  # a bug must not end the program: it is reported, and the last scene stays
             self.failed([f"{type(error).__name__}: {error}"])
         else:
             self.watch.follow_meshes(opening.path, world.scene)

@@ -1,6 +1,6 @@
-"""The state of the viewer: the scene on show, the picked pixel, the selected ray, and how they are looked at.
+"""The state of the viewer: the scene on show, the picked pixel, the selected ray, and the views.
 
-Only the window's thread changes it. Panels read it and call its methods. It knows no panel and no GPU.
+Only the window's thread changes it. Panels read it and call its methods. It imports no panel and no OpenGL.
 """
 
 from pathlib import Path
@@ -106,7 +106,7 @@ class Session:
             self.pixel = inside
 
     def update(self) -> bool:
-        """Take in what happened in the background since the last frame. Returns whether something new is to be seen."""
+        """Process the results of background threads since the last frame. Returns whether a redraw is needed."""
         news = self.notice.expires() | self.inbox.take()
         self.loader.look()
         if self.world and self.warmup.ready:
@@ -121,7 +121,7 @@ class Session:
         return news
 
     def take_requests(self) -> list[Request]:
-        """What the window has been asked for since the last call."""
+        """The requests to the window since the last call."""
         taken, self.requests = self.requests, []
         return taken
 
@@ -295,7 +295,7 @@ class Session:
         return self.zoom > 1.0
 
     def toggle_lecture_size(self) -> None:
-        """Magnify everything, for the last row of a lecture hall."""
+        """Enlarge the user interface, for a lecture hall."""
         self.zoom = 1.0 if self.is_lecture_size else LECTURE_ZOOM
 
     def close(self) -> None:

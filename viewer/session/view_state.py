@@ -1,4 +1,4 @@
-"""Small parts of a session's state: what is switched on, pan and zoom, a notice, what the window is asked for."""
+"""Small parts of a session's state: visibility, pan and zoom, a notice, requests to the window."""
 
 import time
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ MAX_ZOOM = 200.0
 
 
 class Request(Enum):
-    """What the session asks of the window."""
+    """A request of the session to the window."""
 
     SHOW_LESSON = auto()  # bring this panel to the front
     SHOW_RAY = auto()
@@ -23,7 +23,7 @@ class Request(Enum):
 
 @dataclass
 class Visibility:
-    """What is switched on in the 3D view and the panels."""
+    """The visible parts of the 3D view and the panels."""
 
     kinds: set[str] = field(default_factory=lambda: set(STYLES))  # of rays
     camera: bool = True  # with its frustum, and the image on the image plane
@@ -34,7 +34,7 @@ class Visibility:
 
 @dataclass
 class PanZoom:
-    """How a flat picture is moved and magnified in its panel."""
+    """Pan and zoom of a 2D picture in its panel."""
 
     zoom: float = 1.0
     center: tuple[float, float] = (0.5, 0.5)

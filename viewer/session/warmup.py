@@ -13,7 +13,7 @@ from tracer.image.warmup import are_kernels_cached, warm_up
 
 
 class Warmup:
-    """`ready` once trees can be traced without waiting."""
+    """Loads the kernels; `ready` becomes true when trees can be traced."""
 
     def __init__(self) -> None:
         self.began = time.perf_counter()

@@ -18,10 +18,10 @@ from viewer.window.backend import Offscreen, Window
 
 DOCK = "dock"
 
-IDLE = 0.3  # seconds of sleep between looks at the scene's file
+IDLE = 0.3  # seconds of sleep between polls of the scene's file
 FASTEST = 1 / 60  # least seconds between frames
 BUSY = 1 / 30  # the same while an image renders and nothing else happens
-SHARE = 0.1  # of the time that frames may take while an image renders
+SHARE = 0.1  # largest share of the time for drawing frames while an image renders
 EAGER = 0.6  # the same while the user does something
 SMALLEST = (560, 360)  # room for the panels, in pixels
 AFTERGLOW = 3  # frames drawn after the last event: imgui needs one or two to settle
@@ -78,7 +78,7 @@ class App:
         say: Callable[[str], None] = lambda doing: None,
         progress: Callable[[float], None] = lambda share: None,
     ) -> None:
-        """Draw until everything is there: the scene, the first full image, the tree.
+        """Draw until the scene, the first full image and the tree are finished.
 
         `say` is called with what is waited for, `progress` with the share of the image.
         """
@@ -122,7 +122,7 @@ class App:
             self.frame()
 
     def _has_events(self) -> bool:
-        """Whether there is any input: imgui's callbacks have noted it, and no frame has taken it."""
+        """Whether imgui has input events that no frame has processed."""
         return len(imgui.get_current_context().input_events_queue) > 0
 
     def _is_busy(self) -> bool:
@@ -157,7 +157,7 @@ class App:
         help.draw(session, keys.HELP)
         room = imgui.get_main_viewport()
         left, top = room.work_pos
-        # In a window that is too small the panels are cut off. If they were squeezed, they would stay so.
+        # In a window that is too small the panels are cut off, since imgui would keep reduced panel sizes.
         width = max(room.work_size.x, SMALLEST[0])
         height = max(room.work_size.y, SMALLEST[1]) - bar.height()
         self._dock(left, top, width, height, reset)

@@ -1,4 +1,4 @@
-"""The only file that knows glfw and imgui's backend: a window on a screen, or an offscreen surface.
+"""The only file that uses glfw and imgui's backend: a window on a screen, or an offscreen surface.
 
 Both have an OpenGL context, feed imgui, and present what it drew. `imgui_bundle` is imported before `glfw`, so that
 both use the same copy of that library on systems where each brings its own.
@@ -61,7 +61,7 @@ class Surface:
             backends.opengl3_render_draw_data(data)
             content = buffer.read(components=3, alignment=1)
         finally:
-            before.use()  # first: OpenGL objects to losing the framebuffer in use
+            before.use()  # first: OpenGL must not lose the framebuffer in use
             buffer.release()
         return np.frombuffer(content, np.uint8).reshape(height, width, 3)[::-1]
 
@@ -72,7 +72,7 @@ class Window(Surface):
     def __init__(self, title: str, size: tuple[int, int], ini: Path | None = None, visible: bool = True) -> None:
         self.dropped: list[Path] = []
         self.on_refresh: Callable[[], None] = lambda: None
-        glfw.set_error_callback(lambda code, text: None)  # failures are seen by their results
+        glfw.set_error_callback(lambda code, text: None)  # failures are detected by return values
         if not glfw.init():
             raise NoWindow("There is no display to open a window on")
         for hint, value in (
@@ -190,7 +190,7 @@ class Offscreen(Surface):
         self.title = title
 
     def wait(self, seconds: float) -> None:
-        """No event ever comes from outside."""
+        """Returns at once: there are no events from outside."""
 
     def wake(self) -> None:
         """See `wait`."""

@@ -80,14 +80,14 @@ BINDINGS = (
         "0 1 2 3 ... 9", "recursion depth",
         typed={str(depth): lambda session, depth=depth: session.set_depth(depth) for depth in range(10)},
     ),
-    Binding("+  -", "one level deeper, one less", typed={"+": _deeper(1), "=": _deeper(1), "-": _deeper(-1)}),
+    Binding("+  -", "increase, decrease the depth by one", typed={"+": _deeper(1), "=": _deeper(1), "-": _deeper(-1)}),
     Binding("click", "on a ray, in 3D or in the tree: select it"),
     Binding(
         "Page Down, Page Up", "select the next ray, the one before",
         repeated={K.page_down: lambda session: session.step(1), K.page_up: lambda session: session.step(-1)},
     ),
     Binding("drag", "in the scene: turn; with Shift or the right button: move"),
-    Binding("wheel", "in the scene, on the tree: nearer and farther"),
+    Binding("wheel", "in the scene, on the tree: zoom"),
     Binding("F", "reset the 3D view", {"f": Session.home}),
     Binding("V", "look through the scene's camera", {"v": Session.through_camera}),
     Binding(
@@ -98,13 +98,13 @@ BINDINGS = (
     Binding("R", "refine the image, pause", {"r": Session.toggle_refinement}),
     Binding("T", "light or dark theme", {"t": Session.toggle_theme}),
     Binding("Tab", "lecture size: everything larger", pressed={K.tab: Session.toggle_lecture_size}),
-    Binding("Esc", "select nothing, pick nothing", pressed={K.escape: _escape}),
+    Binding("Esc", "unselect the ray, then unpick the pixel", pressed={K.escape: _escape}),
     Binding(
-        "F5", "reload the scene's file (done by itself when it is saved)",
+        "F5", "reload the scene's file (automatic when it is saved)",
         pressed={K.f5: lambda session: session.loader.reload()},
     ),
     Binding(
-        "Ctrl+S", "export what is on show as a figure (menu Figure: which, and how)", ctrl={K.s: Session.export_figure}
+        "Ctrl+S", "export a figure of the current view (the menu Figure selects it)", ctrl={K.s: Session.export_figure}
     ),
     Binding(
         "Ctrl+C", "copy that figure: a picture to paste onto a slide; with Shift its command line", ctrl={K.c: _copy}
@@ -123,7 +123,7 @@ HELP = [(binding.label, binding.meaning) for binding in BINDINGS]
 
 
 def handle(session: Session) -> None:
-    """Do what the keys that were pressed since the last frame stand for, unless a text field takes them."""
+    """Run the actions of the keys pressed since the last frame, unless a text field has the focus."""
     io = imgui.get_io()
     if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
         if imgui.is_key_pressed(K.escape, False):

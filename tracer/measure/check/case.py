@@ -65,14 +65,14 @@ class Case:
     id: str
     title: str  # in one line
     read: Callable[[], Iterable[Reading]]
-    wrong: str  # why the textbook's way fails; wrapped when shown
+    wrong: str  # explanation of the textbook's error; wrapped when printed
 
 
 Read = Callable[[], Iterable[Reading]]
 
 
 def case(id: str, title: str) -> Callable[[Read], Case]:
-    """Make a case of a function that yields its readings. The docstring says what goes wrong in the textbook's way."""
+    """Make a case of a function that yields its readings. The docstring explains why the textbook's formula fails."""
     return lambda read: Case(id, title, read, inspect.cleandoc(read.__doc__ or ""))
 
 

@@ -11,7 +11,7 @@ Point = list[Decimal]
 
 
 class Bend(NamedTuple):
-    """Sines and cosines of incidence and refraction, and Fresnel's unpolarised shares."""
+    """Sines and cosines of incidence and refraction, and reflectance and transmittance for unpolarised light."""
 
     s1: Decimal
     c1: Decimal

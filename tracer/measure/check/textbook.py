@@ -1,4 +1,4 @@
-"""The formulas as textbooks have them, in plain Python, to show what they lose.
+"""The formulas of the textbooks in plain Python, to show the digits that they lose.
 
 Nothing else uses this file. Each function is the usual way: the quadratic by (-b - sqrt(b^2 - 4ac)) / 2a, refraction
 by 1 - eta^2 (1 - c1^2), angles by acos, the refracted share as 1 - R, and a smallest distance below which no hit
@@ -108,7 +108,7 @@ def offset(point: Vector, normal: Vector, direction: Vector) -> Vector:
 
 
 def haines(origin: Vector, direction: Vector, center: Vector, radius: float) -> bool:
-    """Whether a ray of unit direction comes within the radius of the centre: not by the quadratic's discriminant."""
+    """Whether a ray of unit direction comes within the radius of the centre, without the quadratic's discriminant."""
     f = [o - c for o, c in zip(origin, center, strict=True)]
     b = -dot(f, direction)
     beside = at(f, direction, b)

@@ -1,7 +1,7 @@
 """Paired timing: two ways to do a thing, run in turn, so that other load on the machine falls on both.
 
-The result is the median of the pairs' differences. Its uncertainty is half their interquartile range. Neither is moved
-by what a busy machine adds to a few runs.
+The result is the median of the pairs' differences. Its uncertainty is half their interquartile range. Both are
+robust against a few slow runs on a busy machine.
 """
 
 import math
@@ -18,7 +18,7 @@ class PairedTimes:
     """Medians, in seconds."""
 
     without: float
-    extra: float  # what the other way takes more
+    extra: float  # additional time of the other variant
     uncertainty: float  # of `extra`
     pairs: int
 

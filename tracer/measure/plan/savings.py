@@ -1,7 +1,7 @@
-"""What leaving out a capability saves a scene, and what a capability that it needs costs: in rays, and in seconds.
+"""The rays and seconds that a left-out capability saves a scene, and those that a needed one costs.
 
-For each capability the scene is rendered with and without it, in turn. The image is small and traced by one thread, so
-that a whole plan takes seconds. Rays are counted, not estimated.
+For each capability the scene is rendered with and without it, in turn. The image is small and traced by one thread,
+so that a whole plan takes seconds. Rays are counted, not estimated.
 """
 
 from collections.abc import Callable
@@ -29,7 +29,7 @@ from tracer.measure.plan.without_capability import WITHOUT
 MAX_PIXELS = 80_000
 FAST, SLOW = 0.015, 0.5  # seconds that the scene's own image may take, and any other image
 PROBE = 64  # pixels of the first image that is tried
-MEASURABLE = 0.02  # seconds from which on the time per pixel can be told
+MEASURABLE = 0.02  # smallest duration from which the time per pixel is estimated
 BUDGET = 0.7  # seconds per capability
 UNNOTICED = 2.0**-200  # pictures that differ by less are the same
 
@@ -39,7 +39,7 @@ Progress = Callable[[float], None]
 
 @dataclass(frozen=True)
 class Saving:
-    """What a capability is worth."""
+    """The measured cost of a capability."""
 
     need: Need
     how: str  # what was compared, or why nothing was
@@ -47,7 +47,7 @@ class Saving:
     rays: tuple[int, int] | None = None  # without it, with it
     size: Size | None = None  # of the image
     changed: int = 0  # number of pixels whose colour differs
-    estimated: bool = False  # the time: a number of rays times what one takes
+    estimated: bool = False  # whether the time is a number of rays times the time per ray
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ def measure(world: World, progress: Progress = lambda share: None) -> Measured:
 
 
 def saving_of(need: Need, own: Shot, size: Size) -> Saving:
-    """What one capability is worth to a scene."""
+    """The cost of one capability for a scene."""
     if need.name == Capability.LIGHT_FROM_BEHIND:
         return light_from_behind(need, own, size)
     make = (WITHOUT if need.needed else WITH).get(need.name)
@@ -115,7 +115,7 @@ def compared(need: Need, own: Shot, variant: Variant, size: Size) -> Saving:
 
 
 def light_from_behind(need: Need, own: Shot, size: Size) -> Saving:
-    """The shadow rays that an image does without. Trees have them: from every hit to every light.
+    """The shadow rays that an image does not trace. Trees have them: from every hit to every light.
 
     The time of one is measured on a scene where each light is doubled by a black one at its place.
     """
@@ -126,7 +126,7 @@ def light_from_behind(need: Need, own: Shot, size: Size) -> Saving:
     skipped = tree_rays(own, size)["shadow"] - rays["shadow"]
     count = (sum(rays.values()), sum(rays.values()) + skipped)
     if rays["shadow"] == 0:
-        return Saving(need, "no shadow ray whose time could be taken", None, count, size)
+        return Saving(need, "no shadow ray, so its time cannot be measured", None, count, size)
     black = tuple(replace(light, color=(0.0, 0.0, 0.0)) for light in scene.lights)
     doubled = Shot(prepare(replace(scene, lights=scene.lights + black)), own.variant, own.depth)
     times = paired(lambda: own.seconds(size), lambda: doubled.seconds(size), BUDGET)
@@ -158,7 +158,7 @@ def bearable_size(shot: Shot, size: Size) -> Size:
 
 
 def seconds_per_pixel(shot: Shot, size: Size) -> float:
-    """About the seconds per pixel, by larger and larger images, until one takes long enough to tell."""
+    """The approximate time per pixel, from images of increasing size until one takes MEASURABLE seconds."""
     pixels = PROBE
     while True:
         probe = shrunk(size, pixels / (size[0] * size[1]))

@@ -1,9 +1,9 @@
 """Variants of a scene that use a capability which the scene does not need, with the same picture.
 
-There is one kernel, and the scene decides what it does. To make it do what a scene leaves out, the scene asks for it in
-a way that cannot be seen: a surface reflects a share too faint for any sum to notice, but its ray is traced all the
-same; a black light is tested at every hit; a checker has two equal colours. This is the work of a tracer that follows
-every ray and multiplies by zero in the end.
+There is one kernel, and the scene decides what it does. To make it do what a scene leaves out, the scene asks for it
+in a way that cannot be seen: a surface reflects a fraction too small to change any sum, but its ray is traced; a
+black light is tested at every hit; a checker has two equal colours. This is the work of a tracer that follows every
+ray and multiplies by zero in the end.
 """
 
 from collections.abc import Sequence
@@ -124,9 +124,9 @@ def with_normals(scene: Scene) -> Variant | str:
 
 
 def everything(scene: Scene, left_out: Sequence[str]) -> Variant:
-    """Everything at once that is left out and changes no picture.
+    """A variant with all left-out capabilities that do not change the picture.
 
-    Where only some surfaces need a kind of ray, the others send one, too.
+    If only some surfaces need a kind of ray, the others also send one.
     """
     w = faint(scene)
     for capability in (Capability.SHADOW_RAYS, Capability.CHECKER):

@@ -1,7 +1,7 @@
 """Variants of a scene without a capability that the scene needs.
 
-Except for the hierarchy, this changes the picture: each variant is a plainer scene, and the difference is what this
-scene's own picture costs more.
+Except for the hierarchy, this changes the picture: each variant is a simpler scene, and the difference is the
+additional cost of the original picture.
 """
 
 from dataclasses import replace

@@ -55,8 +55,8 @@ class Reference:
 class Point:
     """A measured setting.
 
-    `bound` is the program's own bound on the missing light of a component, plus rounding. `tests` are of a ray
-    against a surface.
+    `bound` is the program's own bound on the missing light of a component, plus rounding. `tests` counts ray-surface
+    intersection tests.
     """
 
     label: str
@@ -133,7 +133,7 @@ def measured(method: Method, reference: Reference, done: Callable[[], None]) -> 
         done()
     for point in points:
         if not math.isfinite(point.errors.rmse):
-            failures.append(f"{method.name}, {point.label}: its image has pixels that are not numbers")
+            failures.append(f"{method.name}, {point.label}: its image has NaN or infinite pixels")
     return Curve(
         method.name, tuple(points), method.slope, fitted(points, reference) if method.slope else None
     ), failures

@@ -32,9 +32,9 @@ from tracer.scene import Scene
 
 PATIENCE = 6.0  # seconds that a reference image may take
 PROBE = 12  # pixels across, of the image that is timed first
-DEEP = 1000  # levels: no tree that is cut by weight gets there
-TRUE = 1e-9  # of the weight: the largest that trees of a reference lack
-FAINT = 1e-4  # of a ray's weight: the same for references with samples, which blur what is lost
+DEEP = 1000  # depth limit that no tree cut by weight reaches
+TRUE = 1e-9  # tolerance of reference trees: the largest weight that is cut
+FAINT = 1e-4  # minimum weight of a ray in references with many samples per pixel
 MOST_NODES = 20_000  # rays of a reference's tree, where weights hardly fall
 
 Size = tuple[int, int]
@@ -89,7 +89,7 @@ def affordable(world: World, size: Size, how: How) -> Size:
 
 @dataclass(frozen=True)
 class Study:
-    """How a source of error is measured: its reference, and the settings of each method."""
+    """The measurement of a source of error: its reference, and the settings of each method."""
 
     name: str
     title: str
@@ -166,7 +166,7 @@ def trees_cut(effort: Effort) -> Study:
         missing = (
             f"at most {true.bound:.1e}"
             if math.isfinite(true.bound)
-            else "not bounded, for light may add up without end"
+            else "not bounded, because the radiance may grow without limit"
         )
         return (
             f"best-first trees, until the weights of the rest sum up to {TRUE:g} or they have {MOST_NODES} rays: the "
@@ -197,7 +197,7 @@ def pixels_sampled(effort: Effort) -> Study:
             for label, sampler, slope in kinds
         ]
         settings = [Setting(f"error {e:g}", e, made(until_error=e)) for e in effort.errors]
-        return [*found, Method("where the error is", settings)]
+        return [*found, Method("adaptive", settings)]
 
     how = f"{effort.true_samples} Sobol samples per pixel. The second way has as many jittered ones"
     true = {"samples": effort.true_samples}
@@ -205,8 +205,8 @@ def pixels_sampled(effort: Effort) -> Study:
         "pixels",
         "Sampled pixels",
         "The error of the mean of a pixel's samples. At edges, theory has N^-1/2 for random samples and N^-3/4 for "
-        "jittered ones; smooth pixels converge faster. Where the error is: adaptive sampling, until the estimated "
-        "error of the image is the requested one. The scene's own depth.",
+        "jittered ones; smooth pixels converge faster. Adaptive: until the estimated error of the "
+        "image is at most the requested one. Trees have the scene's own depth.",
         true,
         {**true, "sampler": "jittered"},
         lambda _: how,
@@ -224,7 +224,7 @@ def both_together(effort: Effort) -> Study:
             Setting(f"error {e:g}", e, made(until_error=e, tolerance=0.1 * e, max_nodes=MOST_NODES))
             for e in effort.errors
         ]
-        return [Method("depth and samples", settings), Method("samples and rays where they count", both)]
+        return [Method("depth and samples", settings), Method("adaptive samples, best-first trees", both)]
 
     how = (
         f"{effort.true_samples} Sobol samples per pixel, and every ray with a weight of at least {FAINT:g}. The second "

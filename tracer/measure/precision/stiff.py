@@ -30,8 +30,8 @@ SIZE = (16, 16)  # pixels, which all trace the one ray
 ANGLE = 1e-15  # degrees, of the whole image: all pixels have the same direction but for the last bit
 ANY_DEPTH = 10_000
 MOST = 100_000  # rays of a tree, where its weights hardly fall
-KEPT = 0.9  # of the light, that the shell reflects
-MIRRORED = 0.99  # of the light, that the corridor's mirrors reflect
+KEPT = 0.9  # fraction of the light that the shell reflects
+MIRRORED = 0.99  # fraction of the light that the corridor's mirrors reflect
 BOUNCES = 40
 
 
@@ -86,7 +86,7 @@ def shell() -> World:
 
 
 def corridor() -> World:
-    """Two mirrors at distance 1, a quarter long for each bounce, open at the end towards a white sky."""
+    """Two mirrors at distance 1, 0.25 long per bounce, open at the end towards a white sky."""
     mirror = Material("mirror", reflect=MIRRORED)
     end = 0.25 * BOUNCES
     walls = [

@@ -1,9 +1,10 @@
 """The textbook's formulas in our kernel, in double and in single precision: what the stable ones are compared with.
 
 The quadratic is solved by (-b -+ sqrt(b^2 - ac)) / a, planes by one division; the hit point is origin + t direction;
-a box is hit on the nearest face; directions take a square root and three divisions. In single precision, distances,
-points and directions have 24 bits, and what has no formula here is computed in double and rounded. There is no
-smallest distance: as always, a ray does not meet the surface that it leaves.
+the normal of a box is that of the face nearest to the hit; a direction is normalised by a square root and three
+divisions. In single precision, distances, points and directions have 24 bits, and what has no formula here is
+computed in double and rounded. There is no smallest distance: as always, a ray does not meet the surface that it
+leaves.
 """
 
 import math
@@ -92,9 +93,7 @@ def _sphere(of: Convert) -> Function:
     triple = _triple(of)
 
     @inlined
-    def intersect(
-        world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool
-    ) -> float:
+    def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
         d, r = triple(ray.direction), of(surface.r)
         f = subtract(triple(ray.origin), triple(vector(surface.a)))
         a, b, c = dot(d, d), dot(f, d), dot(f, f) - r * r
@@ -103,9 +102,9 @@ def _sphere(of: Convert) -> Function:
             return math.inf
         root = of(math.sqrt(discriminant))
         near, far = np.float64((-b - root) / a), np.float64((-b + root) / a)
-        if near > 0.0 and near >= floor:
+        if near > 0.0 and near >= t_min:
             return near
-        return far if far > 0.0 and far >= floor else math.inf
+        return far if far > 0.0 and far >= t_min else math.inf
 
     return intersect
 
@@ -127,11 +126,11 @@ def _plane(of: Convert) -> Function:
 
     @inlined
     def plane_distance(
-        world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool
+        world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool
     ) -> float:
         n = triple(vector(surface.normal))
         t = np.float64(dot(n, subtract(triple(vector(surface.a)), triple(ray.origin))) / dot(n, triple(ray.direction)))
-        return t if t > 0.0 and floor <= t <= ceiling else math.inf
+        return t if t > 0.0 and t_min <= t <= t_max else math.inf
 
     return plane_distance
 
@@ -193,9 +192,9 @@ def _sine(of: Convert) -> Function:
 
 def _rounded_intersect(own: Function) -> Function:
     @inlined
-    def rounded(world: ShapeArrays, surface: SurfaceRow, ray: Ray, floor: float, ceiling: float, exact: bool) -> float:
-        t = np.float64(np.float32(own(world, surface, ray, floor, ceiling, exact)))
-        return t if t >= floor else math.inf  # rounding must not put a hit before the last one
+    def rounded(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
+        t = np.float64(np.float32(own(world, surface, ray, t_min, t_max, exact)))
+        return t if t >= t_min else math.inf  # rounding must not put a hit before the last one
 
     return rounded
 

@@ -58,7 +58,9 @@ def hit_marks(step: Step, node: int, size: float, theme: Theme, world: World | N
 
 
 def hit_row(tree: RayTree, asked: str | None) -> int:
-    """The row of a hit that was asked for as 4 or T4; without a request, the first. ValueError, in words for people."""
+    """The row of a hit that was asked for as 4 or T4; without a request, the first. ValueError with a message for the
+    user.
+    """
     hits = [i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW and tree.object_name(i)]
     if not hits:
         raise ValueError("--figure hit: the ray meets no surface")
@@ -197,7 +199,9 @@ class _Drawing:
             self.marks += names.label(name, words, [Spot(end)], color, most=0)
 
     def _light_end(self, turn: float, names: LabelPlacer) -> Point:
-        """The end of a ray to a light: where there are no marks, and beyond a ray that it would lie on."""
+        """The end point of a ray to a light: at the first length in LIGHT_REACHES that is free of marks and rays, else
+        at the first.
+        """
         rays = [mark for mark in self.marks if isinstance(mark, Line)]
         ends = [self._at(turn, reach) for reach in LIGHT_REACHES]
         half = 0.6 * self.size

@@ -52,7 +52,7 @@ LABELS = 24  # rays that are named: the heaviest
 FIRST = 12  # of these, rays whose names may cross other rays
 
 
-Named = tuple[frozenset[int], list[Mark]]  # the rays that a name comes with (empty: it is always there), and its marks
+Named = tuple[frozenset[int], list[Mark]]  # the rays with which a label is drawn (empty: always), and its marks
 
 
 def pages(subject: Subject, style: FigureStyle, where: Rectangle = (0.0, 0.0, WIDTH, HEIGHT)) -> Pages:
@@ -233,7 +233,7 @@ class _Drawing:
         return found
 
     def _along(self, name: str, label: str, piece: Piece) -> list[Spot]:
-        """A name on a ray that is long enough, otherwise beside it."""
+        """Spots for a label: on the ray if it is long enough, and beside it."""
         upon = math.dist(*piece) > ROOMY * max(self.size, text_width(label, self.size))
         places = [point_along(piece, share) for share in SPOTS]
         return [Spot(at, upon=True, spare=name) for at in places if upon] + [Spot(at) for at in places]

@@ -218,7 +218,7 @@ class _Drawing:
         self._note(i)
 
     def _note(self, i: int) -> None:
-        """Why no ray follows from a leaf."""
+        """Write under a leaf the reason why no ray follows."""
         words = end_label(self.tree, i)
         if words and all(self.tree.nodes["kind"][c] == SHADOW for c in self.tree.children[i]):
             self.marks.append(Text(f"hit-{i}", self._under(i), words, self.size, self.theme.muted))
@@ -242,7 +242,7 @@ class _Drawing:
         self.marks.append(Line(f"fold-{row}", start, reach, stroke, leaves=leaves, reaches=f"fold-{row}"))
 
     def _fold(self, fold: Fold) -> None:
-        """A folded branch: how many rays, and how much of the weight; in a box of its own, or under the hit."""
+        """Draw a folded branch: its number of rays and its weight, in its own box or under the hit."""
         name = f"fold-{fold.row}"
         many, share = fold.words(self.step.rows, self.plan.inside)
         if fold.under is not None:

@@ -1,4 +1,4 @@
-"""Branches of a tree that are folded: one sign says how many rays it stands for, and their weight."""
+"""Folded branches of a tree: one label gives their number of rays and their weight."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass

@@ -9,7 +9,7 @@ from viewer.base.theme import Color, Theme, faded
 from viewer.figures.font import text_box
 from viewer.figures.marks import Disc, Line, Mark, Piece, Point, Rectangle, Shape, Stroke, Text, clip_shares
 
-BACKING, SOLID = 0.7, 0.9  # opacity of the background behind a label, and if a line runs behind it
+BACKING, SOLID = 0.7, 0.9  # opacity of the background behind a label: normally, and over a line
 RINGS = (0.75, 1.3, 2.0, 2.9, 3.8)  # distances of a name from its spot, in text sizes
 LED = 2.0  # from this distance on, a thin line leads to the spot
 APART = 0.2  # between two names side by side

@@ -17,7 +17,7 @@ from viewer.figures.marks import HEIGHT, Point
 # All in text sizes.
 GAP = 0.7  # least distance between two boxes side by side
 GAP_BELOW = 0.3  # least distance between two boxes one below the other, with all that hangs below them
-SPREAD = 1.6  # how much farther apart they stand if there is room
+SPREAD = 1.6  # largest factor of these distances if there is space
 EYE = 0.75  # from the top to the eye
 EYE_WIDE = 0.95  # from the left to the eye, and from the eye to the start of the first ray
 FIRST = 4.8  # from the eye down to the first hit
@@ -40,7 +40,7 @@ class Places:
 
 @dataclass(frozen=True)
 class LayoutTask:
-    """What to place: these rows and boxes of folds, with a text size, between a left and a right end."""
+    """The rows and the boxes of folds to place, with a text size, between a left and a right end."""
 
     tree: RayTree
     rows: Collection[int]

@@ -1,7 +1,7 @@
 """Positions of the nodes of a ray tree: the tidy tree of Reingold & Tilford, IEEE Trans. Softw. Eng. 7(2), 1981.
 
 Reflected rays go to the left of their hit, refracted ones to the right, and the hit is centred above them. Between
-them, half a level down, are short stubs to the lights, as in Whitted's figure. Nodes of one level keep their
+them, half a level down, are short stubs to the lights, as in Whitted's figure. Nodes of one level have a minimum
 distance, and equal subtrees look the same.
 """
 
@@ -21,10 +21,10 @@ class Spacing:
     right: float
     stub_gap: float  # between two stubs
     stub_half: float
-    lean: float = 0.5  # how far an only child stands to its side
+    lean: float = 0.5  # sideways offset of an only child
     edge: float = 0.2  # between a stub and the edges beside it
     sides: bool = False  # rays leave at a node's sides instead of its middle, and its stubs are as wide as itself
-    passes: float = 0.5  # how far down its stubs reach, in levels: there, edges of neighbours must have passed them
+    passes: float = 0.5  # length of its stubs in levels: down to there, edges of neighbours must stay outside them
     crowded: bool = False  # its stubs reach so far down that they must stay away from nodes of the next level
     bars: bool = False  # whether total internal reflection has a stub for the refracted ray that does not exist
 
@@ -71,7 +71,7 @@ def tidy_layout(tree: RayTree, rows: set[int], room: Spacing = NAMES_BESIDE) -> 
 
 
 def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtree], room: Spacing) -> _Subtree:
-    """The subtree of row i, made of those of its children, which are used up."""
+    """The subtree of row i, made of those of its children, which are removed from `subtrees`."""
     kinds = tree.nodes["kind"]
     stubs = [child for child in children if kinds[child] == SHADOW]
     thrown_back = [child for child in children if kinds[child] not in (SHADOW, REFRACTION)]

@@ -3,7 +3,7 @@
 Each hit is a box, and all boxes have one size, so that equal subtrees look the same. Reflected rays leave at a box's
 left side, refracted ones at its right, and stubs to the lights hang below: no lines cross. With the eye at the left,
 all rays leave at the right side, reflected ones upwards. If the tree does not fit, the lightest branches are folded
-into boxes that say what they stand for.
+into boxes that give their number of rays and weight.
 """
 
 from collections.abc import Sequence

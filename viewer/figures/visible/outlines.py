@@ -88,7 +88,9 @@ def outline_areas(mask: np.ndarray, where: Rectangle) -> tuple[Area, ...]:
 
 
 def is_too_fine(squares: np.ndarray, within: np.ndarray) -> np.ndarray:
-    """Where the squares of a checker are lower or narrower than SQUARE: by how many begin and end nearby."""
+    """Mask of the pixels where a checker's squares are lower or narrower than SQUARE, estimated from the number of
+    their borders nearby.
+    """
     dense = np.zeros(squares.shape, bool)
     for axis in (0, 1):
         turns = np.zeros(squares.shape, np.float32)

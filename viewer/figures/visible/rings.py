@@ -10,7 +10,7 @@ import numpy as np
 STRAIGHT = 0.2  # points: the largest deviation of a simpler outline
 LONG, LEVEL = 30.0, 0.5  # points: on an edge of this length, steps of this height come from pixels
 SIDE, CORNER = 20.0, 16.0  # points: two edges of this length, joined by a shorter way than this, meet in a corner
-ROUNDED = 1.0  # points: if that way is this near to the edges
+ROUNDED = 1.0  # points: and if that way is no farther from the edges than this
 
 
 def simplify(ring: np.ndarray) -> np.ndarray:

@@ -1,6 +1,6 @@
 """A scene as seen by one camera in one part of the canvas: which objects are visible, and which parts of rays.
 
-Computed once for all steps of a figure. Whether a point is hidden is decided by a ray of the tracer.
+It is computed once for all steps of a figure. Whether a point is hidden is decided by a ray of the tracer.
 """
 
 from dataclasses import dataclass

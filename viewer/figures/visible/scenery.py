@@ -61,7 +61,9 @@ def orbit_camera(orbit: Orbit, frame: Frame) -> Camera:
 
 
 def solid_objects(world: World, camera: Camera) -> list[int]:
-    """The opaque objects that hide what is behind them. A wall hides only from the side of the scene's camera."""
+    """The opaque objects that hide what is behind them. A wall hides objects only if it is seen from the side of the
+    scene's camera.
+    """
     eye, own = np.array(camera.position), np.array(world.view().eye)
     found = []
     for k, item in enumerate(world.scene.objects):

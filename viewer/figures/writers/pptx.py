@@ -1,6 +1,7 @@
 """Figures as PPTX, one slide each: boxes are shapes with their text, rays are connectors that follow the boxes.
 
-PowerPoint puts arrow heads at the end of a connector, so there they stand at the hit and not on the way.
+PowerPoint puts arrow heads at the end of a connector, so in this format they are at the hit and not in the middle of
+the ray.
 """
 
 import datetime
@@ -136,7 +137,7 @@ class _Slide:
         _look(made, shape.fill, shape.stroke)
 
     def _text(self, text: Text) -> None:
-        """A text, in a frame a little wider than its width, for another font may take more room."""
+        """Draw a text in a frame a little wider than its width, since another font may be wider."""
         width, height = 1.15 * text_width(text.content, text.size) + 4.0, 1.2 * text.size
         left = text.at[0] - ANCHORS[text.anchor] * width
         made = self.shapes.add_textbox(*_rectangle(left, text.at[1] - 0.5 * height, width, height))

@@ -1,4 +1,4 @@
-"""Group D: refraction and Fresnel's shares at one plane of glass, at the angles where digits are lost."""
+"""Group D: refraction and Fresnel's equations at one plane of glass, at the angles where digits are lost."""
 
 import math
 from collections.abc import Iterator
@@ -77,7 +77,7 @@ def at_critical() -> Iterator[Reading]:
     yield Reading("|r|", 1, float(np.linalg.norm(tree.nodes["direction"][1])), U, 4.0)
 
 
-@case("D3", "the angle of refraction shown to people, near normal incidence")
+@case("D3", "the displayed angle of refraction, near normal incidence")
 def near_normal() -> Iterator[Reading]:
     """An angle computed as acos of a dot product has at most half of the digits: the cosine of 1e-8 is 1 - 5e-17, which
     is rounded to 1. So at 1e-4 rad eight digits are right, and at 1e-8 none: 0 is shown. atan2 of the length of the
@@ -90,7 +90,7 @@ def near_normal() -> Iterator[Reading]:
         yield Reading(f"{angle:g} rad", exact, float(tree.nodes["theta2"][0]), U * float(exact), 4.0, usual_angle)
 
 
-@case("D4", "nearly equal indices: how far the ray is turned, and R")
+@case("D4", "nearly equal indices: the deviation of the ray, and R")
 def matched() -> Iterator[Reading]:
     """The textbook's rs is the difference of n1 c1 and n2 c2, which agree in nearly all digits if the indices nearly
     match, and R is its square. With n = 1 + 1e-9, half of R's digits are gone. In (n2 - n1)(n2 + n1) over a sum, the
@@ -104,11 +104,11 @@ def matched() -> Iterator[Reading]:
         d = tree.nodes["direction"]
         turn = exact_optics.arcsin(exact.s1) - exact_optics.arcsin(exact.s2)
         got = optics.angle(tuple(d[0]), tuple(d[2]))
-        yield Reading(f"turned by, n = 1 + 1e-{k}", turn, got, U, 4.0, textbook.angle(d[0].tolist(), t))
+        yield Reading(f"deviation, n = 1 + 1e-{k}", turn, got, U, 4.0, textbook.angle(d[0].tolist(), t))
         yield Reading(f"R, n = 1 + 1e-{k}", exact.r, share(tree, 1), U * float(exact.r), 8.0, r)
 
 
-@case("D5", "grazing incidence: the share that still gets into the glass")
+@case("D5", "grazing incidence: the transmittance T of the glass")
 def grazing() -> Iterator[Reading]:
     """The textbook says T = 1 - R. At a cosine of 1e-12, R is 1 - 6e-12, and only four digits of T are left. At 1e-16,
     T is half wrong or 0. Each share has a formula of its own without a difference in it. The smaller one must be
@@ -213,8 +213,8 @@ def slab() -> Iterator[Reading]:
 @case("D12", "equal indices on both sides: the ray goes straight on, alone")
 def equal_indices() -> Iterator[Reading]:
     """In the textbook, c2 is sqrt(1 - (1 - c1^2)), which is not always c1. So at about one angle in four, glass in
-    equal glass sends out a second ray, of weight 1e-33, which then branches again. Equal indices are no surface: one
-    ray, with the same bits.
+    equal glass sends out a second ray, of weight 1e-33, which then branches again. Equal indices make no interface:
+    one ray goes on, with the same bits.
     """
     directions = [(math.sin(0.03 * k), -math.cos(0.03 * k), 0.1) for k in range(50)]
     for n in (1.0, 1.5):
@@ -225,4 +225,4 @@ def equal_indices() -> Iterator[Reading]:
         same = sum(usual(tree)[1] == tree.nodes["direction"][0].tolist() for tree in trees)
         straight = sum(bool((tree.nodes["direction"][0] == tree.nodes["direction"][1]).all()) for tree in trees)
         yield exactly(f"rays sent on, n = {n:g}", 50, sum(len(tree) - 1 for tree in trees), rays)
-        yield exactly(f"of 50 unbent to the bit, n = {n:g}", 50, straight, same)
+        yield exactly(f"of 50: not bent, bit for bit, n = {n:g}", 50, straight, same)

@@ -50,7 +50,7 @@ def gallery() -> Iterator[Reading]:
         other = textbook.inside_ball(start, d, bounces) if bounces <= 1000 else None
         usual = math.hypot(*(float(e) - x for e, x in zip(exact, other, strict=False))) if other else None
         got = far_from(nodes["point"], bounces, exact)
-        yield Reading(f"off by, {bounces} bounces", 0, got, U * bounces**2, 2.0, usual)
+        yield Reading(f"error of the point, {bounces} bounces", 0, got, U * bounces**2, 2.0, usual)
         yield exactly(f"weight, {bounces} bounces", 1, float(nodes["weight"][bounces, 0]))
 
 
@@ -67,7 +67,7 @@ def guide() -> Iterator[Reading]:
         sides = [((0, -1, 0), (0, 1, 0)), ((0, 1, 0), (0, -1, 0))]
         usual = textbook.mirrors((0, 0, 0), (3, 1, 0), sides, bounces)[0][0] if bounces <= 10_000 else None
         got = float(nodes["point"][bounces - 1, 0])
-        yield Reading(f"way along it after {bounces}", exact, got, U * bounces * float(exact), 4.0, usual)
+        yield Reading(f"distance along it after {bounces}", exact, got, U * bounces * float(exact), 4.0, usual)
 
 
 @case("E4", "a skew ray in a mirrored tube")
@@ -159,8 +159,8 @@ def unstable() -> Iterator[Reading]:
 @case("E9", "the same off the coordinate axes: a tracer must say when no digit is left")
 def chaos() -> Iterator[Reading]:
     """Every bounce multiplies any error by 3.73. Rounding alone, 1e-16, has grown to the size of the balls after 28
-    bounces: no double precision can go on, and the textbook's formulas are no worse than ours. But a tracer that
-    tells no error draws the rest as if it were true. Here the row says that its digits are gone.
+    bounces: no double precision can go on, and the textbook's formulas are no worse than ours. But a tracer without
+    an error estimate draws the rest as if it were correct. Here the row's `error` shows that no digit is left.
     """
     centers, growth = ((0.0, 0.0, 0.0), (1.3, 2.1, 1.7)), 3.728458374
     stage = world(*(ball(center, 1.0, MIRROR, f"ball {i}") for i, center in enumerate(centers)))
@@ -172,7 +172,7 @@ def chaos() -> Iterator[Reading]:
         got = far_from(nodes["point"], k, exact[k])
         other = math.hypot(*(float(x) - y for x, y in zip(exact[k], usual[k], strict=True)))
         yield Reading(f"off by, bounce {k}", 0, got, 10.0 * U * growth**k, 1.0, other)
-        yield Reading(f"off by no more than told, bounce {k}", 0, got, float(nodes["error"][k]), 1.0)
+        yield Reading(f"error at most as estimated, bounce {k}", 0, got, float(nodes["error"][k]), 1.0)
     gone = int(np.argmax(~(nodes["error"] <= 1.0)))
     said = "yes" if 24 <= gone < 29 else f"at bounce {gone}"
-    yield exactly("digits gone before bounce 29", "yes", said)
+    yield exactly("no digit left before bounce 29", "yes", said)

@@ -74,8 +74,8 @@ def needle() -> Iterator[Reading]:
 @case("B7", "triangles of any size, legs of 1e-60 to 1e60")
 def sizes() -> Iterator[Reading]:
     """The determinant is the product of two legs: 1e-12 for legs of 1e-6, 1e-120 for legs of 1e-60. A limit of 1e-8
-    takes either for a ray parallel to the plane. A scene in metres is there, but in kilometres, or as a fine mesh,
-    it has holes.
+    takes either for a ray parallel to the plane. A scene in metres is complete, but in kilometres, or as a fine
+    mesh, it has holes.
     """
     for size in (1e-60, 1e-6, 1.0, 1e8, 1e60):
         corners = ((0, 0, 0), (size, 0, 0), (0, size, 0))
@@ -95,7 +95,7 @@ def flat() -> Iterator[Reading]:
         row = path(world(triangle(FLAT)), origin, aim).nodes[0]
         usual = textbook.at(origin, row["direction"].tolist(), float(row["t"]))[1]
         yield exactly(f"{height:g} above it: height of the hit", 0, float(row["point"][1]), usual)
-        yield reading(f"{height:g} above it, all turned", turned, turn(origin), turn(aim), 8.0)
+        yield reading(f"{height:g} above it, all rotated", turned, turn(origin), turn(aim), 8.0)
 
 
 def turn(a: Sequence[float]) -> Vector:
@@ -108,9 +108,9 @@ def turn(a: Sequence[float]) -> Vector:
 
 @case("B9", "a ray within a plane, and rays that graze it")
 def within() -> Iterator[Reading]:
-    """In the plane t is 0/0, so the case must be tested for. The distance is right at every angle, but o + t d is
-    rounded: the hit may be 1e-16 beside the plane, on either side, and the next ray then starts under the floor.
-    Here the hit is moved onto the plane.
+    """For a ray in the plane t is 0/0, so a program must test for this case. The distance is right at every angle, but
+    o + t d is rounded: the hit may be 1e-16 beside the plane, on either side, and the next ray then starts under the
+    floor. Here the hit is moved onto the plane.
     """
     scene = world(plane((0, 0, 0), (0, 1, 0), DARK))
     for aim in ((1, 0, 0), (0.6, 0, -0.8)):

@@ -38,7 +38,7 @@ def closed() -> Iterator[Reading]:
     """Moeller and Trumbore's test computes u and v of every triangle by itself. On a shared edge, each of the two
     neighbours may be rounded to just outside, -1e-17, and the ray passes through the crack: about one in ten of
     those aimed at corners and edges. Ours gives a corner the same two numbers for every triangle. The textbook's
-    triangles are slow in Python, so only the first 100 rays are tested: that is the *.
+    test is slow in Python, so it is run for the first 100 rays only (marked *).
     """
     points, faces = sphere_mesh()
     scene = world(Object(Mesh(Geometry(points, faces)), DARK, "mesh"))

@@ -15,7 +15,7 @@ from tracer.scene import Object
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.tree.raytree import RayTree
 
-# The impact parameter of least deviation with k inner reflections, n = 4/3: root((k + 1)^2 - n^2) / root(k (k + 2)).
+# The impact parameter of minimum deviation with k inner reflections, n = 4/3: root((k + 1)^2 - n^2) / root(k (k + 2)).
 RAINBOWS = {1: 0.8606629658238704, 2: 0.950146187582615, 3: 0.9737289911202953, 20: 0.9991157706854212}
 
 PRISM = np.array([(x, y, z) for z in (-1.0, 1.0) for x, y in ((-1.0, 0.0), (1.0, 0.0), (0.0, math.sqrt(3.0)))])
@@ -62,7 +62,7 @@ def rainbow() -> Iterator[Reading]:
         yield Reading(f"{k} inside", exact % full, turned(out["direction"]), U * (k + 1), 9.0, usual)
 
 
-@case("G2", "a ball of n = 2 sends light nearly back: by how much it misses")
+@case("G2", "retroreflection by a ball of n = 2: the angular error")
 def cat_eye() -> Iterator[Reading]:
     """The angle to the way back is b^3 / 4, which is 2.5e-10 at an impact parameter of 1e-3. acos of a dot product
     cannot tell angles below 1e-8 from 0. With atan2 the angle is as good as the directions: 1e-16 absolute.
@@ -74,7 +74,7 @@ def cat_eye() -> Iterator[Reading]:
         yield Reading(f"b = {b:g}", abs(exact), optics.angle(tuple(d), (-1.0, 0.0, 0.0)), U, 8.0, usual)
 
 
-@case("G3", "where a ball lens crosses its axis")
+@case("G3", "the focus of a ball lens: where a ray crosses the axis")
 def ball_lens() -> Iterator[Reading]:
     """A ray inside the glass that starts 1e-4 off the surface runs on a neighbouring line, so the focus is wrong in the
     fourth or fifth digit. No lens designer would accept that, and only an epsilon is to blame.
@@ -90,10 +90,10 @@ def ball_lens() -> Iterator[Reading]:
         yield Reading(f"n = {n:g}, b = {b:g}", exact, got, U * float(exact), 8.0, usual)
 
 
-@case("G6", "a prism of 60 degrees at its least deviation")
+@case("G6", "a prism of 60 degrees at minimum deviation")
 def prism() -> Iterator[Reading]:
-    """At such angles the deviation is no difficulty for the textbook's formulas; only its acos costs a few units. The
-    prism is a mesh: the ray must find its faces without a gap.
+    """At such angles the textbook's formulas are accurate; only its acos costs a few units. The prism is a mesh: the
+    ray must find its faces without a gap.
     """
     for n, name in ((1.5, "1.5"), (math.sqrt(2.0), "root 2")):
         stage = world(Object(Mesh(Geometry(PRISM, np.array(FACES))), glass(n), "prism"))
@@ -108,7 +108,7 @@ def prism() -> Iterator[Reading]:
         yield Reading(f"n = {name}", exact, got, U, 4.0, textbook.angle(d, usual))
 
 
-@case("G7", "how far a slab moves a ray aside: 0.35 in the 3-4-5 case")
+@case("G7", "lateral displacement by a slab: 0.35 in the 3-4-5 case")
 def shift() -> Iterator[Reading]:
     """A start that is moved 1e-4 along the normal takes that much of the slab's thickness from the path in the glass:
     the shift is wrong by one part in ten thousand. The direction is right, so nothing looks wrong.
@@ -152,7 +152,7 @@ def many_layers() -> Iterator[Reading]:
         yield Reading(f"shift, {count}", exact, got, U * float(exact), allowed, usual)
 
 
-@case("G9", "Snell's window: where a diver sees the sky, and where the pool")
+@case("G9", "Snell's window: sky inside the critical angle, pool outside")
 def window() -> Iterator[Reading]:
     """The edge is where the radicand changes its sign. 1 - eta^2 (1 - c1^2) and (1 - s2)(1 + s2) differ by a few units,
     and both decide rightly at 1e-12 from the edge. What matters is that no threshold blurs it.

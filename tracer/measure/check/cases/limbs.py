@@ -48,7 +48,7 @@ def decided() -> Iterator[Reading]:
     yield from distant_tangent()
 
 
-@case("A5", "both roots in one point")
+@case("A5", "a double root")
 def double() -> Iterator[Reading]:
     """The careful quadratic computes q = -(b + sign(b) sqrt(b^2 - 4ac)) / 2, and the roots q/a and c/q. A ray that
     starts on the sphere and is tangent to it has b = c = 0: q is 0, and c/q is 0/0, which is NaN. Every comparison
@@ -89,7 +89,7 @@ def text(a: Sequence[float]) -> str:
     return " ".join(f"{x + 0.0:.17g}" if float(f"{x:.11g}").is_integer() else f"{x:.11g}" for x in a)
 
 
-@case("A11", "what a ray hits, throws a shadow along it: one geometry")
+@case("A11", "closest-hit and shadow rays use the same intersection test")
 def two_questions() -> Iterator[Reading]:
     """Some programs solve the quadratic to find the closest hit, and use a quicker formula for shadow rays. Near the
     edge of a sphere 1e6 away the two disagree for one ray in three: a visible point does not block the light, or an

@@ -203,7 +203,8 @@ def shadow() -> Iterator[Reading]:
 @case("I7", "what a mirror shows is as far away as its image behind the mirror")
 def virtual() -> Iterator[Reading]:
     """The ray that leaves the mirror starts 1e-4 above it, so the sum of both paths is too short by about that much:
-    distances through mirrors have four digits. With a start on the mirror they add up to the distance of the image.
+    distances through mirrors have four correct digits. With a start on the mirror they add up to the distance of the
+    image.
     """
     thing, origin = (1.0, 2.0, 4.0), (0.5, 0.3, 3.0)
     stage = world(plane((0, 0, 0), (0, 0, 1), MIRROR, "mirror"), ball(thing, 0.7, MATTE))

@@ -43,8 +43,8 @@ def matte() -> Iterator[Reading]:
 
 @case("L2", "no light: no shadow ray")
 def dark() -> Iterator[Reading]:
-    """A shadow ray asks whether a light is seen. Without lights there is nothing to ask. A loop that always sends one
-    would double the work for a black picture.
+    """A shadow ray tests whether a light is visible. Without lights there is nothing to test. A loop that always sends
+    one would double the work for a black picture.
     """
     yield from counts(view(floor(MATTE)), 5)
 

@@ -1,4 +1,6 @@
-"""Group F: trees that branch without end, and weights that hardly fall: what a fixed cut loses, what a bound says."""
+"""Group F: trees that branch without end, and weights that decay slowly: the light that a fixed cut loses, and its
+bound.
+"""
 
 import math
 from collections.abc import Iterator
@@ -42,7 +44,7 @@ def shown(tree: RayTree) -> float:
     return float(tree.radiance[0])
 
 
-@case("F1", "a slab seen head on, all its inner reflections: 1/13 and 12/13")
+@case("F1", "a slab at normal incidence with all inner reflections: 1/13 and 12/13")
 def head_on() -> Iterator[Reading]:
     """A fixed depth of 5 and a smallest weight of 1/255 leave out all but the first inner reflections, so R and T are
     about one part in a thousand too small. Followed to 1e-12 the tree has 20 rays: each reflection leaves a 25th of
@@ -55,9 +57,9 @@ def head_on() -> Iterator[Reading]:
     yield exactly("rays to 1e-12", 20, len(down(pile(1), tolerance=1e-12)))
 
 
-@case("F2", "a slab seen aslant: what it lets through is (1 - R) / (1 + R)")
+@case("F2", "a slab at oblique incidence: the transmittance is (1 - R) / (1 + R)")
 def aslant() -> Iterator[Reading]:
-    """How much light a smallest weight of 1/255 loses depends on which ray happens to fall below it: a few parts in a
+    """The light that a minimum weight of 1/255 loses depends on which ray happens to fall below it: a few parts in a
     thousand at 45 and 75 degrees, less than a tenth of that at 60. Nothing tells the reader, for a ray that was cut
     looks like one that found black.
     """
@@ -90,7 +92,7 @@ def grazing() -> Iterator[Reading]:
 
 @case("F4", "piles of plates: N faces reflect N / (24 + N)")
 def piles() -> Iterator[Reading]:
-    """Every face splits every ray, so the number of rays grows without end while their weights fall: the sum of the
+    """Every face splits every ray, so the number of rays grows without end. Their weights fall, but the sum of the
     weights does not. A smallest weight bounds each ray that is cut, not all of them together. With ten plates a
     fixed cut is far below the exact answer. A bound on the sum of the cut weights holds wherever tracing stops.
     """
@@ -131,7 +133,7 @@ def drop() -> Iterator[Reading]:
             yield Reading(f"{'xy'[i]} of exit {k}", Fraction(value, size), got, U, 9.0 * (k + 1), usual[i])
 
 
-@case("F7", "inside a shining shell that throws back half: 2 - 2^-depth")
+@case("F7", "inside an emitting shell that reflects half: 2 - 2^-depth")
 def furnace() -> Iterator[Reading]:
     """If half of the light is reflected, five levels give 1.97 instead of 2; with 0.999 they give 6 instead of 1000. A
     fixed depth is only good for scenes that absorb. Down to depth 51 the sums here are exact; where something is
@@ -142,15 +144,15 @@ def furnace() -> Iterator[Reading]:
     cut = shown(path(shell, *ray, **CUT))
     for depth in (10, 30, 51):
         tree = path(shell, *ray, depth)
-        yield exactly(f"half thrown back, depth {depth}", 2 - Fraction(1, 2**depth), shown(tree), cut)
+        yield exactly(f"half reflected, depth {depth}", 2 - Fraction(1, 2**depth), shown(tree), cut)
     bright = world(ball((0, 0, 0), 1.0, Material("shell", ambient=1.0, reflect=0.999)))
     tree = path(bright, *ray, 20_000)
     exact = 1 / (1 - Fraction(0.999))
     unit = tree.bound + 20_000 * U * float(exact)  # the bound is what is missing, to the last digit
-    yield Reading("0.999 thrown back, depth 20000", exact, shown(tree), unit, 1.0, shown(path(bright, *ray, **CUT)))
+    yield Reading("0.999 reflected, depth 20000", exact, shown(tree), unit, 1.0, shown(path(bright, *ray, **CUT)))
 
 
-@case("F8", "the ledger: where rays ended, what was cut, what was absorbed add up to 1")
+@case("F8", "the weight balance: leaves, cut and absorbed add up to 1")
 def balance() -> Iterator[Reading]:
     """A tracer that follows five levels and adds up what arrived has less than 1, and no column for the rest. Here the
     weight of cut rays is kept, and each sum is rounded once. A plain sum over millions of rays would lose four
@@ -163,7 +165,7 @@ def balance() -> Iterator[Reading]:
             yield Reading(f"{name}, {rays} rays", 1, math.fsum(tree.ledger), U, 4.0 * math.sqrt(len(tree)), arrived)
 
 
-@case("F10", "stopped at any time: off by no more than the bound, which only falls")
+@case("F10", "stopped at any time: the error is at most the bound, which never grows")
 def at_any_time() -> Iterator[Reading]:
     """A depth limit gives one answer without its error; to learn it, one traces again with more. Best-first, every stop
     has a bound of its own, and more rays never make it worse.

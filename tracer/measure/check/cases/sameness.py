@@ -50,8 +50,8 @@ def aims() -> Iterator[tuple[Vector, Vector]]:
 
 
 def differing(k: int, side: float) -> int:
-    """How many numbers in the trees of a scaled or mirrored scene are not those of the scene itself, scaled or
-    mirrored.
+    """The number of values in the trees of a scaled or mirrored scene that differ from the scaled or mirrored values of
+    the original.
     """
     s = 2.0**k
     one, other, count = mixed(), mixed(s, side), 0
@@ -68,7 +68,7 @@ def differing(k: int, side: float) -> int:
 
 
 def textbook_differing(k: int) -> int:
-    """How many distances to the ball are not 2^k times those of the scene itself."""
+    """The number of distances to the ball that are not 2^k times the original ones."""
     s, count = 2.0**k, 0
     for origin, aim in aims():
         d = textbook.unit(aim)
@@ -90,9 +90,9 @@ def scales() -> Iterator[Reading]:
 
 @case("C10", "glass over a core, moved up to 2^38 away")
 def places() -> Iterator[Reading]:
-    """Far from the origin the coordinates have fewer digits for the gap between the two surfaces. The list of hits must
-    stay as long as the gap has any: at 2^38 a step of the coordinates is 6e-5, and the gap is 1e-3. If the
-    difference to the centre is exact, the distance must be the same to the last bit.
+    """Far from the origin the coordinates have fewer digits for the gap between the two surfaces. The order of hits
+    must stay correct as long as the gap has any digit: at 2^38 a step of the coordinates is 6e-5, and the gap is
+    1e-3. If the difference to the centre is exact, the distance must be the same to the last bit.
     """
     gap = 2.0**-10
     for k in (0, 10, 20, 30, 38):
@@ -144,7 +144,7 @@ def bad_rays() -> Iterator[Reading]:
         yield exactly(setting, "refused", own, "a miss" if t == math.inf else f"t = {t}")
 
 
-@case("J6", "lengths near the smallest that there are")
+@case("J6", "lengths near the smallest double")
 def subnormal() -> Iterator[Reading]:
     """Squares of lengths below 1e-162 are 0, and the quadratic has no coefficients left. The answer must be right, or
     the scene refused. The worst is a wrong number without a message.
@@ -167,7 +167,7 @@ def ties() -> Iterator[Reading]:
     """
     corners = ((-1.0, -1.0, 0.0), (1.0, -1.0, 0.0), (1.0, 1.0, 0.0), (-1.0, 1.0, 0.0))
     faces = {"square": Object(Polygon(corners), DARK, "square"), "box": box((-1, -1, -1), (1, 1, 0), DARK, "box")}
-    for crowd in (0, 40):  # with more objects, a hierarchy is searched in an order of its own
+    for crowd in (0, 40):  # with more objects a BVH is built, and its traversal has another order
         others = [ball((3 * k - 60, 9, -5), 1, DARK, f"other {k}") for k in range(crowd)]
         for first, second in (("square", "box"), ("box", "square")):
             scene = world(faces[first], *others, faces[second])

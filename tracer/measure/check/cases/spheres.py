@@ -41,8 +41,8 @@ def reading(
 def far() -> Iterator[Reading]:
     """The textbook takes b^2 - 4ac, two numbers of the size of the squared distance, for a difference of the size of
     the squared radius. At D = 1e7 they share all but their last digits, and the hit is visibly off the sphere. At D
-    = 1e8 the difference is all rounding error: the edge frays, and rays miss the sphere. Measured from the ray's
-    closest point to the centre, nothing large is left to cancel.
+    = 1e8 the difference is all rounding error: the silhouette is ragged, and rays miss the sphere. Measured from the
+    ray's closest point to the centre, nothing large is left to cancel.
     """
     w = textbook.unit((0.3, -0.5, 0.81))
     aim = [0.9 * x for x in textbook.unit(textbook.cross(w, (1.0, 0.0, 0.0)))]
@@ -73,7 +73,7 @@ def near() -> Iterator[Reading]:
         yield reading(f"2^-{k} above it", (0, 0, 1 + 2.0**-k), (0.6, 0, -0.8))
 
 
-@case("A3", "a ground that is a sphere of radius 1e3 to 1e15")
+@case("A3", "a sphere of radius 1e3 to 1e15 as the ground")
 def ground() -> Iterator[Reading]:
     """The centre is R below, so b^2 and 4ac are of size R^2, and the height of the eye is left when they cancel. The
     error grows with R, except for a few round numbers: at R = 1e9 seven digits of the distance are right, at 1e15
@@ -93,7 +93,7 @@ def ground() -> Iterator[Reading]:
     yield reading("R = 1e12, from the side", (0.3, 0.2, 1.1), (0.6, 0, -0.8), (0, 0, -1e12), 1e12)
 
 
-@case("A6", "the way out of a sphere just below its top")
+@case("A6", "the exit from a sphere just below its top")
 def grazing() -> Iterator[Reading]:
     """With y = 1 - 2^-k the root is that of 1 - y^2, which is about 2^(1-k). The textbook rounds y^2 to 1e-16 first,
     which can leave four digits of the difference at k = 40. (1 - y)(1 + y) loses nothing. And a smallest distance of
@@ -126,7 +126,7 @@ def earth() -> Iterator[Reading]:
         yield reading(name, (0, 0, 6.371e6 + 0.5), aim, radius=6.371e6)
 
 
-@case("A9", "a tiny glass ball at distance 1: how thick it is")
+@case("A9", "a tiny glass ball at distance 1: the chord through it")
 def tiny() -> Iterator[Reading]:
     """c = f.f - r^2 is 1 for every r below 1e-8: the radius is lost before the discriminant is computed. Both roots are
     then 1: the ball has no thickness, and rays that pass it at a few radii hit it, too. Our ray starts on the sphere

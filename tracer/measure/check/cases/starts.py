@@ -1,4 +1,6 @@
-"""Group C: the start of the next ray: close surfaces, thin gaps, and rounding that must not hit the start again."""
+"""Group C: the origin of the next ray: close surfaces, thin gaps, and rounding errors that must not cause a
+self-intersection.
+"""
 
 import math
 import random
@@ -19,7 +21,9 @@ GROUND = Material("ground", diffuse=1.0, reflect=0.5)
 
 
 def second_way(tree: RayTree, radius: float, inner: float) -> Decimal:
-    """From a glass ball, n = 1.5, to the one inside, with 50 digits. Both are around the origin, the ray along -z."""
+    """The distance from a glass ball, n = 1.5, to the ball inside it, with 50 digits. Both are around the origin, the
+    ray along -z.
+    """
     x, r = decimal(float(tree.nodes[0]["origin"][0])), decimal(radius)
     s, c = DIGITS.divide(x, r), root(1 - DIGITS.divide(x, r) ** 2)
     sine = DIGITS.divide(s, Decimal("1.5"))
@@ -32,7 +36,7 @@ def second_way(tree: RayTree, radius: float, inner: float) -> Decimal:
 def coat() -> Iterator[Reading]:
     """A ray that has just entered the glass must not meet the surface that it starts on, so the textbook discards all
     hits nearer than 1e-4. From a gap of 4e-5 on, it discards the core as well: the ray passes through the opaque
-    ball to its far side, 2 units on. Nothing is discarded if the ray knows the surface that it starts on.
+    ball to its far side, 2 units on. Nothing is discarded if the ray stores the surface that it starts on.
     """
     for gap in (1e-3, 4e-5, 1e-6, 1e-9, 1e-12, 1e-15):
         radius = 1.0 + gap
@@ -60,8 +64,8 @@ def leaning(size: float) -> tuple[Vector, ...]:
 @case("C2", "a square in the light, from 1e-7 to 1e16 across")
 def lit_at_any_size() -> Iterator[Reading]:
     """A smallest distance of 1e-4 fits scenes of size 1. At 1e-7 it discards the whole scene. At 1e13 rounding puts
-    hits 1e-3 under the square, which then casts a shadow on itself in dots, the so-called acne. No number is right
-    for all sizes, so none is used.
+    hits 1e-3 under the square, which then casts a dotted shadow on itself (shadow acne). No number is right for all
+    sizes, so none is used.
     """
     chance = random.Random(5)
     for size in (1e-7, 1.0, 1e4, 1e7, 1e13, 1e16):
@@ -130,7 +134,7 @@ def never_again() -> Iterator[Reading]:
     yield exactly(f"{count} rays: meet their own ball", 0, again, usual)
 
 
-@case("C7", "a sheet just above the floor throws its shadow")
+@case("C7", "a sheet just above the floor casts its shadow")
 def thin_shadow() -> Iterator[Reading]:
     """The shadow ray starts on the floor, and the sheet is 1e-5 away. With a smallest distance of 1e-4 the ray passes
     through it, and the floor under the sheet is lit: shadows are detached from objects that stand on the floor.
@@ -143,7 +147,7 @@ def thin_shadow() -> Iterator[Reading]:
             Object(Polygon(corners), DARK, "sheet"),
             lights=[Light("lamp", position=lamp)],
         )
-        # From the edge of the floor in under the sheet: the ray passes below it.
+        # The camera ray comes in from the side, between sheet and floor.
         tree = path(scene, (1.5, 0.5 * gap, 0), (-1.0, -0.5 * gap, 0))
         up = textbook.unit([x - y for x, y in zip(lamp, tree.nodes[0]["point"].tolist(), strict=True)])
         free = textbook.plane(tree.nodes[0]["point"].tolist(), up, corners[0], (0, 1, 0)) == math.inf
@@ -157,9 +161,9 @@ def thin_shadow() -> Iterator[Reading]:
 
 @case("C9", "a ray that grazes the floor on its way to a wall")
 def relay() -> Iterator[Reading]:
-    """The other usual way is to start the next ray 1e-4 above the floor, along its normal. This ray comes down 1e-4
-    over a kilometre and rises as much: the wall is met at twice the height, wrong by 100 %. The start must be where
-    the hit is.
+    """The other usual method starts the next ray 1e-4 above the floor, along its normal. This ray comes down 1e-4 over
+    a kilometre and rises as much: the wall is met at twice the height, wrong by 100 %. The start must be where the
+    hit is.
     """
     scene = world(plane((0, 0, 0), (0, 1, 0), GROUND, "floor"), plane((1000, 0, 0), (-1, 0, 0), DARK, "wall"))
     tree = path(scene, (-1000, 1e-4, 0), textbook.unit((1, -1e-7, 0)), depth=1)
