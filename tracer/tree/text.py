@@ -11,7 +11,7 @@ HEADINGS = ("ray", "meets", "distance", "index", "angle", "weight", "radiance (r
 
 END_REASONS = {
     None: "",
-    "surface": "it neither reflects nor transmits",
+    "surface": "opaque: nothing to follow",
     "background": "leaves the scene",
     "depth": "cut: depth limit",
     "weight": "cut: too little weight",

@@ -172,8 +172,8 @@ def test_what_follows_a_fault_of_value_is_read_again(tmp_path: Path) -> None:
     ("text", "fault"),
     [
         ("", "scene.nff: a scene needs at least one object (s, p, pp or c), got none"),
-        ("v\nfrom 0 0 1\nat 0 0 0\n", "scene.nff: line 1: v must have from, at, up, angle, hither, resolution, "
-         "got none of up, angle, resolution"),
+        ("v\nfrom 0 0 1\nat 0 0 0\n", "scene.nff: line 1: v must have from, at, up, angle and resolution, "
+         "got no up, angle, resolution"),
         (VIEW.replace("40\n", "180\n", 1), "scene.nff: line 5: angle must be > 0 and < 180, got 180"),
         (VIEW.replace("40 30", "40.5 30"), "scene.nff: line 7: resolution must be two whole numbers, got 40.5 30"),
         (VIEW.replace("at 0 0.5 0", "at 1 2 8"), 'scene.nff: line 3: v: "at" must differ from "from", '

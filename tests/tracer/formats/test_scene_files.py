@@ -143,7 +143,7 @@ def test_format_and_one_object_are_enough(scene_file) -> None:
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("", "format is missing: the file begins with format = 1"),
+        ("", "format is missing: add the line format = 1 before the first table"),
         (f"format = 2\n{BALL}", "format must be 1, got 2"),
         ("format = 1\n", "a scene needs at least one [[object]], got none"),
         ("format = 1\nthis is no toml", "not TOML: "),
@@ -155,7 +155,7 @@ def test_format_and_one_object_are_enough(scene_file) -> None:
         (f"format = 1\n{BALL}".replace("radius = 1", "radius = 0"), "object[0]: radius must be > 0, got 0"),
         (
             f'format = 1\n{BALL}name = "ball"'.replace("radius = 1", "radius = nan"),
-            'object[0] "ball": radius must be a number of at most 1e+150 in size, got nan',
+            'object[0] "ball": radius must be a number with an absolute value of at most 1e+150, got nan',
         ),
         (f"format = 1\n{BALL}".replace("radius = 1", 'radius = "1"'), 'object[0]: radius must be a number > 0, got "1"'),
         (f"format = 1\n{BALL}".replace("radius = 1", "radius = true"), "object[0]: radius must be a number > 0, got true"),
@@ -164,13 +164,13 @@ def test_format_and_one_object_are_enough(scene_file) -> None:
         (f"format = 1\n{BALL}".replace("[0, 0, 0]", "[0, 0]"), "object[0]: center must be three numbers [x, y, z], got [0, 0]"),
         (
             f"format = 1\n{BALL}".replace("[0, 0, 0]", "[0, inf, 0]"),
-            "object[0]: center must be three numbers [x, y, z] of at most 1e+150 in size, got [0, inf, 0]",
+            "object[0]: center must be three numbers [x, y, z] with absolute values of at most 1e+150, got [0, inf, 0]",
         ),
         (f"format = 1\n{BALL}".replace("sphere", "shpere"), 'object[0]: shape must be one of "sphere", '),
         ("format = 1\n[[object]]\n", "object[0]: shape is missing: it must be one of "),
         (f'format = 1\n{BALL}material = "glas"\n[[material]]\nname = "glass"', 'object[0]: material must be the name of a '),
-        (f'format = 1\n{BALL}[[material]]\nname = "a"\n[[material]]\nname = "a"', "material[1] \"a\": name must be unlike "),
-        (f"format = 1\n{BALL}[[material]]\ndiffuse = 1", "material[0]: name is missing: objects name their material"),
+        (f'format = 1\n{BALL}[[material]]\nname = "a"\n[[material]]\nname = "a"', "material[1] \"a\": name must be unique"),
+        (f"format = 1\n{BALL}[[material]]\ndiffuse = 1", "material[0]: name is missing: objects refer to materials by name"),
         (f'format = 1\n{BALL}[[material]]\nname = "a"\nreflect = 1.5', 'material[0] "a": reflect must be >= 0 and <= 1, got 1.5'),
         (f'format = 1\n{BALL}[[material]]\nname = "a"\nior = 0', 'material[0] "a": ior must be > 0, got 0'),
         (f'format = 1\n{BALL}[[material]]\nname = "a"\nior = "wtaer"', 'material[0] "a": ior must be a number > 0 or one of '),
@@ -223,7 +223,7 @@ def test_format_and_one_object_are_enough(scene_file) -> None:
             "object[0]: normal must be a direction other than [0, 0, 0], got [0, 0, 0]",
         ),
         (f"format = 1\n{CONE}".replace("base_radius = 1", "base_radius = -1"), "object[0]: base_radius must be >= 0, got -1"),
-        (f"format = 1\n{CONE}".replace("apex_radius = 0", "apex_radius = nan"), "object[0]: apex_radius must be a number of at most"),
+        (f"format = 1\n{CONE}".replace("apex_radius = 0", "apex_radius = nan"), "object[0]: apex_radius must be a number with an absolute value of at most"),
         (f"format = 1\n{CONE}".replace("apex_radius = 0", ""), "object[0]: apex_radius is missing"),
         (f"format = 1\n{CONE}".replace("apex_radius", "top_radius"), 'object[0]: unknown key "top_radius" (did you mean "apex_radius"?)'),
         (f"format = 1\n{CONE}".replace("[0, 2, 0]", "[0, 0, 0]"), "object[0]: apex must differ from base, got [0, 0, 0] for both"),

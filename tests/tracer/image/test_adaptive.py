@@ -178,8 +178,8 @@ def test_gains_by_hand() -> None:
     (
         ({"until_error": 0.0}, "until_error must be a number > 0, got 0.0"),
         ({"until_seconds": math.inf}, "until_seconds must be a number > 0, got inf"),
-        ({"until_error": 1.0, "samples": 1}, "samples must be >= 2 in an image that converges, got 1"),
-        ({"until_error": 1.0, "sampler": "jittered"}, "jittered samples cannot be added to"),
+        ({"until_error": 1.0, "samples": 1}, "samples must be >= 2 with until_error or until_seconds, got 1"),
+        ({"until_error": 1.0, "sampler": "jittered"}, "until_error and until_seconds need sobol or random samples, got jittered"),
     ),
 )
 def test_faults(options: dict, fault: str, worlds: dict[str, tracer.World]) -> None:

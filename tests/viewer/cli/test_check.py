@@ -17,7 +17,7 @@ def test_table_has_every_case_and_a_verdict(capsysbinary: pytest.CaptureFixture)
     for case in check.CASES:
         assert f"\n{case.id:4}{case.title}\n" in said
     assert said.rstrip().splitlines()[-1].startswith(f"{len(check.CASES)} cases in ")
-    assert "FALLS SHORT" not in said
+    assert "FAILED" not in said
     assert max(map(len, said.splitlines())) <= 140
 
 
@@ -55,8 +55,8 @@ def test_a_case_that_falls_short_is_seen_and_told_by_the_exit_status(
     monkeypatch.setattr("viewer.cli.check.CASES", [short, check.CASES[1]])
     assert main(["check"]) == 1
     said = capsysbinary.readouterr().out.decode()
-    assert said.count("FALLS SHORT") == 1
-    assert said.rstrip().endswith("A1 fell short")
+    assert said.count("FAILED") == 1
+    assert said.rstrip().endswith("A1 failed")
     assert main(["check", "--json"]) == 1
     assert [case["ok"] for case in json.loads(capsysbinary.readouterr().out)["cases"]] == [False, True]
 

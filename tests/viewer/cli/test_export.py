@@ -108,7 +108,7 @@ def test_faults_are_one_line(
 def test_a_scene_needs_a_pixel(tmp_path: Path, capsys: pytest.CaptureFixture[str], scene_file) -> None:
     scene = scene_file('format = 1\n[[object]]\nshape = "sphere"\ncenter = [0, 0, 0]\nradius = 1\n')
     assert main.main(["export", str(scene), "-o", str(tmp_path / "a.svg")]) == 2
-    assert "which pixel?" in capsys.readouterr().err
+    assert "give a pixel (--pixel X,Y) or a ray" in capsys.readouterr().err
 
 
 def test_all_that_is_wrong_is_said_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -132,7 +132,7 @@ def test_a_ray_is_asked_for_as_figures_name_it(tmp_path: Path) -> None:
 def test_what_has_no_room_or_no_letter_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str], scene_file) -> None:
     assert main.main(["export", "panes", "--figure", "both", "-o", str(tmp_path / "a.svg")]) == 0
     (note,) = capsys.readouterr().err.splitlines()
-    size = re.fullmatch(r"note: both: branches are folded .*, --text-size (\d+) all of them", note)
+    size = re.fullmatch(r"note: both: branches that do not fit are folded; .* --text-size (\d+) shows all branches", note)
     assert size
     arguments = ["panes", "--figure", "both", "--text-size", size[1], "-o", str(tmp_path / "b.svg")]
     assert main.main(["export", *arguments]) == 0

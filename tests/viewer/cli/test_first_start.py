@@ -59,8 +59,8 @@ def test_window_draws_while_the_kernel_compiles_and_later_starts_load_it(tmp_pat
     first = start(tmp_path)
     assert first["compiles"]
     assert first["frames"] > 100
-    assert "Preparing the tracer" in first["said"]
+    assert "Compiling the kernels" in first["said"]
     assert first["rows"] >= 1
     later = start(tmp_path)
     assert not later["compiles"]
-    assert "Preparing the tracer" not in later["said"]
+    assert "Compiling the kernels" not in later["said"]

@@ -56,7 +56,7 @@ def test_plots_say_what_their_axes_are(folder: Path) -> None:
         text = " ".join(element.text or "" for element in xml.parse(path).iter() if element.tag.endswith("text"))
         assert ("time (s)" in text) == path.stem.endswith("seconds")
         assert ("rays traced" in text) == path.stem.endswith("rays")
-        assert ("tests of a ray against a surface" in text) == path.stem.endswith("tests")
+        assert ("ray-surface intersection tests" in text) == path.stem.endswith("tests")
     bounds = (folder / "trees-largest-seconds.svg").read_text("utf-8")
     assert "cut at a depth: its bound" in bounds
 

@@ -79,10 +79,10 @@ def test_local_light_stands_light_by_light(water: tuple) -> None:
     local = section(explain_ray(tree, world, 0), "Local light")
     names = list(local)
     assert any(name.startswith("lamp: N·L") for name in names)
-    assert any(re.fullmatch("low: N·L −[0-9.]+: faces away from it", name) for name in names)
+    assert any(re.fullmatch("low: N·L −[0-9.]+: the surface faces away from it", name) for name in names)
     assert "hidden: blocked by ball" in names
     lit = next(name for name in names if name.startswith("lamp: N·L"))
-    # The panel gives all numbers that are needed to compute the share by hand.
+    # The panel gives all numbers that are needed to compute the contribution by hand.
     _, kd, ks, p = values(local["ka  kd  ks  p"])
     n_l, r_v = (float(x) for x in re.findall(r"[0-9.]+", lit))
     color, light = np.array(values(local["colour C"])), np.array(values(local["lamp: L"]))
@@ -101,8 +101,8 @@ def test_shadow_ray_shows_its_lights_formula(water: tuple) -> None:
     n_l = to_light[1] / np.linalg.norm(to_light)
     assert value(light["N·L"]) == pytest.approx(n_l, rel=1e-4, abs=0.0)
     assert values(light["kd C (N·L)"]) == pytest.approx([0.5 * n_l] * 3, abs=6e-5)
-    share = np.array((0.5, 0.25, 1.0)) * (0.5 * n_l + value(light["ks (R·V)ᵖ, p = 4"]))
-    assert values(light["share"]) == pytest.approx(share, abs=2e-4)
+    contribution = np.array((0.5, 0.25, 1.0)) * (0.5 * n_l + value(light["ks (R·V)ᵖ, p = 4"]))
+    assert values(light["contribution"]) == pytest.approx(contribution, abs=2e-4)
     assert headline(tree, i)[1] == "from water to lamp: nothing in its way"
 
 

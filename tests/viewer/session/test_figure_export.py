@@ -72,8 +72,8 @@ def test_without_a_clipboard_that_is_said() -> None:
     bare = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
     run = subprocess.run([sys.executable, "-c", code], env=bare, capture_output=True, text=True)
     said = run.stderr.strip().splitlines()[-1]
-    assert said.startswith("viewer.base.files.Unusable: nothing can be copied here: ")
-    assert said.endswith("; Ctrl+S writes the figure into a file")
+    assert said.startswith("viewer.base.files.Unusable: cannot copy to the clipboard: ")
+    assert said.endswith("; Ctrl+S writes the figure to a file")
 
 
 def test_the_choice_is_kept(room: Driver, tmp_path: Path) -> None:
