@@ -15,7 +15,7 @@ import tracer
 from benchmarks.figure import Figure, Spread
 from benchmarks.task import Options, Task
 from tracer.choices import SOBOL
-from tracer.image.converge import ConvergingImage
+from tracer.image.progressive import ProgressiveImage
 from tracer.image.render import processors
 from tracer.kernel.limits import make_limits
 from tracer.measure.precision.errors import rmse
@@ -50,7 +50,7 @@ def measure(name: str) -> list[Figure]:
 
 def to_each(world: tracer.World, goals: Sequence[float], true: np.ndarray) -> list[tuple[float, float]]:
     """(rays, seconds) at which the true error reaches each of the goals, the largest first."""
-    made = ConvergingImage(world, world.view(), make_limits(world, records=False), SOBOL)
+    made = ProgressiveImage(world, world.view(), make_limits(world, records=False), SOBOL)
     threads = processors()
     ahead, found = list(goals), []
     before = (math.inf, 0.0, 0.0)

@@ -1,4 +1,4 @@
-from . import optics as optics
+from . import nodes as nodes, optics as optics
 from .formats import load as load
 from .image.render import Image as Image, render as render
 from .kernel.world import World as World, prepare as prepare

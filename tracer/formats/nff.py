@@ -48,7 +48,9 @@ FORMAT_NAMES: dict[type, dict[str, str]] = {
     },
 }  # fmt: skip
 
-BENT = 1e-3  # relative to a polygon's size: corners that are off the plane by less than this are moved into it
+PLANARITY_TOLERANCE = (
+    1e-3  # relative to a polygon's size: corners that are off the plane by less than this are moved into it
+)
 MOST_CORNERS = 10**6
 
 
@@ -257,6 +259,6 @@ def flattened(points: list[Vector]) -> list[Vector]:
     normal = unit_normal(corners)
     heights = (corners - middle) @ normal
     size = np.linalg.norm(corners - middle, axis=1).max()
-    if not 0.25 * FLATNESS * size < np.abs(heights).max() < BENT * size:
+    if not 0.25 * FLATNESS * size < np.abs(heights).max() < PLANARITY_TOLERANCE * size:
         return points
     return [as_floats(corner) for corner in corners - np.outer(heights, normal)]

@@ -18,7 +18,7 @@ from concurrent.futures import CancelledError, Future
 from typing import Any
 
 from tracer.compile.kernel_cache import machine, versions
-from tracer.image.task import Mismatch, Remote, Task, difference
+from tracer.image.task import Mismatch, RemoteExecutor, Task, difference
 from tracer.image.warmup import warm_up as warm_up_kernels
 
 CONNECTING = 5  # seconds for the scheduler to answer
@@ -38,7 +38,7 @@ class ClusterError(RuntimeError):
         self.faults = faults
 
 
-class Cluster(Remote):
+class Cluster(RemoteExecutor):
     """A Dask client as an executor of tiles."""
 
     def __init__(self, client: Any) -> None:

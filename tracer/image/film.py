@@ -60,7 +60,7 @@ class Film:
 
 
 @kernel
-def develop(
+def write_pixels(
     pixels: Rows[PixelRow], sums: Numbers, step: int, left: int, top: int, image: Numbers
 ) -> tuple[float, float]:
     """Write the mean over each pixel's samples into `image`, on the square of `step` pixels that it stands for.

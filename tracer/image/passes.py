@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from tracer.image.film import Traced
-from tracer.image.task import Cancelled, Remote, Work, never, trace_works
+from tracer.image.task import Cancelled, RemoteExecutor, Work, never, trace_works
 
 AHEAD = 2  # calls per thread: one that runs, one that waits
 MAX_TILES_REMOTE = 16  # tiles in a call to another process: a message costs a millisecond
@@ -47,7 +47,7 @@ def trace_passes(
     if here:
         options = (image, lambda: ended.is_set() or cancelled())
     else:
-        options = (None, executor.abandoned if isinstance(executor, Remote) else never)
+        options = (None, executor.abandoned if isinstance(executor, RemoteExecutor) else never)
     for works in passes:
         due += len(works)
         waiting = deque(shared_out(works, threads, MAX_TILES_HERE if here else MAX_TILES_REMOTE))
@@ -55,7 +55,7 @@ def trace_passes(
         running: set[Future[list[Traced]]] = set()
         try:
             while True:
-                if isinstance(executor, Remote):
+                if isinstance(executor, RemoteExecutor):
                     threads = max(threads, executor.threads)
                 while waiting and len(running) < AHEAD * threads and not cancelled():
                     future = executor.submit(trace_works, task, waiting.popleft(), *options)

@@ -13,10 +13,10 @@ import numpy as np
 
 from tracer.choices import JITTERED, SAMPLERS, SOBOL
 from tracer.formulas.sampler import make_samples
-from tracer.image.converge import MAX_SAMPLES, ConvergingImage, RoundStats
 from tracer.image.film import Film, Traced
 from tracer.image.passes import Stopped, trace_passes
-from tracer.image.task import Cancelled, Remote, Task, Work, never, shared
+from tracer.image.progressive import MAX_SAMPLES, ProgressiveImage, RoundStats
+from tracer.image.task import Cancelled, RemoteExecutor, Task, Work, never, shared
 from tracer.image.tiles import SIDE, SMALL_SIDE, make_tiles
 from tracer.image.warmup import warm_up
 from tracer.kernel.limits import MAX_NODES, make_limits
@@ -124,7 +124,7 @@ def render(
         raise ValueError("until_error and until_seconds need sobol or random samples, got jittered")
     if goal and samples is not None and samples < 2:
         raise ValueError(f"samples must be >= 2 with until_error or until_seconds, got {samples}")
-    elsewhere = isinstance(executor, Remote)
+    elsewhere = isinstance(executor, RemoteExecutor)
     threads = threads or (executor.threads if elsewhere else processors())
     compiling = 0.0 if elsewhere else warm_up()
     view = world.view(size)
@@ -132,7 +132,7 @@ def render(
     began = time.perf_counter()
     with nullcontext(executor) if executor else ThreadPoolExecutor(threads) as pool:
         if goal:
-            image = ConvergingImage(world, view, limits, SAMPLERS.index(sampler), most=samples or MAX_SAMPLES)
+            image = ProgressiveImage(world, view, limits, SAMPLERS.index(sampler), most=samples or MAX_SAMPLES)
             ended = _converge(image, replace(goal, began=began), pool, threads, progress, cancelled)
             totals, pixels, residual = image.totals, image.statistics.means(), image.residual()
             stats, counts = image.stats, image.statistics.counts
@@ -168,7 +168,7 @@ def render(
 
 
 def _converge(
-    image: ConvergingImage, goal: Goal, executor: Executor, threads: int, progress: Progress, cancelled: Cancelled
+    image: ProgressiveImage, goal: Goal, executor: Executor, threads: int, progress: Progress, cancelled: Cancelled
 ) -> str:
     """Trace rounds until the goal is reached. Returns what ended it. Every pixel gets at least two samples."""
     error = math.nan

@@ -15,7 +15,7 @@ import numpy as np
 from tracer.compile.kernel_cache import versions
 from tracer.formulas.camera import View
 from tracer.formulas.sampler import Sampler
-from tracer.image.film import Traced, develop
+from tracer.image.film import Traced, write_pixels
 from tracer.image.tiles import Tile, pixel_list
 from tracer.kernel.arrays import Arrays
 from tracer.kernel.entry import trace_list
@@ -79,7 +79,7 @@ class Work(NamedTuple):
     before: np.ndarray | None = None  # (height, width, 4): sums over the samples so far, of pixels that get more
 
 
-class Remote(Executor, ABC):
+class RemoteExecutor(Executor, ABC):
     """An executor whose calls run in other processes."""
 
     threads: int  # number of calls that can run at the same time
@@ -91,8 +91,8 @@ class Remote(Executor, ABC):
 
 
 def shared(task: Task, executor: Executor) -> Any:
-    """The task, or its handle for the calls of a Remote executor."""
-    return executor.share(task) if isinstance(executor, Remote) else task
+    """The task, or its handle for the calls of a RemoteExecutor."""
+    return executor.share(task) if isinstance(executor, RemoteExecutor) else task
 
 
 def trace_works(
@@ -135,5 +135,5 @@ def _trace(
     colors, left, top = image, 0, 0
     if colors is None:
         colors, left, top = np.zeros((tile.bottom - tile.top, tile.right - tile.left, 3)), tile.left, tile.top
-    residual = develop(pixels, sums, tile.step, left, top, colors)
+    residual = write_pixels(pixels, sums, tile.step, left, top, colors)
     return Traced(tile, counts, residual, colors if image is None else None)

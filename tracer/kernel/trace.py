@@ -16,7 +16,7 @@ from tracer.formulas.optics import cosine, radicand
 from tracer.formulas.shading import ambient, phong, surface_color
 from tracer.formulas.vector import Vector, add, dot, multiply, scale, store, vector
 from tracer.kernel.arrays import Arrays
-from tracer.kernel.interface import next_interface
+from tracer.kernel.coincident_surfaces import next_interface
 from tracer.kernel.limits import Limits
 from tracer.kernel.node_rows import record_shadow, record_unlit, rounding_scale
 from tracer.kernel.nodes import BACKGROUND, SHADOW, NodeRow

@@ -12,8 +12,8 @@ from tracer.formulas.camera import View
 from tracer.formulas.media import WORD
 from tracer.formulas.vector import Vector, as_floats
 from tracer.kernel.arrays import Arrays
+from tracer.kernel.capabilities import Need, needs
 from tracer.kernel.formulas import STABLE, Formulas
-from tracer.kernel.left_out import Need, needs
 from tracer.kernel.packing import pack_lights, pack_materials, pack_objects, pack_surfaces
 from tracer.scene import Material, Scene, SceneError
 from tracer.scene.cameras import scene_view

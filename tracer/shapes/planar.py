@@ -76,7 +76,7 @@ def plane_rounding(surface: SurfaceRow, ray: Ray) -> float:
 
 
 @inlined
-def height_and_speed(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
+def height_and_n_dot_d(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
     """n.(a - o) and n.d. Their ratio is the distance to the plane."""
     normal = vector(surface.normal)
     return (dot(normal, subtract(vector(surface.a), ray.origin)), dot(normal, ray.direction))
@@ -88,10 +88,10 @@ def may_cross(surface: SurfaceRow, ray: Ray, t_max: float) -> bool:
 
     Decides without a division, since most planes lie behind the ray or too far away. Never false because of rounding.
     """
-    height, speed = height_and_speed(surface, ray)
+    height, n_dot_d = height_and_n_dot_d(surface, ray)
     error = plane_rounding(surface, ray)
-    behind = (height > 0.0) != (speed > 0.0) and abs(height) > error and abs(speed) > PLANE_ERROR
-    return not behind and abs(height) - error <= (abs(speed) + PLANE_ERROR) * t_max
+    behind = (height > 0.0) != (n_dot_d > 0.0) and abs(height) > error and abs(n_dot_d) > PLANE_ERROR
+    return not behind and abs(height) - error <= (abs(n_dot_d) + PLANE_ERROR) * t_max
 
 
 @inlined
@@ -101,7 +101,7 @@ def outline_slack(surface: SurfaceRow, ray: Ray) -> float:
 
     Such a ray leaves a neighbouring face. The slack is 0 for a ray that starts away from the plane.
     """
-    height, _ = height_and_speed(surface, ray)
+    height, _ = height_and_n_dot_d(surface, ray)
     error = plane_rounding(surface, ray)
     return 2.0 * error if ray.start >= 0 and abs(height) <= error else 0.0
 
@@ -109,15 +109,15 @@ def outline_slack(surface: SurfaceRow, ray: Ray) -> float:
 @inlined
 def plane_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
     """Distance t > 0 to the plane, 0 if the ray starts on it and crosses it; inf if not between t_min and t_max."""
-    height, speed = height_and_speed(surface, ray)
+    height, n_dot_d = height_and_n_dot_d(surface, ray)
     error = plane_rounding(surface, ray)
     if ray.start >= 0 and abs(height) <= error:
-        t = contact_distance(world, surface, ray, speed)
+        t = contact_distance(world, surface, ray, n_dot_d)
     elif is_axis_aligned(surface) or (
         not exact
-        and (abs(speed) + PLANE_ERROR) * t_min + error < abs(height) < (abs(speed) - PLANE_ERROR) * t_max - error
+        and (abs(n_dot_d) + PLANE_ERROR) * t_min + error < abs(height) < (abs(n_dot_d) - PLANE_ERROR) * t_max - error
     ):
-        t = height / speed
+        t = height / n_dot_d
     else:
         t = exact_distance(surface, ray)
     return t if t_min <= t <= t_max and 0.0 <= t < math.inf else math.inf
@@ -142,22 +142,22 @@ def exact_distance(surface: SurfaceRow, ray: Ray) -> float:
     """n.(a - o) / n.d in double-double: accurate for grazing rays and for far points of the plane."""
     normal = dd_normal(surface)
     height = dd_dot(normal, exact_difference(vector(surface.a), ray.origin))
-    speed = dd_dot(normal, dd_vector(ray.direction))
-    return dd_divide(height, speed) if speed[0] != 0.0 else math.inf
+    n_dot_d = dd_dot(normal, dd_vector(ray.direction))
+    return dd_divide(height, n_dot_d) if n_dot_d[0] != 0.0 else math.inf
 
 
 @compiled
-def contact_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, speed: float) -> float:
+def contact_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, n_dot_d: float) -> float:
     """`plane_distance` for a ray whose start cannot be told from a point of the plane."""
     noinline()
-    if speed == 0.0:
+    if n_dot_d == 0.0:
         return math.inf
     start = world.surfaces[ray.start]
     t = exact_distance(surface, ray)
     side = side_of(world, start, surface) if start.count > 0 else ON_BOTH_SIDES
     if side == ON_BOTH_SIDES:  # it has no corners, or crosses the plane: only t itself is left to decide
         return t if t > 0.0 else math.inf
-    if side == IN_PLANE or side * speed > 0.0:
+    if side == IN_PLANE or side * n_dot_d > 0.0:
         return math.inf
     if surface.count >= 3:
         heading = 1 if dot(vector(start.normal), ray.direction) > 0.0 else -1

@@ -130,10 +130,10 @@ def propagate_row(
         apply_jacobian(world, step, length, c, True)
     add_rounding(c, 0.0, OUTGOING * U)
     apply_jacobian(world, step, length, c, False)
-    speed = abs(dot(step.end_normal, step.direction))
+    n_dot_d = abs(dot(step.end_normal, step.direction))
     if row.t < math.inf:
         # At grazing incidence, a small shift of the ray is a large one along the surface.
-        add_rounding(c, HIT * U * rounding_scale(row) / length / (speed if speed > 0.0 else 1.0), 0.0)
+        add_rounding(c, HIT * U * rounding_scale(row) / length / (n_dot_d if n_dot_d > 0.0 else 1.0), 0.0)
     for a in range(6):
         for b in range(6):
             here[a, b] = c[a, b]
@@ -224,10 +224,10 @@ def outgoing_turn(world: Arrays, step: Step, length: float, dp: Vector, dd: Vect
 def transferred(step: Step, length: float, dp: Vector, dd: Vector) -> Vector:
     """The shift of a hit point if its ray is shifted by dp and turned by dd: it slides along the ray to the surface."""
     shifted = add(dp, scale(step.t / length, dd))
-    speed = dot(step.end_normal, step.direction)
-    if speed == 0.0:
+    n_dot_d = dot(step.end_normal, step.direction)
+    if n_dot_d == 0.0:
         return shifted
-    return subtract(shifted, scale(dot(step.end_normal, shifted) / speed, step.direction))
+    return subtract(shifted, scale(dot(step.end_normal, shifted) / n_dot_d, step.direction))
 
 
 @inlined

@@ -20,7 +20,7 @@ ENDLESS = 3.0  # a surface with a radius above this many distances from camera t
 FOV = math.radians(35)
 CLOSEST, FARTHEST = 0.02, 60.0  # distance to the target
 STEEPEST = math.radians(89)
-MARGIN = 0.04  # share of the picture that `take_in` leaves free around the points
+MARGIN = 0.04  # share of the picture that `fit` leaves free around the points
 AZIMUTH, ELEVATION, DISTANCE = 38.0, 22.0, 2.6  # the default view: degrees, and radii of the scene
 NEAR_SHARE = 1 / 400  # the near plane, relative to the distance
 
@@ -91,7 +91,7 @@ class Orbit:
         orbit.target = eye + orbit.distance * forward
         return orbit
 
-    def take_in(self, points: np.ndarray) -> None:
+    def fit(self, points: np.ndarray) -> None:
         """Move back until all these points (n, 3) of the frame are in a picture of 3:2."""
         for _ in range(60):
             places, depths = project(points, self.matrix(1.5), (1.0, 1.0))
@@ -188,7 +188,7 @@ def initial_orbit(world: World, frame: Frame, view: ViewAngles | None) -> Orbit:
     orbit = orbit_beside(world, frame, AZIMUTH, ELEVATION, DISTANCE, None)
     eye = frame.inside(world.view().eye)
     orbit.target = 0.35 * eye
-    orbit.take_in(np.stack([eye, np.zeros(3)]))
+    orbit.fit(np.stack([eye, np.zeros(3)]))
     return orbit
 
 

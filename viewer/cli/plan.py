@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from tracer.kernel.left_out import Need
+from tracer.kernel.capabilities import Need
 from tracer.measure.plan.savings import Measured, Saving, measure
 from tracer.scene import Scene
 from tracer.shapes.polygon import Polygon

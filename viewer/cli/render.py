@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import tracer
-from tracer.image.converge import MAX_SAMPLES, RoundStats
+from tracer.image.progressive import MAX_SAMPLES, RoundStats
 from tracer.image.render import Image
 from tracer.tree.digits import number_text
 from tracer.tree.text import missing_light
@@ -26,7 +26,7 @@ from viewer.cli.terminal import compile_once
 
 
 @dataclass(frozen=True)
-class Order:
+class RenderJob:
     """One image to render."""
 
     name: str
@@ -35,16 +35,16 @@ class Order:
 
 
 def render(options: RenderOptions) -> int:
-    orders = ordered(options)
-    many = len(orders) > 1
+    jobs = jobs_of(options)
+    many = len(jobs) > 1
     stats: list[dict[str, Any]] = []
     compiling = 0.0 if options.dask else compile_once()
     with Progress("render") as progress, executor_of(options.dask, progress) as (executor, connecting):
-        for k, order in enumerate(orders):
+        for k, job in enumerate(jobs):
             if many:
-                progress.doing = f"render {order.name} ({k + 1} of {len(orders)})"
+                progress.doing = f"render {job.name} ({k + 1} of {len(jobs)})"
             try:
-                figures = render_one(order, options, executor, progress, Share(progress, k, len(orders)))
+                figures = render_one(job, options, executor, progress, Share(progress, k, len(jobs)))
             except Unusable as fault:
                 if not many:
                     raise
@@ -56,7 +56,7 @@ def render(options: RenderOptions) -> int:
     if options.stats:
         document = {"images": stats} if many else stats[0]
         write_atomically(options.stats, (json.dumps(document, indent=1) + "\n").encode("utf-8"))
-    return 0 if len(stats) == len(orders) else 2
+    return 0 if len(stats) == len(jobs) else 2
 
 
 @dataclass(frozen=True)
@@ -94,20 +94,20 @@ def executor_of(address: str | None, progress: Progress) -> Iterator[tuple[Execu
 
 
 def render_one(
-    order: Order, options: RenderOptions, executor: Executor | None, progress: Progress, share: Share
+    job: RenderJob, options: RenderOptions, executor: Executor | None, progress: Progress, share: Share
 ) -> dict[str, Any]:
     """Load, prepare, trace and write one image. Returns its part of `--stats`."""
     with faults():
         began = time.perf_counter()
-        share.say(f"load {order.name}")
-        scene = tracer.load(order.scene, progress if share.count == 1 else lambda share: None)
+        share.say(f"load {job.name}")
+        scene = tracer.load(job.scene, progress if share.count == 1 else lambda share: None)
         loaded = time.perf_counter()
-        share.say(f"prepare {order.name}")
+        share.say(f"prepare {job.name}")
         world = tracer.prepare(scene)
         for note in world.notes:
             progress.put(f"note: {note}")
         prepared = time.perf_counter()
-        share.say(f"render {order.name}")
+        share.say(f"render {job.name}")
         image = tracer.render(
             world,
             options.size,
@@ -123,10 +123,10 @@ def render_one(
             executor=executor,
             progress=share,
         )
-    share.say(f"write {order.target.name}")
-    order.target.parent.mkdir(exist_ok=True)
-    write_picture(order.target, image.pixels)
-    name = f"{order.name}: " if share.count > 1 else ""
+    share.say(f"write {job.target.name}")
+    job.target.parent.mkdir(exist_ok=True)
+    write_picture(job.target, image.pixels)
+    name = f"{job.name}: " if share.count > 1 else ""
     if image.stats:
         progress.put(name + summary(image, image.stats, options), sys.stdout)
     if options.tolerance is not None or (image.stats and image.residual["max"] > 0.0):
@@ -134,8 +134,8 @@ def render_one(
         missing = f"a pixel's rays that were cut carry at most {most} of the weight{missing_light(image.bound)}"
         progress.put(name + missing, sys.stdout)
     return {
-        "scene": str(order.scene),
-        "image": str(order.target),
+        "scene": str(job.scene),
+        "image": str(job.target),
         "seconds": {"load": loaded - began, "prepare": prepared - loaded, **image.seconds},
         "rays": image.rays,
         "tests": image.tests,
@@ -172,13 +172,13 @@ def convergence(image: Image, stats: RoundStats) -> dict[str, Any]:
     return {"error": stats.error, "samples_least": stats.least, "samples_most": stats.most, "ended": image.ended}
 
 
-def ordered(options: RenderOptions) -> list[Order]:
+def jobs_of(options: RenderOptions) -> list[RenderJob]:
     """The images to render. Unusable, with all faults, if a scene or a target cannot be used."""
     into = Path(options.output)
     slash = options.output.endswith(("/", "\\"))
     folder = len(options.scenes) > 1 or into.is_dir() or slash
     unusable: list[str] = []
-    orders = []
+    jobs = []
     for scene in options.scenes:
         try:
             path, lesson = find(scene)
@@ -186,8 +186,8 @@ def ordered(options: RenderOptions) -> list[Order]:
             unusable += fault.faults
             continue
         name = lesson.name if lesson else path.stem
-        orders.append(Order(name, path, into / f"{name}.{options.format or 'png'}" if folder else into))
-    for name, count in Counter(order.name for order in orders).items():
+        jobs.append(RenderJob(name, path, into / f"{name}.{options.format or 'png'}" if folder else into))
+    for name, count in Counter(job.name for job in jobs).items():
         if count > 1:
             unusable.append(f"raytree render: {count} scenes would be written to the same file: {name}")
     if folder and not into.is_dir() and (into.exists() or (into.suffix.lower() in SUFFIXES and not slash)):
@@ -198,7 +198,7 @@ def ordered(options: RenderOptions) -> list[Order]:
         raise Unusable(*unusable)
     if not folder:
         check_format(into)
-    targets = [into] if folder and not into.is_dir() else [order.target for order in orders]
+    targets = [into] if folder and not into.is_dir() else [job.target for job in jobs]
     for path in filter(None, (*targets, options.stats)):
         check_writable(path)
-    return orders
+    return jobs

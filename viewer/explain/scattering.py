@@ -104,8 +104,8 @@ def _fresnel(tree: RayTree, i: int, material: Material) -> Section:
     c2 = math.sqrt(max(optics.radicand(optics.sine(v, normal), n1, n2), 0.0))
     r, t = optics.fresnel(c1, n1, n2)
     section = Section("Fresnel", "reflected kr + kt R,  refracted kt T")
-    section.add("rₛ = (n₁c₁ − n₂c₂) / (n₁c₁ + n₂c₂)", format_number(_share(n1 * c1, n2 * c2)))
-    section.add("rₚ = (n₂c₁ − n₁c₂) / (n₂c₁ + n₁c₂)", format_number(_share(n2 * c1, n1 * c2)))
+    section.add("rₛ = (n₁c₁ − n₂c₂) / (n₁c₁ + n₂c₂)", format_number(_amplitude(n1 * c1, n2 * c2)))
+    section.add("rₚ = (n₂c₁ − n₁c₂) / (n₂c₁ + n₁c₂)", format_number(_amplitude(n2 * c1, n1 * c2)))
     section.add("R = (rₛ² + rₚ²) / 2", format_number(r))
     section.add("T", format_number(t))
     section.add("kr + kt R", format_number(material.reflect + material.transmit * r))
@@ -113,7 +113,7 @@ def _fresnel(tree: RayTree, i: int, material: Material) -> Section:
     return section
 
 
-def _share(a: float, b: float) -> float:
+def _amplitude(a: float, b: float) -> float:
     """(a - b) / (a + b); 0 if the difference is only rounding error, as at Brewster's angle."""
     return (a - b) / (a + b) if abs(a - b) > 4.0 * U * (a + b) else 0.0
 

@@ -138,7 +138,7 @@ def orbit_of(numbers: tuple[float, ...] | None, world: World, view: ViewAngles |
     if numbers is None:
         orbit = initial_orbit(world, frame, view)
         nearest = orbit.distance
-        orbit.take_in(frame.inside(world.view().eye)[None])
+        orbit.fit(frame.inside(world.view().eye)[None])
         if orbit.distance > FARTHER * nearest:  # the subject of the figure would be too small
             orbit.distance = nearest
         return orbit

@@ -48,7 +48,7 @@ class Canvas:
         self._world_changed = Changed()
         self._edges_changed = Changed()
         self._plane: np.ndarray | None = None
-        self._pace = _Pace()
+        self._throttle = _Throttle()
 
     def picture(self) -> moderngl.Texture | None:
         """The rendered image as far as it is; its first row is the image's top."""
@@ -100,22 +100,32 @@ class Canvas:
             self._set_world()
             self._set_lines()
             plane = ImagePlane(self._plane, image) if image is not None and self._plane is not None else None
-            self.stage.draw(session.orbit, session.theme, size, scale, plane)
-            self._pace.drawn = True
+            self.stage.draw(session.orbit, session.appearance.theme, size, scale, plane)
+            self._throttle.drawn = True
         return self.stage.target.texture
 
     def frame_took(self, seconds: float) -> None:
         """Called after each frame of the window."""
-        self._pace.frame_took(seconds)
+        self._throttle.frame_took(seconds)
 
     def _view_key(self, size: tuple[int, int], scale: float) -> tuple:
         """All that the 3D view depends on."""
         session = self.session
         orbit, shown = session.orbit, session.shown
         eye = (orbit.azimuth, orbit.elevation, orbit.distance, *orbit.target)
-        image = self._pace.state(session.image.picture, self.image.state) if shown.camera else None
+        image = self._throttle.state(session.image.picture, self.image.state) if shown.camera else None
         switches = (frozenset(shown.kinds), shown.camera, shown.normals)
-        return (size, scale, eye, image, switches, session.world, session.tree, session.selected, session.theme.name)
+        return (
+            size,
+            scale,
+            eye,
+            image,
+            switches,
+            session.world,
+            session.tree,
+            session.selected,
+            session.appearance.theme.name,
+        )
 
     def _set_world(self) -> None:
         session = self.session
@@ -123,8 +133,8 @@ class Canvas:
             return
         if self._world_changed(session.world):
             self.stage.set_world(session.world, session.frame)
-        if self._edges_changed((session.world, session.theme)):
-            self.stage.set_edges(glass_edges(session.world, session.frame, session.theme))
+        if self._edges_changed((session.world, session.appearance.theme)):
+            self.stage.set_edges(glass_edges(session.world, session.frame, session.appearance.theme))
 
     def _set_lines(self) -> None:
         session = self.session
@@ -135,13 +145,13 @@ class Canvas:
         if session.world and session.shown.camera:
             view = session.world.view()
             self._plane = image_plane(view, session.frame, np.zeros(3))
-            marks += frustum_lines(view, session.frame, self._plane, session.theme)
+            marks += frustum_lines(view, session.frame, self._plane, session.appearance.theme)
         if session.tree:
             rows = len(session.tree)
             self.lines = ray_lines(session.tree, rows, session.frame, session.shown.kinds)
-            rays = style_rays(self.lines, session.tree, session.selected, session.theme)
+            rays = style_rays(self.lines, session.tree, session.selected, session.appearance.theme)
             if session.shown.normals:
-                marks += normal_lines(session.tree, rows, session.frame, session.selected, session.theme)
+                marks += normal_lines(session.tree, rows, session.frame, session.selected, session.appearance.theme)
         self.stage.set_lines(StageLines(marks, rays))
 
     def release(self) -> None:
@@ -151,7 +161,7 @@ class Canvas:
         self._near.release()
 
 
-class _Pace:
+class _Throttle:
     """Limits how often the 3D view is drawn again only because an unfinished image has more tiles."""
 
     def __init__(self) -> None:

@@ -7,7 +7,7 @@ first asks for it, and kept.
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from tracer.kernel.left_out import Need
+from tracer.kernel.capabilities import Need
 from tracer.scene import Material, Scene
 
 

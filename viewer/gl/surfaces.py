@@ -34,7 +34,7 @@ class Group:
     array: moderngl.VertexArray
     middle: np.ndarray
     glass: bool = False
-    endless: bool = False
+    infinite: bool = False
     wall: bool = False
     count: int = 1
 
@@ -65,7 +65,7 @@ class Surfaces:
     def draw_opaque(self, orbit: Orbit, matrix: np.ndarray, edge: Color) -> None:
         self._set_uniforms(orbit, matrix, edge)
         chosen = [group for group in self.groups if not group.glass]
-        for group in sorted(chosen, key=lambda group: group.endless):
+        for group in sorted(chosen, key=lambda group: group.infinite):
             self._draw_group(group, culled="back" if group.wall else None)
 
     def draw_clear(self, orbit: Orbit) -> None:
@@ -93,7 +93,7 @@ class Surfaces:
             self.ctx.enable(moderngl.CULL_FACE)
             self.ctx.cull_face = culled
         # An infinite plane fades out before the edge of its square shows.
-        fade_from, fade_to = FADES[group.glass] if group.endless else (0.0, 0.0)
+        fade_from, fade_to = FADES[group.glass] if group.infinite else (0.0, 0.0)
         put(self.program, fade_from=fade_from, fade_to=fade_to, ghost=ghost)
         group.array.render(moderngl.TRIANGLES, instances=group.count)
         if culled:
@@ -189,15 +189,15 @@ class Surfaces:
                 continue
             corners, normals = item.shape.triangles(self.frame.middle, self.frame.radius)
             glass = item.material.transmit > 0.0
-            endless = item.shape.bounds() is None
-            wall = (item.shape.plane() is not None and not endless) or item.shape.contains(self.camera)
-            if wall and not glass and not endless:
+            infinite = item.shape.bounds() is None
+            wall = (item.shape.plane() is not None and not infinite) or item.shape.contains(self.camera)
+            if wall and not glass and not infinite:
                 corners, normals = _turned(corners, normals, self.camera)
             rows = np.concatenate(
                 [self.frame.inside(corners), normals, np.full((*corners.shape[:2], 1), k)], axis=2
             ).reshape(-1, 7)
-            if glass or endless:
-                self._triangle_group(rows, glass=glass, endless=endless)
+            if glass or infinite:
+                self._triangle_group(rows, glass=glass, infinite=infinite)
             else:
                 (walls if wall else plain).append(rows)
         if plain:

@@ -22,7 +22,7 @@ def draw(session: Session, left: float, top: float, width: float) -> None:
     imgui.set_next_window_pos((left, top))
     imgui.set_next_window_size((width, height()))
     imgui.push_style_var(imgui.StyleVar_.window_padding, (8 * d.unit(), 5 * d.unit()))
-    imgui.push_style_color(imgui.Col_.window_bg, session.theme.ground)
+    imgui.push_style_color(imgui.Col_.window_bg, session.appearance.theme.ground)
     imgui.begin(
         NAME, None, flags.no_decoration | flags.no_move | flags.no_docking | flags.no_saved_settings | flags.no_nav
     )
@@ -49,7 +49,7 @@ def _depth(session: Session) -> None:
     imgui.text("Depth")
     for depth in range(4):
         imgui.same_line(0.0, (8 if depth == 0 else 3) * d.unit())
-        if d.toggle(session.theme, str(depth), session.depth == depth):
+        if d.toggle(session.appearance.theme, str(depth), session.depth == depth):
             session.set_depth(depth)
         d.hint(f"rays that were reflected or refracted at most {depth} times (key {depth})")
     imgui.same_line(0.0, 3 * d.unit())
@@ -62,7 +62,7 @@ def _depth(session: Session) -> None:
     d.hint("increase the depth by one (key +)")
     if session.depth > 3:
         imgui.same_line(0.0, 6 * d.unit())
-        imgui.text_colored(session.theme.accent, str(session.depth))
+        imgui.text_colored(session.appearance.theme.accent, str(session.depth))
 
 
 def _model(session: Session) -> None:
@@ -73,7 +73,7 @@ def _model(session: Session) -> None:
     for k, (model, hint) in enumerate(zip(MODELS, hints, strict=True)):
         if k:
             imgui.same_line(0.0, 3 * d.unit())
-        if d.toggle(session.theme, model.capitalize(), session.model == model):
+        if d.toggle(session.appearance.theme, model.capitalize(), session.model == model):
             session.set_model(model)
         d.hint(hint)
 
@@ -81,7 +81,7 @@ def _model(session: Session) -> None:
 def _legend(session: Session, right: float) -> None:
     """Each kind of ray as it is drawn, with its name. A click shows or hides it. The legend ends left of `right`."""
     unit = d.unit()
-    theme = session.theme
+    theme = session.appearance.theme
     labels = _labels(session, right - imgui.get_cursor_pos_x())
     for k, (kind, style) in enumerate(STYLES.items()):
         if k:
@@ -150,7 +150,7 @@ def _status(session: Session, content: str, place: float) -> None:
     if imgui.get_cursor_pos_x() < place:
         imgui.set_cursor_pos_x(place)
         imgui.align_text_to_frame_padding()
-        imgui.text_colored(session.theme.muted, content)
+        imgui.text_colored(session.appearance.theme.muted, content)
 
 
 def _status_text(session: Session) -> str:

@@ -33,7 +33,7 @@ def draw(session: Session, canvas: Canvas) -> None:
         _plot(session)
     else:
         imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(session.theme.muted, BEGUN if session.refinement.is_running else EMPTY)
+        imgui.text_colored(session.appearance.theme.muted, BEGUN if session.refinement.is_running else EMPTY)
         imgui.pop_text_wrap_pos()
 
 
@@ -73,7 +73,7 @@ def _controls(session: Session) -> None:
 
 def _numbers(session: Session) -> None:
     """The error so far, a forecast for one more second, and the error due to rays that were cut."""
-    run, theme = session.refinement.current, session.theme
+    run, theme = session.refinement.current, session.appearance.theme
     if not run or not run.points:
         return
     last = run.points[-1]
@@ -115,7 +115,7 @@ def _outlook(run: Run) -> str:
 
 
 def _plot(session: Session) -> None:
-    unit, theme, state = d.unit(), session.theme, session.refinement
+    unit, theme, state = d.unit(), session.appearance.theme, session.refinement
     size = SMALL * imgui.get_font_size()
     at = imgui.get_cursor_screen_pos()
     caption = d.shortened(
@@ -178,7 +178,7 @@ def _curve(session: Session, run: Run, reach: tuple[float, float]) -> None:
     if not points:
         return
     state, unit = session.refinement, d.unit()
-    color = imgui.ImVec4(*curve_color(session.theme, run.number))
+    color = imgui.ImVec4(*curve_color(session.appearance.theme, run.number))
     on = run is state.current
     name = run.name([other.model for other in state.runs])
     if 0.0 < run.floor < math.inf:

@@ -18,8 +18,8 @@ def draw(session: Session) -> None:
     middle = (room.work_pos.x + 0.5 * room.work_size.x, room.work_pos.y + 0.5 * room.work_size.y)
     imgui.set_next_window_pos(middle, imgui.Cond_.always, (0.5, 0.5))
     imgui.set_next_window_size_constraints((width, 0), (width, 0.8 * room.work_size.y))
-    imgui.push_style_color(imgui.Col_.window_bg, session.theme.raised)
-    imgui.push_style_color(imgui.Col_.border, session.theme.fault)
+    imgui.push_style_color(imgui.Col_.window_bg, session.appearance.theme.raised)
+    imgui.push_style_color(imgui.Col_.border, session.appearance.theme.fault)
     imgui.push_style_var(imgui.StyleVar_.window_border_size, 1.5 * unit)
     flags = imgui.WindowFlags_
     opened, stays = imgui.begin(
@@ -35,7 +35,7 @@ def draw(session: Session) -> None:
         is_there = opening is not None and opening.path.is_file()
         again = " Save the file, and it is read again." if is_there else ""
         imgui.push_text_wrap_pos(width - 20 * unit)
-        imgui.text_colored(session.theme.fault, f"{said}{kept}.{again}")
+        imgui.text_colored(session.appearance.theme.fault, f"{said}{kept}.{again}")
         imgui.pop_text_wrap_pos()
         imgui.separator()
         imgui.push_text_wrap_pos(width - 20 * unit)

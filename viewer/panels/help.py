@@ -15,7 +15,7 @@ def draw(session: Session, keys: Sequence[tuple[str, str]]) -> None:
     middle = (room.work_pos.x + 0.5 * room.work_size.x, room.work_pos.y + 0.5 * room.work_size.y)
     imgui.set_next_window_pos(middle, imgui.Cond_.appearing, (0.5, 0.5))
     flags = imgui.WindowFlags_
-    imgui.push_style_color(imgui.Col_.window_bg, session.theme.raised)
+    imgui.push_style_color(imgui.Col_.window_bg, session.appearance.theme.raised)
     opened, stays = imgui.begin(
         "Keys and mouse",
         True,
@@ -25,7 +25,7 @@ def draw(session: Session, keys: Sequence[tuple[str, str]]) -> None:
         for key, meaning in keys:
             imgui.table_next_row()
             imgui.table_next_column()
-            imgui.text_colored(session.theme.accent, key)
+            imgui.text_colored(session.appearance.theme.accent, key)
             imgui.table_next_column()
             imgui.text(meaning)
         imgui.end_table()

@@ -90,7 +90,7 @@ def _head(session: Session) -> None:
         return
     unit = d.unit()
     imgui.align_text_to_frame_padding()
-    imgui.text_colored(session.theme.muted, "pixel")
+    imgui.text_colored(session.appearance.theme.muted, "pixel")
     x, y = session.pixel or (-1, -1)
     for label, value in (("x", x), ("y", y)):
         imgui.same_line()
@@ -124,7 +124,7 @@ def _head(session: Session) -> None:
             imgui.set_tooltip(f"{content}\n{meaning}")
     else:
         imgui.same_line()
-        imgui.text_colored(session.theme.muted, "click the image")
+        imgui.text_colored(session.appearance.theme.muted, "click the image")
 
 
 def _refined(session: Session) -> str:
@@ -154,14 +154,14 @@ def _scale(session: Session) -> None:
     left = start.x + max(0.0, room - ends - named - bar)
     top = start.y + 0.5 * (imgui.get_frame_height() - size)
     pad = imgui.get_window_draw_list()
-    d.text(pad, (left, top), session.theme.muted, word, size)
-    d.text(pad, (left + named, top), session.theme.text, low, size)
+    d.text(pad, (left, top), session.appearance.theme.muted, word, size)
+    d.text(pad, (left + named, top), session.appearance.theme.text, low, size)
     left += named + d.text_size(low, size)[0] + 6 * unit
     colors = gradient(48)
     for k, color in enumerate(colors):
         a, b = left + k * bar / len(colors), left + (k + 1) * bar / len(colors)
         pad.add_rect_filled((a, top + 0.1 * size), (b + 0.5, top + size), d.u32(color))
-    d.text(pad, (left + bar + 6 * unit, top), session.theme.text, high, size)
+    d.text(pad, (left + bar + 6 * unit, top), session.appearance.theme.text, high, size)
     imgui.new_line()
 
 
@@ -172,9 +172,11 @@ def _progress(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, ro
         return
     bottom = corner.y + room.y
     height = 4.0 * d.unit()
-    draw.add_rect_filled((corner.x, bottom - height), (corner.x + room.x, bottom), d.u32(session.theme.raised))
+    draw.add_rect_filled(
+        (corner.x, bottom - height), (corner.x + room.x, bottom), d.u32(session.appearance.theme.raised)
+    )
     end = corner.x + room.x * shown.share
-    draw.add_rect_filled((corner.x, bottom - height), (end, bottom), d.u32(session.theme.accent))
+    draw.add_rect_filled((corner.x, bottom - height), (end, bottom), d.u32(session.appearance.theme.accent))
 
 
 def _waiting(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
@@ -185,7 +187,7 @@ def _waiting(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, roo
     for k, content in enumerate(lines):
         scaled = size if k == 0 else SMALL * size
         width, _ = d.text_size(content, scaled)
-        color = session.theme.text if k == 0 else session.theme.muted
+        color = session.appearance.theme.text if k == 0 else session.appearance.theme.muted
         d.text(draw, (corner.x + 0.5 * (room.x - width), top + 1.4 * size * k), color, content, scaled)
 
 

@@ -14,7 +14,7 @@ def draw(session: Session, canvas: Canvas) -> None:
         content = " ".join(block.split())
         imgui.push_text_wrap_pos(0.0)
         if block.startswith("#"):
-            imgui.text_colored(session.theme.accent, content.lstrip("# "))
+            imgui.text_colored(session.appearance.theme.accent, content.lstrip("# "))
         elif block.startswith("- "):
             for item in block.split("\n- "):
                 imgui.bullet()

@@ -122,10 +122,10 @@ def _view_menu(session: Session) -> bool:
     if imgui.menu_item_simple("Through the scene's camera", "V"):
         session.through_camera()
     imgui.separator()
-    if imgui.menu_item_simple("Light theme", "T", not session.theme.dark):
-        session.toggle_theme()
-    if imgui.menu_item_simple("Lecture size", "Tab", session.is_lecture_size):
-        session.toggle_lecture_size()
+    if imgui.menu_item_simple("Light theme", "T", not session.appearance.theme.dark):
+        session.appearance.toggle_theme()
+    if imgui.menu_item_simple("Lecture size", "Tab", session.appearance.is_lecture_size):
+        session.appearance.toggle_lecture_size()
     imgui.separator()
     return imgui.menu_item_simple("Reset the panels")
 
@@ -142,4 +142,4 @@ def _title(session: Session) -> None:
     place = imgui.get_window_width() - width - 14 * d.unit()
     if place > imgui.get_cursor_pos_x():
         imgui.set_cursor_pos_x(place)
-        imgui.text_colored(session.theme.muted, content)
+        imgui.text_colored(session.appearance.theme.muted, content)

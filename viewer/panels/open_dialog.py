@@ -19,7 +19,9 @@ def open_dialog() -> None:
 def draw(session: Session) -> None:
     unit, dialog = d.unit(), session.dialog
     imgui.set_next_window_size((620 * unit, 460 * unit), imgui.Cond_.appearing)
-    imgui.push_style_color(imgui.Col_.popup_bg, session.theme.panel)  # lighter fields and buttons stand out from it
+    imgui.push_style_color(
+        imgui.Col_.popup_bg, session.appearance.theme.panel
+    )  # lighter fields and buttons stand out from it
     opened, _ = imgui.begin_popup_modal(TITLE, True, imgui.WindowFlags_.no_saved_settings)
     imgui.pop_style_color()
     if not opened:
@@ -37,7 +39,7 @@ def draw(session: Session) -> None:
     if entered:
         _go(session, dialog.folder / Path(written.strip()).expanduser())
     if dialog.not_found:
-        imgui.text_colored(session.theme.fault, "not found")
+        imgui.text_colored(session.appearance.theme.fault, "not found")
     if imgui.begin_child("files", (0, -imgui.get_frame_height_with_spacing())):
         if imgui.selectable("..", False)[0]:
             _go(session, dialog.folder.parent)

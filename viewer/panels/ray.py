@@ -15,7 +15,7 @@ from viewer.session.view_state import Request
 def draw(session: Session, canvas: Canvas) -> None:
     tree = session.tree
     if not tree or not session.world:
-        imgui.text_colored(session.theme.muted, "No pixel is picked.")
+        imgui.text_colored(session.appearance.theme.muted, "No pixel is picked.")
         return
     row = session.selected if session.selected is not None else 0
     if row >= len(tree):
@@ -32,7 +32,7 @@ def draw(session: Session, canvas: Canvas) -> None:
         (at.x, at.y + 0.5 * height),
         30 * unit,
         STYLES[kind],
-        session.theme.ray(kind),
+        session.appearance.theme.ray(kind),
         unit,
     )
     imgui.dummy((36 * unit, height))
@@ -40,9 +40,9 @@ def draw(session: Session, canvas: Canvas) -> None:
     imgui.text(name)
     if session.selected is None:
         imgui.same_line()
-        imgui.text_colored(session.theme.muted, "(none selected)")
+        imgui.text_colored(session.appearance.theme.muted, "(none selected)")
     imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(session.theme.muted, fate[0].upper() + fate[1:] + ".")
+    imgui.text_colored(session.appearance.theme.muted, fate[0].upper() + fate[1:] + ".")
     imgui.pop_text_wrap_pos()
     for section in explain_ray(tree, session.world, row):
         _section(session, section)
@@ -53,7 +53,7 @@ def _section(session: Session, section: Section) -> None:
         return
     if section.formula:
         imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(session.theme.accent, section.formula)
+        imgui.text_colored(session.appearance.theme.accent, section.formula)
         imgui.pop_text_wrap_pos()
     flags = imgui.TableFlags_.sizing_stretch_prop | imgui.TableFlags_.pad_outer_x
     if imgui.begin_table(section.title, 2, flags):
@@ -66,7 +66,7 @@ def _section(session: Session, section: Section) -> None:
             imgui.table_next_row()
             imgui.table_next_column()
             imgui.push_text_wrap_pos(0.0)
-            imgui.text_colored(session.theme.muted, line.name)
+            imgui.text_colored(session.appearance.theme.muted, line.name)
             imgui.pop_text_wrap_pos()
             imgui.table_next_column()
             imgui.push_text_wrap_pos(0.0)

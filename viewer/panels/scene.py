@@ -116,10 +116,10 @@ class _Overlay:
         if any(box[0] < t[2] and t[0] < box[2] and box[1] < t[3] and t[1] < box[3] for t in self.taken):
             return
         self.taken.append(box)
-        d.text(self.stage, (x, y), color, content, size, self.session.theme.ground)
+        d.text(self.stage, (x, y), color, content, size, self.session.appearance.theme.ground)
 
     def _lights(self) -> None:
-        theme = self.session.theme
+        theme = self.session.appearance.theme
         assert self.session.world
         scene = self.session.world.scene
         for j, light in enumerate(scene.lights):
@@ -135,8 +135,8 @@ class _Overlay:
         assert self.session.world
         at = self.at(self.session.frame.inside(self.session.world.view().eye))
         if at:
-            self.stage.add_circle_filled(at, 4.0 * self.unit, d.u32(self.session.theme.text))
-            self.label(at, "eye", self.session.theme.text, (7, -9))
+            self.stage.add_circle_filled(at, 4.0 * self.unit, d.u32(self.session.appearance.theme.text))
+            self.label(at, "eye", self.session.appearance.theme.text, (7, -9))
 
     def _selected_hit(self) -> None:
         session = self.session
@@ -145,8 +145,8 @@ class _Overlay:
             return
         point = session.tree.nodes["point"][session.selected]
         if np.isfinite(point).all() and (at := self.at(session.frame.inside(point))):
-            self.stage.add_circle_filled(at, 6.5 * self.unit, d.u32(session.theme.ground))
-            self.stage.add_circle_filled(at, 4.5 * self.unit, d.u32(session.theme.accent))
+            self.stage.add_circle_filled(at, 6.5 * self.unit, d.u32(session.appearance.theme.ground))
+            self.stage.add_circle_filled(at, 4.5 * self.unit, d.u32(session.appearance.theme.accent))
 
     def _crosses(self) -> None:
         """Crosses at the ends of blocked shadow rays."""
@@ -154,13 +154,13 @@ class _Overlay:
         if "shadow" not in session.shown.kinds:
             return
         assert session.tree
-        color = session.theme.ray("shadow")
+        color = session.appearance.theme.ray("shadow")
         for i in range(len(session.tree)):
             if session.tree.end(i) != "blocked" or session.tree.nodes["t"][i] == 0.0:
                 continue
             at = self.at(session.frame.inside(session.tree.nodes["point"][i]))
             if at:
-                d.cross(self.stage, at, 5.0 * self.unit, session.theme.ground, 5.0 * self.unit)
+                d.cross(self.stage, at, 5.0 * self.unit, session.appearance.theme.ground, 5.0 * self.unit)
                 d.cross(self.stage, at, 5.0 * self.unit, color, 2.4 * self.unit)
 
     def _ray_names(self) -> None:
@@ -180,7 +180,7 @@ class _Overlay:
             if at is None:
                 continue
             kind = tree.kind(i)
-            color = session.theme.ray(kind)
+            color = session.appearance.theme.ray(kind)
             if session.selected is not None and i != session.selected:
                 color = faded(color, 0.7)
             self.label(at, ray_label(tree, i), color, (8, 4))

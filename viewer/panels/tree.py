@@ -50,7 +50,7 @@ def _hint(session: Session, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: i
     size = imgui.get_font_size()
     width, height = d.text_size(content, size)
     at = (corner.x + 0.5 * (room.x - width), corner.y + 0.5 * (room.y - height))
-    d.text(pad, at, session.theme.muted, content, size)
+    d.text(pad, at, session.appearance.theme.muted, content, size)
 
 
 class _Diagram:
@@ -59,7 +59,7 @@ class _Diagram:
         self.session = session
         self.tree = session.tree
         self.pad = pad
-        self.theme = session.theme
+        self.theme = session.appearance.theme
         full = session.full_tree
         wanted = {i for i in range(len(full)) if full.kind(i) in session.shown.kinds or i == 0}
         wanted = closed_under_parents(full.nodes["parent"], wanted)

@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tracer.formulas.sampler import PIXEL_CENTER
-from tracer.image.converge import ConvergingImage, RoundStats
 from tracer.image.film import Traced
 from tracer.image.passes import Stopped, trace_passes
+from tracer.image.progressive import ProgressiveImage, RoundStats
 from tracer.image.render import processors
 from tracer.image.task import Task, Work
 from tracer.image.tiles import COARSE_TO_FINE, Tile, make_passes
@@ -69,7 +69,7 @@ class ImageRenderer:
         self.picture = picture
         self.running = self.runner.submit(self._render, picture, world, limits, key)
 
-    def refine(self, image: ConvergingImage, picture: Picture, noted: Callable[[RoundStats | None], None]) -> None:
+    def refine(self, image: ProgressiveImage, picture: Picture, noted: Callable[[RoundStats | None], None]) -> None:
         """Continue an image that converges, and show it, until it is paused or another image is shown.
 
         `noted` is called in another thread after each round, with None once no pixel gets more samples.
@@ -129,7 +129,7 @@ class ImageRenderer:
 
     def _refine(
         self,
-        image: ConvergingImage,
+        image: ProgressiveImage,
         picture: Picture,
         cancelled: threading.Event,
         noted: Callable[[RoundStats | None], None],

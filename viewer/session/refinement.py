@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tracer.choices import JITTERED, RANDOM, SOBOL
-from tracer.image.converge import ConvergingImage, RoundStats
+from tracer.image.progressive import ProgressiveImage, RoundStats
 from tracer.kernel.limits import Limits
 from tracer.kernel.world import World
 from tracer.scene.radiance_bound import radiance_bound
@@ -61,7 +61,7 @@ class Run:
     model: str
     strategy: Strategy
     number: int  # decides on the curve's colour and marker
-    image: ConvergingImage | None  # None: dropped to save memory
+    image: ProgressiveImage | None  # None: dropped to save memory
     picture: Picture | None
     points: list[RoundStats] = field(default_factory=list)  # of every round with an estimate
     floor: float = 0.0  # the largest possible error due to cut rays; inf: no bound is known
@@ -144,7 +144,7 @@ class Refinement:
             self.runs.remove(found)
             found = None
         if not found:
-            image = ConvergingImage(world, world.view(size), limits, self.strategy.sampler, self.strategy.adaptive)
+            image = ProgressiveImage(world, world.view(size), limits, self.strategy.sampler, self.strategy.adaptive)
             picture = Picture(first.shown.copy(), first.pixels, share=1.0, is_endless=True)
             found = Run(limits.depth, model, self.strategy, self._free_number(), image, picture)
             self.runs.append(found)

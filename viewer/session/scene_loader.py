@@ -8,8 +8,8 @@ from typing import NamedTuple
 import tracer
 from tracer.kernel.world import World
 from viewer.lessons.lesson import Lesson
+from viewer.session.call_queue import CallQueue
 from viewer.session.file_watch import FileWatch
-from viewer.session.inbox import Inbox
 from viewer.session.warmup import Warmup
 
 
@@ -28,12 +28,12 @@ class SceneLoader:
 
     def __init__(
         self,
-        inbox: Inbox,
+        calls: CallQueue,
         warmup: Warmup,
         loaded: Callable[[World, Opening], object],
         failed: Callable[[list[str]], object],
     ) -> None:
-        self.inbox, self.warmup = inbox, warmup
+        self.calls, self.warmup = calls, warmup
         self.loaded, self.failed = loaded, failed  # called in the window's thread
         self.opening: Opening | None = None  # the last one, with success or not
         self.loading: Future[World] | None = None
@@ -66,7 +66,7 @@ class SceneLoader:
             return tracer.prepare(tracer.load(opening.path))
 
         self.loading = self.worker.submit(load)
-        self.loading.add_done_callback(lambda loading: self.inbox.post(lambda: self._finish(loading, opening)))
+        self.loading.add_done_callback(lambda loading: self.calls.post(lambda: self._finish(loading, opening)))
 
     def reload(self) -> None:
         """Load the last scene again."""

@@ -16,15 +16,14 @@ from tracer.tree.raytree import RayTree
 from viewer.base.clipboard import copy_to_clipboard
 from viewer.base.files import Unusable
 from viewer.base.orbit import Frame, Orbit, initial_orbit
-from viewer.base.theme import DARK, LECTURE_ZOOM, LIGHT, Theme
 from viewer.figures.export_options import ExportOptions
 from viewer.lessons.lesson import Lesson
+from viewer.session.call_queue import CallQueue
 from viewer.session.figure_export import FigureExport, Shown
 from viewer.session.image_renderer import ImageRenderer
-from viewer.session.inbox import Inbox
 from viewer.session.refinement import Refinement, Strategy
 from viewer.session.scene_loader import Opening, SceneLoader
-from viewer.session.view_state import Notice, OpenDialog, PanZoom, Request, Visibility
+from viewer.session.view_state import Appearance, Notice, OpenDialog, PanZoom, Request, Visibility
 from viewer.session.warmup import Warmup
 
 LAYOUT_DEPTH = 3  # the tree is laid out for at least this depth, so that no node moves when the depth is stepped 0..3
@@ -35,19 +34,18 @@ class Session:
     """One scene, one picked pixel, one selected ray."""
 
     def __init__(self) -> None:
-        self.inbox = Inbox()
+        self.calls = CallQueue()
         self.requests: list[Request] = []  # to the window
         self.warmup = Warmup()
-        self.loader = SceneLoader(self.inbox, self.warmup, self._show, self.show_faults)
-        self.image = ImageRenderer(self.inbox.post)
+        self.loader = SceneLoader(self.calls, self.warmup, self._show, self.show_faults)
+        self.image = ImageRenderer(self.calls.post)
         self.refinement = Refinement(self.image)
-        self.export = FigureExport(self.inbox.post)
+        self.export = FigureExport(self.calls.post)
         # How the scene is looked at.
         self.shown = Visibility()
         self.image_view = PanZoom()
         self.tree_view = PanZoom(center=(0.0, 0.0))  # moved by logical pixels
-        self.theme: Theme = DARK
-        self.zoom = 1.0  # of all text
+        self.appearance = Appearance()
         self.notice = Notice()
         self.dialog = OpenDialog()
         self.shows_help = False
@@ -107,7 +105,7 @@ class Session:
 
     def update(self) -> bool:
         """Process the results of background threads since the last frame. Returns whether a redraw is needed."""
-        news = self.notice.expires() | self.inbox.take()
+        news = self.notice.expires() | self.calls.run_posted()
         self.loader.look()
         if self.world and self.warmup.ready:
             if self.pixel and not self.tree:
@@ -254,12 +252,13 @@ class Session:
             output=".",
         )
         name, angles = (lesson.name, lesson.view) if lesson else (self.path.stem, None)
-        shown = Shown(options, self.theme.name, self.world, name, angles)
+        shown = Shown(options, self.appearance.theme.name, self.world, name, angles)
         self.export.start(shown, copied, self.notice.say, self.show_faults)
 
     def copy_command(self) -> None:
         """Copy the command line of the last figure."""
         if not self.export.command:
+            self.notice.say("no command line to copy yet: export a figure first")
             return
         try:
             copy_to_clipboard(self.export.command)
@@ -286,17 +285,6 @@ class Session:
 
     def toggle_kind(self, kind: str) -> None:
         self.shown.kinds ^= {kind}
-
-    def toggle_theme(self) -> None:
-        self.theme = LIGHT if self.theme is DARK else DARK
-
-    @property
-    def is_lecture_size(self) -> bool:
-        return self.zoom > 1.0
-
-    def toggle_lecture_size(self) -> None:
-        """Enlarge the user interface, for a lecture hall."""
-        self.zoom = 1.0 if self.is_lecture_size else LECTURE_ZOOM
 
     def close(self) -> None:
         self.warmup.close()

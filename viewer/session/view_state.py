@@ -1,11 +1,11 @@
-"""Small parts of a session's state: visibility, pan and zoom, a notice, requests to the window."""
+"""Small parts of a session's state: appearance, visibility, pan and zoom, a notice, requests to the window."""
 
 import time
 from dataclasses import dataclass, field
 from enum import Enum, auto
 from pathlib import Path
 
-from viewer.base.theme import STYLES
+from viewer.base.theme import DARK, LECTURE_ZOOM, LIGHT, STYLES, Theme
 
 NOTICE_SECONDS = 6.0
 MAX_ZOOM = 200.0
@@ -19,6 +19,25 @@ class Request(Enum):
     SHOW_ERROR = auto()
     OPEN_DIALOG = auto()
     QUIT = auto()
+
+
+@dataclass
+class Appearance:
+    """Colours and size of the user interface."""
+
+    theme: Theme = DARK
+    text_zoom: float = 1.0
+
+    def toggle_theme(self) -> None:
+        self.theme = LIGHT if self.theme is DARK else DARK
+
+    @property
+    def is_lecture_size(self) -> bool:
+        return self.text_zoom > 1.0
+
+    def toggle_lecture_size(self) -> None:
+        """Enlarge the user interface, for a lecture hall."""
+        self.text_zoom = 1.0 if self.is_lecture_size else LECTURE_ZOOM
 
 
 @dataclass

@@ -24,7 +24,7 @@ BUSY = 1 / 30  # the same while an image renders and nothing else happens
 SHARE = 0.1  # largest share of the time for drawing frames while an image renders
 EAGER = 0.6  # the same while the user does something
 SMALLEST = (560, 360)  # room for the panels, in pixels
-AFTERGLOW = 3  # frames drawn after the last event: imgui needs one or two to settle
+FRAMES_AFTER_EVENT = 3  # frames drawn after the last event: imgui needs one or two to settle
 
 
 class App:
@@ -37,26 +37,26 @@ class App:
         self.has_layout = False
         self.style_changed = Changed()
         self.title_changed = Changed()
-        session.inbox.wake = surface.wake
+        session.calls.wake = surface.wake
         if isinstance(surface, Window):
             surface.on_refresh = self._redraw
 
     def run(self) -> None:
-        glow = AFTERGLOW
+        frames_left = FRAMES_AFTER_EVENT
         drawn = took = 0.0
         while not self.is_over():
             busy = self._is_busy()
             since = time.perf_counter() - drawn
-            rest = self._rest(busy, glow > 0, took)
-            self.surface.wait(max(0.0, rest - since) if glow > 0 or busy else IDLE)
+            rest = self._rest(busy, frames_left > 0, took)
+            self.surface.wait(max(0.0, rest - since) if frames_left > 0 or busy else IDLE)
             news = self.session.update()
             if news or self._has_events():
-                glow = AFTERGLOW
+                frames_left = FRAMES_AFTER_EVENT
                 rest = self._rest(busy, True, took)
             now = time.perf_counter()
-            if now - drawn < rest or not (glow > 0 or busy) or self.surface.minimised:
+            if now - drawn < rest or not (frames_left > 0 or busy) or self.surface.minimised:
                 continue
-            glow -= 1
+            frames_left -= 1
             self.frame()
             drawn = time.perf_counter()
             took = drawn - now
@@ -138,7 +138,7 @@ class App:
             self.session.loader.open(dropped[-1])
 
     def _apply_style(self) -> None:
-        wanted = (self.session.theme, self.surface.scale, self.session.zoom)
+        wanted = (self.session.appearance.theme, self.surface.scale, self.session.appearance.text_zoom)
         if self.style_changed(wanted):
             style.apply(*wanted)
 

@@ -96,8 +96,8 @@ BINDINGS = (
     ),
     Binding("M", "Whitted's model or Fresnel's", {"m": Session.toggle_model}),
     Binding("R", "refine the image, pause", {"r": Session.toggle_refinement}),
-    Binding("T", "light or dark theme", {"t": Session.toggle_theme}),
-    Binding("Tab", "lecture size: everything larger", pressed={K.tab: Session.toggle_lecture_size}),
+    Binding("T", "light or dark theme", {"t": lambda s: s.appearance.toggle_theme()}),
+    Binding("Tab", "lecture size: everything larger", pressed={K.tab: lambda s: s.appearance.toggle_lecture_size()}),
     Binding("Esc", "unselect the ray, then unpick the pixel", pressed={K.escape: _escape}),
     Binding(
         "F5", "reload the scene's file (automatic when it is saved)",

@@ -13,8 +13,8 @@ from tests.scenes import ball, world_of
 from tests.tracer.measure.test_precision import ACROSS, edge_image, edge_scene
 from tracer.choices import JITTERED, RANDOM, SAMPLERS, SOBOL
 from tracer.image.adaptive import RESTART_FACTOR, PixelStatistics
-from tracer.image.converge import ConvergingImage
 from tracer.image.passes import Stopped
+from tracer.image.progressive import ProgressiveImage
 from tracer.image.tiles import Tile
 from tracer.kernel.limits import make_limits
 from tracer.measure.precision.errors import rmse
@@ -93,7 +93,7 @@ def test_the_estimate_is_theory_s(sampler: str, law: float) -> None:
     world, true = edge_scene(), edge_image()
     view = world.view((ACROSS, ACROSS))
     limits = make_limits(world, records=False)
-    made = ConvergingImage(world, view, limits, SAMPLERS.index(sampler), adaptive=False, most=256)
+    made = ProgressiveImage(world, view, limits, SAMPLERS.index(sampler), adaptive=False, most=256)
     with ThreadPoolExecutor(2) as pool:
         found = [(reached, rmse(made.statistics.means(), true)) for reached in made.rounds(pool, 2)]
     counts = [reached.samples for reached, _ in found]
@@ -134,8 +134,8 @@ def test_broken_off_and_gone_on_with(worlds: dict[str, tracer.World]) -> None:
     world = worlds["two-lights"]
     limits = make_limits(world, records=False)
 
-    def fresh() -> ConvergingImage:
-        return ConvergingImage(world, world.view(SIZE), limits, SOBOL, adaptive=False, most=8)
+    def fresh() -> ProgressiveImage:
+        return ProgressiveImage(world, world.view(SIZE), limits, SOBOL, adaptive=False, most=8)
 
     whole, broken = fresh(), fresh()
     with ThreadPoolExecutor(1) as pool:
@@ -179,7 +179,10 @@ def test_gains_by_hand() -> None:
         ({"until_error": 0.0}, "until_error must be a number > 0, got 0.0"),
         ({"until_seconds": math.inf}, "until_seconds must be a number > 0, got inf"),
         ({"until_error": 1.0, "samples": 1}, "samples must be >= 2 with until_error or until_seconds, got 1"),
-        ({"until_error": 1.0, "sampler": "jittered"}, "until_error and until_seconds need sobol or random samples, got jittered"),
+        (
+            {"until_error": 1.0, "sampler": "jittered"},
+            "until_error and until_seconds need sobol or random samples, got jittered",
+        ),
     ),
 )
 def test_faults(options: dict, fault: str, worlds: dict[str, tracer.World]) -> None:

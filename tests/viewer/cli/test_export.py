@@ -129,10 +129,12 @@ def test_a_ray_is_asked_for_as_figures_name_it(tmp_path: Path) -> None:
     assert written[0] == written[1] == written[2]
 
 
-def test_what_has_no_room_or_no_letter_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str], scene_file) -> None:
+def test_what_has_no_room_or_no_glyph_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str], scene_file) -> None:
     assert main.main(["export", "panes", "--figure", "both", "-o", str(tmp_path / "a.svg")]) == 0
     (note,) = capsys.readouterr().err.splitlines()
-    size = re.fullmatch(r"note: both: branches that do not fit are folded; .* --text-size (\d+) shows all branches", note)
+    size = re.fullmatch(
+        r"note: both: branches that do not fit are folded; .* --text-size (\d+) shows all branches", note
+    )
     assert size
     arguments = ["panes", "--figure", "both", "--text-size", size[1], "-o", str(tmp_path / "b.svg")]
     assert main.main(["export", *arguments]) == 0
@@ -141,7 +143,7 @@ def test_what_has_no_room_or_no_letter_is_said(tmp_path: Path, capsys: pytest.Ca
     for suffix, said in (("pdf", True), ("tex", True), ("svg", False), ("pptx", False)):
         out = tmp_path / f"c.{suffix}"
         assert main.main(["export", str(scene), "--ray", "0,0,5,0,0,-1", "-o", str(out)]) == 0
-        assert ('has no letter for "球"' in capsys.readouterr().err) == said
+        assert ('has no glyph for "球"' in capsys.readouterr().err) == said
 
 
 def test_rays_to_lights_are_left_out_on_wish(tmp_path: Path) -> None:

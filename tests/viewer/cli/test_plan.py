@@ -65,7 +65,7 @@ def test_shader_has_in_it_what_the_scene_needs(room: Driver, tmp_path: Path, mat
     for chosen in (None, frozenset(feature.name for feature in FEATURES)):
         assert session.world
         stage.set_world(session.world, session.frame, chosen)
-        stage.draw(session.orbit, session.theme, (400, 300), 1.0, None)
+        stage.draw(session.orbit, session.appearance.theme, (400, 300), 1.0, None)
         pictures.append(stage.target.pixels())
     assert (pictures[0] == pictures[1]).all()
     assert len(set(pictures[0].reshape(-1, 3)[::7].astype(int).sum(axis=1).tolist())) > 20  # the picture is not empty

@@ -11,7 +11,7 @@ from imgui_bundle import imgui
 import tracer
 from tests.viewer.driver import Driver, viewer
 from tests.viewer.panels.test_panels import window
-from tracer.image.converge import RoundStats
+from tracer.image.progressive import RoundStats
 from viewer.base.colormap import RANGES, colorize, gradient
 from viewer.base.srgb import srgb
 from viewer.panels import error, menu

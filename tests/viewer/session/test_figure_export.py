@@ -85,12 +85,12 @@ def test_the_choice_is_kept(room: Driver, tmp_path: Path) -> None:
     mine.remember(kept)
     mine.figure, mine.format, mine.theme = "tree", "tikz", "mono"
     save(room)
-    later = FigureExport(room.session.inbox.post)
+    later = FigureExport(room.session.calls.post)
     later.remember(kept)
     assert (later.figure, later.format, later.theme) == ("tree", "tikz", "mono")
     for text in ("", "[]", '{"figure": "cake"}', '{"figure": "cake", "format": "svg", "theme": ""}'):
         kept.write_text(text)
-        fresh = FigureExport(room.session.inbox.post)
+        fresh = FigureExport(room.session.calls.post)
         fresh.remember(kept)
         assert (fresh.figure, fresh.format, fresh.theme) == ("both", "svg", "")
 

@@ -193,12 +193,12 @@ def test_model_and_theme_and_size_by_key(glass: Driver, worlds: dict[str, tracer
     assert same_tree(glass, worlds["glass-ball"])
     dark = glass.picture().mean()
     glass.type("t")
-    assert glass.session.theme is LIGHT
+    assert glass.session.appearance.theme is LIGHT
     assert glass.picture().mean() > dark + 60
     glass.type("t")
-    assert glass.session.theme is DARK
+    assert glass.session.appearance.theme is DARK
     glass.press(Key.tab)
-    assert glass.session.is_lecture_size
+    assert glass.session.appearance.is_lecture_size
     glass.frames()
 
 

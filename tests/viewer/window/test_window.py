@@ -118,7 +118,7 @@ def test_click_keys_and_drag(desk: Desk, worlds: dict[str, tracer.World]) -> Non
     hand("mouseup", 1)
     assert np.abs(np.array(seen)[:, 0] - (200, 240, 280, 320, 360)).max() <= 2
     hand("key", "t")
-    desk.until(lambda: not session.theme.dark, "the light theme")
+    desk.until(lambda: not session.appearance.theme.dark, "the light theme")
 
 
 def test_tree_panel_takes_clicks(desk: Desk) -> None:

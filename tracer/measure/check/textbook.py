@@ -43,10 +43,10 @@ def sphere(origin: Vector, direction: Vector, center: Vector, radius: float, tmi
 
 def plane(origin: Vector, direction: Vector, point: Vector, normal: Vector, tmin: float = TMIN) -> float:
     """The distance to a plane; inf for none."""
-    speed = dot(normal, direction)
-    if speed == 0.0:
+    n_dot_d = dot(normal, direction)
+    if n_dot_d == 0.0:
         return math.inf
-    t = dot(normal, [p - o for p, o in zip(point, origin, strict=True)]) / speed
+    t = dot(normal, [p - o for p, o in zip(point, origin, strict=True)]) / n_dot_d
     return t if t > tmin else math.inf
 
 
@@ -115,7 +115,7 @@ def haines(origin: Vector, direction: Vector, center: Vector, radius: float) -> 
     return b > 0.0 and radius * radius - dot(beside, beside) >= 0.0
 
 
-def press(a: float, b: float, c: float) -> tuple[float, float]:
+def stable_quadratic(a: float, b: float, c: float) -> tuple[float, float]:
     """Roots of the quadratic by q = -(b + sign(b) sqrt(b^2 - 4ac)) / 2, as q/a and c/q. 0/0 is NaN, as in C."""
     q = -0.5 * (b + math.copysign(math.sqrt(b * b - 4.0 * a * c), b))
     return (q / a, c / q if q != 0.0 else math.nan)

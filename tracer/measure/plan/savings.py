@@ -17,7 +17,7 @@ from tracer.image.render import Image, render
 from tracer.image.task import Task, Work
 from tracer.image.tiles import make_tiles
 from tracer.image.warmup import warm_up
-from tracer.kernel.left_out import Capability, Need
+from tracer.kernel.capabilities import Capability, Need
 from tracer.kernel.limits import make_limits
 from tracer.kernel.nodes import KINDS
 from tracer.kernel.world import World, prepare

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from tracer.choices import BLOCK, FILTER, FRESNEL, MODELS, SHADOWS
-from tracer.kernel.left_out import Capability
+from tracer.kernel.capabilities import Capability
 from tracer.kernel.world import prepare
 from tracer.measure.plan.variants import Make, Variant, with_geometry, with_materials, with_tracing
 from tracer.scene import Checker, Light, Object, Scene

@@ -7,7 +7,7 @@ additional cost of the original picture.
 from dataclasses import replace
 
 from tracer.choices import BLOCK, MODELS, SHADOWS, WHITTED
-from tracer.kernel.left_out import Capability
+from tracer.kernel.capabilities import Capability
 from tracer.measure.plan.variants import Make, Variant, with_geometry, with_materials, with_tracing
 from tracer.scene import Scene
 

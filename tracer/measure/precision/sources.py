@@ -32,9 +32,9 @@ from tracer.scene import Scene
 
 PATIENCE = 6.0  # seconds that a reference image may take
 PROBE = 12  # pixels across, of the image that is timed first
-DEEP = 1000  # depth limit that no tree cut by weight reaches
-TRUE = 1e-9  # tolerance of reference trees: the largest weight that is cut
-FAINT = 1e-4  # minimum weight of a ray in references with many samples per pixel
+REFERENCE_DEPTH = 1000  # depth limit that no tree cut by weight reaches
+REFERENCE_TOLERANCE = 1e-9  # tolerance of reference trees: the largest weight that is cut
+REFERENCE_WEIGHT = 1e-4  # minimum weight of a ray in references with many samples per pixel
 MOST_NODES = 20_000  # rays of a reference's tree, where weights hardly fall
 
 Size = tuple[int, int]
@@ -169,19 +169,20 @@ def trees_cut(effort: Effort) -> Study:
             else "not bounded, because the radiance may grow without limit"
         )
         return (
-            f"best-first trees, until the weights of the rest sum up to {TRUE:g} or they have {MOST_NODES} rays: the "
-            f"missing light is {missing}. The second way is level by level, up to {DEEP} levels"
+            f"best-first trees, until the weights of the rest sum up to {REFERENCE_TOLERANCE:g} or they have "
+            f"{MOST_NODES} rays: the missing light is {missing}. The second way is level by level, up to "
+            f"{REFERENCE_DEPTH} levels"
         )
 
     def methods(made: Maker) -> Sequence[Method]:
-        return cuts(made, effort.depths, effort.weights, effort.tolerances, DEEP, max_nodes=MOST_NODES)
+        return cuts(made, effort.depths, effort.weights, effort.tolerances, REFERENCE_DEPTH, max_nodes=MOST_NODES)
 
     return Study(
         "trees",
         "Cut trees",
         "The light that an image lacks because rays were not followed. Pixels are traced at their centres.",
-        {"tolerance": TRUE, "max_nodes": MOST_NODES},
-        {"depth": DEEP, "min_weight": TRUE, "max_nodes": MOST_NODES},
+        {"tolerance": REFERENCE_TOLERANCE, "max_nodes": MOST_NODES},
+        {"depth": REFERENCE_DEPTH, "min_weight": REFERENCE_TOLERANCE, "max_nodes": MOST_NODES},
         said,
         methods,
         bounded=True,
@@ -227,10 +228,15 @@ def both_together(effort: Effort) -> Study:
         return [Method("depth and samples", settings), Method("adaptive samples, best-first trees", both)]
 
     how = (
-        f"{effort.true_samples} Sobol samples per pixel, and every ray with a weight of at least {FAINT:g}. The second "
-        "way has as many jittered samples"
+        f"{effort.true_samples} Sobol samples per pixel, and every ray with a weight of at least {REFERENCE_WEIGHT:g}. "
+        "The second way has as many jittered samples"
     )
-    true = {"samples": effort.true_samples, "depth": DEEP, "min_weight": FAINT, "max_nodes": MOST_NODES}
+    true = {
+        "samples": effort.true_samples,
+        "depth": REFERENCE_DEPTH,
+        "min_weight": REFERENCE_WEIGHT,
+        "max_nodes": MOST_NODES,
+    }
     return Study(
         "together",
         "Both together",

@@ -17,8 +17,8 @@ from tracer.formulas.vector import Vector, add
 from tracer.image.render import render
 from tracer.kernel.world import World, prepare
 from tracer.measure.check.case import DIGITS
-from tracer.measure.check.cases.bending import bent
 from tracer.measure.check.cases.plates import WHITE, pile, under_dark
+from tracer.measure.check.cases.refraction import bent
 from tracer.measure.check.scenes import ball, glass, world
 from tracer.measure.precision.errors import NOTHING
 from tracer.measure.precision.precision import Reference, Source, all_measured, cuts

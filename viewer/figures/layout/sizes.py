@@ -74,10 +74,10 @@ class Sizes:
             loose.append(edge_label(tree, i))
             notes = [end_label(step, i) for step in trees if i < len(step)]
             loose += notes
-            thrown_back = any(tree.kind(c) == "tir" for c in tree.children[i])
-            hanging = sum(kinds[c] == SHADOW and c in rows for c in tree.children[i]) + thrown_back
+            tir = any(tree.kind(c) == "tir" for c in tree.children[i])
+            hanging = sum(kinds[c] == SHADOW and c in rows for c in tree.children[i]) + tir
             most = max(most, hanging)
-            stubs += [NO_RAY] * thrown_back
+            stubs += [NO_RAY] * tir
             lines = 2 if i in hung else 1 if any(notes) else 0
             reach = (STUB if hanging else 0.0) + ((NOTE if hanging else BARE_NOTE) + LINE * (lines - 1)) * (lines > 0)
             down = max(down, 0.5 * BOX + reach + (BELOW if reach else 0.0))

@@ -74,27 +74,27 @@ def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtr
     """The subtree of row i, made of those of its children, which are removed from `subtrees`."""
     kinds = tree.nodes["kind"]
     stubs = [child for child in children if kinds[child] == SHADOW]
-    thrown_back = [child for child in children if kinds[child] not in (SHADOW, REFRACTION)]
-    let_through = [child for child in children if kinds[child] == REFRACTION]
-    rays = [*thrown_back, *let_through]
-    barred = room.bars and any(kinds[child] == TIR for child in thrown_back)
+    reflected = [child for child in children if kinds[child] not in (SHADOW, REFRACTION)]
+    refracted = [child for child in children if kinds[child] == REFRACTION]
+    rays = [*reflected, *refracted]
+    barred = room.bars and any(kinds[child] == TIR for child in reflected)
     count = len(stubs) + barred
     shifts = _apart([subtrees[child] for child in rays])
-    if thrown_back and let_through:
+    if reflected and refracted:
         # The edges must leave room for the stubs where they pass them, halfway down.
         between = count > 0 and not room.sides
         wanted = 4.0 * (0.5 * room.stub_gap * max(count - 1, 0) + room.edge) if between else 0.0
         grow = max(0.0, wanted - (shifts[-1] - shifts[0]))
-        shifts = [shift + (grow if k >= len(thrown_back) else 0.0) for k, shift in enumerate(shifts)]
+        shifts = [shift + (grow if k >= len(reflected) else 0.0) for k, shift in enumerate(shifts)]
         middle = 0.5 * (shifts[0] + shifts[-1])
     elif rays:
-        middle = shifts[-1] + room.lean if thrown_back else shifts[0] - room.lean
+        middle = shifts[-1] + room.lean if reflected else shifts[0] - room.lean
     else:
         middle = 0.0
     shifts = [shift - middle for shift in shifts]
     offsets, bars = {i: 0.0}, {}
     left, right = ([-room.left] * 2, [room.right] * 2) if room.sides else ([-room.left, 0.0], [room.right, 0.0])
-    places = _stub_places(count, bool(thrown_back), bool(let_through), room)
+    places = _stub_places(count, bool(reflected), bool(refracted), room)
     for x in places:
         left[1], right[1] = min(left[1], x - room.stub_half), max(right[1], x + room.stub_half)
     if barred:

@@ -9,7 +9,7 @@ import numpy as np
 from tracer.formulas import optics
 from tracer.measure.check import exact_optics, textbook
 from tracer.measure.check.case import Reading, U, case, decimal, exactly, root
-from tracer.measure.check.cases.bending import bent
+from tracer.measure.check.cases.refraction import bent
 from tracer.measure.check.scenes import MATTE, MIRROR, ball, box, glass, path, plane, world
 from tracer.scene import Object
 from tracer.shapes.mesh import Geometry, Mesh

@@ -9,7 +9,7 @@ from fractions import Fraction
 from tracer.kernel.world import World
 from tracer.measure.check import textbook
 from tracer.measure.check.case import Reading, U, case, exactly
-from tracer.measure.check.cases.bending import bent, given
+from tracer.measure.check.cases.refraction import bent, given
 from tracer.measure.check.scenes import DARK, ball, box, glass, path, plane, world
 from tracer.scene import Material
 from tracer.tree.raytree import RayTree

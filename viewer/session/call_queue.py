@@ -6,7 +6,7 @@ from queue import Empty, SimpleQueue
 Call = Callable[[], object]
 
 
-class Inbox:
+class CallQueue:
     """A queue of calls."""
 
     def __init__(self, wake: Call = lambda: None) -> None:
@@ -20,7 +20,7 @@ class Inbox:
         self._calls.put(call)
         self.wake()
 
-    def take(self) -> bool:
+    def run_posted(self) -> bool:
         """Run the calls that have been posted. Returns whether there were any."""
         some = False
         while True:

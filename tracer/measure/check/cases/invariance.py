@@ -11,7 +11,7 @@ from tracer.formulas.vector import Vector
 from tracer.kernel.world import World
 from tracer.measure.check import textbook
 from tracer.measure.check.case import Reading, U, case, decimal, exactly
-from tracer.measure.check.cases.starts import second_way
+from tracer.measure.check.cases.ray_origins import second_way
 from tracer.measure.check.scenes import DARK, MATTE, ball, box, glass, path, plane, world
 from tracer.scene import Light, Material, Object
 from tracer.shapes.polygon import Polygon

@@ -56,9 +56,9 @@ def double() -> Iterator[Reading]:
     """
     scene = world(ball(CENTER, 1.0, DARK))
     got = float(path(scene, (1, 0, -5), (0, 0, 1)).nodes[0]["t"])
-    yield exactly("edge, from 5 away: t", 5, got, textbook.press(1.0, -10.0, 25.0)[0])
+    yield exactly("edge, from 5 away: t", 5, got, textbook.stable_quadratic(1.0, -10.0, 25.0)[0])
     # On the sphere, along a tangent: a = 1, b = 0, c = 0.
-    first, second = textbook.press(1.0, 0.0, 0.0)
+    first, second = textbook.stable_quadratic(1.0, 0.0, 0.0)
     usual = "NaN" if math.isnan(first) or math.isnan(second) else "0 and 0"
     tree = path(scene, (1, 0, 0), (0, 0, 1))
     own = "no hit" if tree.end(0) == "background" else str(tree.nodes[0]["t"])

@@ -35,7 +35,7 @@ class RoundStats(NamedTuple):
     error: float  # estimated root mean square over pixels and components, linear light; NaN: not known yet
 
 
-class ConvergingImage:
+class ProgressiveImage:
     """An image that gets more samples in each round: in the pixels with the largest errors, or in all."""
 
     def __init__(
@@ -77,7 +77,7 @@ class ConvergingImage:
             if not self.statistics.plan_round(self.most):
                 return
 
-            def take_in(traced: Traced, share: float) -> None:
+            def add_tile(traced: Traced, share: float) -> None:
                 self.totals.add(traced.counts)
                 assert traced.sums is not None
                 self.statistics.update(traced.tile, traced.sums)
@@ -85,7 +85,7 @@ class ConvergingImage:
 
             try:
                 works = self.statistics.works(self.tiles)
-                trace_passes(self._task(executor), [works], executor, threads, take_in, cancelled=cancelled)
+                trace_passes(self._task(executor), [works], executor, threads, add_tile, cancelled=cancelled)
             finally:
                 self.seconds += time.perf_counter() - began
             yield self.stats
