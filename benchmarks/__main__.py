@@ -10,12 +10,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from benchmarks import adaptive, against_embree, against_povray, click, flat, growth, lessons, start, window
-from benchmarks.against_before import changes
-from benchmarks.figure import Figure
-from benchmarks.machine import machine
-from benchmarks.plot import as_svg, has_library
-from benchmarks.report import as_json, as_markdown, read_json
-from benchmarks.task import Options, Task
+from benchmarks.results.against_before import changes
+from benchmarks.results.figure import Figure
+from benchmarks.results.machine import machine
+from benchmarks.results.plot import as_svg, has_library
+from benchmarks.results.report import as_json, as_markdown, read_json
+from benchmarks.results.task import Options, Task
 from viewer.base.files import Unusable, write_atomically
 from viewer.base.options import parser_of
 from viewer.base.progress import Progress

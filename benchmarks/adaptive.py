@@ -12,8 +12,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 import tracer
-from benchmarks.figure import Figure, Spread
-from benchmarks.task import Options, Task
+from benchmarks.results.figure import Figure, Spread
+from benchmarks.results.task import Options, Task
 from tracer.choices import SOBOL
 from tracer.image.progressive import ProgressiveImage
 from tracer.image.render import processors

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from benchmarks.closest import Searcher
-from benchmarks.figure import Figure, compared, in_turn
-from benchmarks.stone import LARGE, coherent_rays, scattered_rays, stone, stone_world
-from benchmarks.task import Options, Task
+from benchmarks.results.figure import Figure, compared, in_turn
+from benchmarks.results.task import Options, Task
+from benchmarks.scenes.stone import LARGE, coherent_rays, scattered_rays, stone, stone_world
 
 WANTED = 0.7
 DIFFERENT = 1e-3  # share of rays that may hit another triangle: those within single precision of an edge

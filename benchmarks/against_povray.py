@@ -5,10 +5,10 @@ A second part counts the rays that each program follows if nothing is cut.
 
 import statistics
 
-from benchmarks.entries import Entry, entries
-from benchmarks.figure import Figure, Spread, compared
 from benchmarks.race import need_povray
-from benchmarks.task import Options, Task
+from benchmarks.results.figure import Figure, Spread, compared
+from benchmarks.results.task import Options, Task
+from benchmarks.scenes.entries import Entry, entries
 
 EACH = 1.3
 TOGETHER = 2.5

@@ -5,9 +5,9 @@ import time
 import numpy as np
 
 import tracer
-from benchmarks.figure import Figure, Spread, in_turn
-from benchmarks.stone import LARGE, stone_world
-from benchmarks.task import Options, Task
+from benchmarks.results.figure import Figure, Spread, in_turn
+from benchmarks.results.task import Options, Task
+from benchmarks.scenes.stone import LARGE, stone_world
 from tracer.scene import Material
 
 CLICKS = 500  # a run

@@ -7,8 +7,8 @@ without.
 import numpy as np
 
 import tracer
-from benchmarks.figure import Figure, compared, in_turn
-from benchmarks.task import Options, Task
+from benchmarks.results.figure import Figure, compared, in_turn
+from benchmarks.results.task import Options, Task
 from tracer.accel.bvh import MAX_UNBOXED
 from tracer.formulas.vector import as_floats
 from tracer.scene import Camera, Light, Material, Object, Scene

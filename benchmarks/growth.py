@@ -5,9 +5,9 @@ import time
 import numpy as np
 
 from benchmarks.closest import Searcher
-from benchmarks.figure import Figure, Spread, compared, in_turn
-from benchmarks.stone import LARGE, SMALL, coherent_rays, scattered_rays, stone, stone_world
-from benchmarks.task import Options, Task
+from benchmarks.results.figure import Figure, Spread, compared, in_turn
+from benchmarks.results.task import Options, Task
+from benchmarks.scenes.stone import LARGE, SMALL, coherent_rays, scattered_rays, stone, stone_world
 from tracer.accel import bvh
 from tracer.shapes.mesh import Mesh
 

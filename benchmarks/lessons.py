@@ -3,9 +3,9 @@
 import dataclasses
 
 import tracer
-from benchmarks.figure import Figure, compared
 from benchmarks.race import Race, need_povray
-from benchmarks.task import Options, Task
+from benchmarks.results.figure import Figure, compared
+from benchmarks.results.task import Options, Task
 from tests import povray
 from viewer.lessons import lesson
 

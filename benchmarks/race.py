@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import tracer
-from benchmarks.figure import in_turn
+from benchmarks.results.figure import in_turn
 from tests import povray
 from tracer.image.warmup import warm_up
 from tracer.scene import Scene

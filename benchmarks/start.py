@@ -11,8 +11,8 @@ import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from benchmarks.figure import Figure, Spread, compared, in_turn
-from benchmarks.task import Options, Task
+from benchmarks.results.figure import Figure, Spread, compared, in_turn
+from benchmarks.results.task import Options, Task
 
 LESSON = "glass-ball"
 WITHOUT_MESH = "two-lights"

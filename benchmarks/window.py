@@ -9,9 +9,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-from benchmarks.figure import Figure, Spread, compared
+from benchmarks.results.figure import Figure, Spread, compared
+from benchmarks.results.task import Options, Task
 from benchmarks.scenes.sphereflake import sphereflake
-from benchmarks.task import Options, Task
 from tests.viewer.screen import missing
 
 IMAGE = (1600, 1200)

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 from benchmarks.__main__ import main, measure
-from benchmarks.against_before import changes
-from benchmarks.figure import Figure, Spread, compared, in_turn
-from benchmarks.report import as_json, as_markdown, read_json, short
-from benchmarks.task import Task
+from benchmarks.results.against_before import changes
+from benchmarks.results.figure import Figure, Spread, compared, in_turn
+from benchmarks.results.report import as_json, as_markdown, read_json, short
+from benchmarks.results.task import Task
 
 ABOUT = {"processor": "a loom", "cores": 2}
 

@@ -14,7 +14,7 @@ from benchmarks.scenes.mountain import RADIUS, mountain
 from benchmarks.scenes.patches import RADIUS as CIRCLE, TUBE, patches
 from benchmarks.scenes.rings import JOINTS, WIRE, rings
 from benchmarks.scenes.sphereflake import NINE, frame_along, sphereflake
-from benchmarks.stone import SMALL, coherent_rays, scattered_rays, stone, stone_world
+from benchmarks.scenes.stone import SMALL, coherent_rays, scattered_rays, stone, stone_world
 from tests import povray
 from tracer.scene import Scene
 from tracer.shapes.cone import Cone

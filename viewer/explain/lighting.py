@@ -27,7 +27,7 @@ def local_light(tree: RayTree, world: World, i: int) -> Section:
         child = rows[j]
         n_l, r_v = _cosines(tree, i, child)
         if n_l <= 0.0:
-            detail = f"N·L {format_number(n_l, 3)}: the surface faces away from it"
+            detail = f"N·L {format_number(n_l, 3)}: surface faces away"
         elif tree.end(child) == "blocked":
             detail = f"blocked by {tree.object_name(child)}"
         else:

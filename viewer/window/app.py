@@ -122,8 +122,8 @@ class App:
             self.frame()
 
     def _has_events(self) -> bool:
-        """Whether imgui has input events that no frame has processed."""
-        return len(imgui.get_current_context().input_events_queue) > 0
+        """Whether there are input events, or dropped files, that no frame has processed."""
+        return len(imgui.get_current_context().input_events_queue) > 0 or len(self.surface.dropped) > 0
 
     def _is_busy(self) -> bool:
         session = self.session

@@ -7,8 +7,8 @@ import importlib.util
 import io
 from collections.abc import Sequence
 
-from benchmarks.figure import Figure
-from benchmarks.report import short
+from benchmarks.results.figure import Figure
+from benchmarks.results.report import short
 
 MET, MISSED, PLAIN, LINE = "#3b78b5", "#c8651b", "#a3acb5", "#1d1d1f"
 LABELS = {

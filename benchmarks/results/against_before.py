@@ -6,8 +6,8 @@ machines ratios are roughly comparable, times are not.
 
 from collections.abc import Iterator, Sequence
 
-from benchmarks.figure import Figure
-from benchmarks.report import short
+from benchmarks.results.figure import Figure
+from benchmarks.results.report import short
 
 
 def changes(before: Sequence[Figure], now: Sequence[Figure]) -> Iterator[str]:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks.figure import Figure
+from benchmarks.results.figure import Figure
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from benchmarks.figure import Figure, Spread
+from benchmarks.results.figure import Figure, Spread
 
 FORMAT = "raytree-bench/1"
 HEAD = ("part", "what", "raytree", "the other", "ratio or value", "lowest .. highest", "wanted", "met")
