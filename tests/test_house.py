@@ -1,4 +1,4 @@
-"""Rules for the source tree that a program can check: order of packages, no import cycles, homes of libraries, sizes of files."""
+"""Rules for the source tree: order of packages, no import cycles, homes of libraries, sizes of files."""
 
 import ast
 import os
