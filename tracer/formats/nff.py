@@ -48,9 +48,8 @@ FORMAT_NAMES: dict[type, dict[str, str]] = {
     },
 }  # fmt: skip
 
-PLANARITY_TOLERANCE = (
-    1e-3  # relative to a polygon's size: corners that are off the plane by less than this are moved into it
-)
+# Corners that are off their plane by less than this, relative to the polygon's size, are moved into it.
+PLANARITY_TOLERANCE = 1e-3
 MOST_CORNERS = 10**6
 
 
