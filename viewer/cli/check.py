@@ -9,8 +9,8 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
-from tracer.measure.check.case import Case, Reading, Result
-from tracer.measure.check.check import CASES, TOPICS, run_all, to_dict
+from tracer.measure.check.case import TOPICS, Case, Reading, Result
+from tracer.measure.check.check import CASES, run_all, to_dict
 from tracer.tree.text import columns
 from viewer.base.files import Unusable
 from viewer.base.progress import Progress

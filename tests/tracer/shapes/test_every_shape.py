@@ -69,6 +69,11 @@ def as_toml(value: object) -> str:
     return str(value).lower() if isinstance(value, bool) else repr(value).replace("(", "[").replace(")", "]")
 
 
+def test_a_shape_in_one_plane_is_not_curved(shape: Shape) -> None:
+    """Flat faces coincide where their planes do; curved shapes only where they are equal."""
+    assert not (shape.plane() is not None and shape.curved)
+
+
 def test_hits_are_exact(shape: Shape) -> None:
     """Point, distance and normal against the judge's, in rounding units times the sizes and the slant."""
     count = 0

@@ -16,6 +16,7 @@ from tests.conftest import LESSONS
 from viewer.base.srgb import srgb
 from viewer.cli import plan as plan_command
 from viewer.cli.main import main
+from viewer.figures.catalogue import DATA
 from viewer.lessons import lesson
 
 
@@ -139,7 +140,7 @@ def test_plan_says_what_is_left_out_and_why(capsysbinary: pytest.CaptureFixture)
         (["trace", "mirror-balls", "--ray", "0,0,0"], "six numbers"),
         (["trace", "mirror-balls"], "one of the arguments --pixel --ray is required"),
         (["trace", "mirror-balls", "--pixel", "1,1", "--depth", "-1"], "a whole number >= 0"),
-        (["trace", "mirror-balls", "--pixel", "1,1", "--format", "xml"], "one of dot, csv, json, text"),
+        (["trace", "mirror-balls", "--pixel", "1,1", "--format", "xml"], f"one of {', '.join(DATA)}"),
         (["render", "mirror-balls"], "the following arguments are required: -o"),
         (["render", "mirror-balls", "-o", "image.bmp"], "an image must be one of .png, .npy, .exr"),
         (["render", "mirror-balls", "-o", "no/such/folder/image.png"], "folder not found"),

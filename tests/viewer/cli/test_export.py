@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from viewer.cli import main
-from viewer.figures.catalogue import FIGURE_NAMES
+from viewer.figures.catalogue import FIGURE_NAMES, FORMATS
 
 
 def names(folder: Path) -> set[str]:
@@ -45,7 +45,7 @@ def test_a_ray_by_hand(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "line"),
     (
-        (["-o", "{}/a.xyz"], "{}/a.xyz: must end with one of .svg, .pdf, .png, .tex, .pptx, .dot, .csv, .json, .txt"),
+        (["-o", "{}/a.xyz"], f"{{}}/a.xyz: must end with one of {', '.join(k.suffix for k in FORMATS.values())}"),
         (
             ["-o", "{}/a.svg", "--format", "pdf"],
             "{}/a.svg: is svg, but --format asks for pdf: name a folder, or one format",

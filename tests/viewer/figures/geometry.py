@@ -30,20 +30,26 @@ def cuts(piece: tuple, box: Rectangle) -> bool:
     return leaves - enters > 1e-9
 
 
-def check(figure: Figure, least: float = 18.0) -> None:
-    """Assert that nothing overlaps, nothing leaves the canvas, and all text can be read."""
+def check_texts(figure: Figure, least: float = 18.0) -> list[Text]:
+    """Assert that all texts can be read, none leaves the canvas, and no two overlap. Returns them."""
     texts = [mark for mark in figure.marks if isinstance(mark, Text)]
-    boxes = [mark for mark in figure.marks if isinstance(mark, Box)]
-    lines = [mark for mark in figure.marks if isinstance(mark, Line)]
     for text in texts:
         left, top, right, bottom = text.box()
         assert text.size >= least and text.content, text
         assert left >= 0.0 and top >= 0.0 and right <= figure.width and bottom <= figure.height, text
+    for a, b in itertools.combinations(texts, 2):
+        assert not overlap(a.box(), b.box()), (a, b)
+    return texts
+
+
+def check(figure: Figure, least: float = 18.0) -> None:
+    """Assert that nothing overlaps, nothing leaves the canvas, and all text can be read."""
+    texts = check_texts(figure, least)
+    boxes = [mark for mark in figure.marks if isinstance(mark, Box)]
+    lines = [mark for mark in figure.marks if isinstance(mark, Line)]
     for box in boxes:
         left, top, right, bottom = rectangle(box)
         assert left >= 0.0 and top >= 0.0 and right <= figure.width and bottom <= figure.height, box
-    for a, b in itertools.combinations(texts, 2):
-        assert not overlap(a.box(), b.box()), (a, b)
     for a, b in itertools.combinations(boxes, 2):
         assert not overlap(rectangle(a), rectangle(b)), (a, b)
     for text, box in itertools.product(texts, boxes):

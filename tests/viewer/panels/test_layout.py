@@ -60,7 +60,9 @@ def test_random_trees(count: int, depth: int, lights: int) -> None:
 def test_trees_of_the_lessons(worlds: dict[str, tracer.World]) -> None:
     for name in LESSONS:
         for pixel in ((400, 300), (300, 200), (560, 330), (700, 320)):
-            tree = tracer.trace(worlds[name], pixel, depth=4)
+            image = worlds[name].scene.image
+            inside = (min(pixel[0], image.width - 1), min(pixel[1], image.height - 1))
+            tree = tracer.trace(worlds[name], inside, depth=4)
             check(tree, tidy_layout(tree, set(range(len(tree)))).places)
 
 

@@ -60,9 +60,25 @@ class Reading:
         return self.error <= self.allowed
 
 
+# The meaning of the first letter of a case's id.
+TOPICS = {
+    "A": "spheres",
+    "B": "flat faces, meshes and boxes",
+    "C": "the start of a ray, and the scale of a scene",
+    "D": "refraction at a surface",
+    "E": "long chains of bounces",
+    "F": "trees that branch without end",
+    "G": "geometrical optics",
+    "H": "one medium in another",
+    "I": "shadows and mirrors",
+    "J": "what must not change a tree, and invalid input",
+    "L": "rays that a scene does not need",
+}
+
+
 @dataclass(frozen=True)
 class Case:
-    id: str
+    id: str  # a letter of TOPICS and a number
     title: str  # in one line
     read: Callable[[], Iterable[Reading]]
     wrong: str  # explanation of the textbook's error; wrapped when printed
@@ -73,6 +89,8 @@ Read = Callable[[], Iterable[Reading]]
 
 def case(id: str, title: str) -> Callable[[Read], Case]:
     """Make a case of a function that yields its readings. The docstring explains why the textbook's formula fails."""
+    if id[0] not in TOPICS or not id[1:].isdigit():
+        raise ValueError(f"the id of a case must be a letter of {', '.join(TOPICS)} and a number, got {id}")
     return lambda read: Case(id, title, read, inspect.cleandoc(read.__doc__ or ""))
 
 

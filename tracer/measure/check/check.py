@@ -10,21 +10,6 @@ from typing import Any
 from tracer.measure.check import cases
 from tracer.measure.check.case import Case, Result, run
 
-# The meaning of the first letter of a case's name.
-TOPICS = {
-    "A": "spheres",
-    "B": "flat faces, meshes and boxes",
-    "C": "the start of a ray, and the scale of a scene",
-    "D": "refraction at a surface",
-    "E": "long chains of bounces",
-    "F": "trees that branch without end",
-    "G": "geometrical optics",
-    "H": "one medium in another",
-    "I": "shadows and mirrors",
-    "J": "what must not change a tree, and invalid input",
-    "L": "rays that a scene does not need",
-}
-
 
 def all_cases() -> Iterator[Case]:
     """The cases in the files of the folder `cases`."""
