@@ -11,7 +11,7 @@ from tracer.shapes.plane import Plane
 from tracer.shapes.sphere import Sphere
 
 U = 2.0**-53
-NUMBERS = [item.name for item in fields(Material) if isinstance(item.default, float) and not item.name == "roughness"]
+NUMBERS = [item.name for item in fields(Material) if isinstance(item.default, float) and item.name != "roughness"]
 MIRROR = Material("mirror", reflect=0.5)
 PLAIN = Material("plain", color=(0.5, 0.6, 0.7))
 
