@@ -49,6 +49,8 @@ class Bundle:
         entries: list[FieldLayout] = []
         for name, value in fields._asdict().items():
             if isinstance(value, np.ndarray):
+                if value.dtype.names:
+                    value = value.view(np.ndarray)  # attributes of record arrays are slow
                 if not value.flags.c_contiguous:
                     raise TypeError(f"{name} must be C-contiguous")
                 kind = array_type(value.dtype, value.ndim, writable)

@@ -7,7 +7,7 @@ import numpy as np
 from tracer.accel.rows import STACK, StackRow
 from tracer.accel.sah import MAX_STACK
 from tracer.compile.bundle import bundle
-from tracer.compile.rows import Bool, Float, Int64, Numbers, Row, Rows, as_rows, dtype_of
+from tracer.compile.rows import Bool, Float, Int64, Numbers, Row, Rows, dtype_of, zero_rows
 from tracer.compile.simd import WIDTH
 from tracer.formulas.camera import BATCH
 from tracer.kernel.nodes import KINDS, NODE, NodeRow
@@ -56,13 +56,13 @@ class Workspace:
     def __init__(self, eye_solids: np.ndarray, rows: int = 256) -> None:
         words = len(eye_solids)
         self.arrays = Space(
-            table=as_rows(np.zeros(rows, NODE), NodeRow),
+            table=zero_rows(rows, NODE, NodeRow),
             solids=np.zeros((rows, 2, words), np.int64),
             eye_solids=eye_solids,
-            open=as_rows(np.zeros(2 * rows, OPEN), OpenRow),
-            stack=as_rows(np.zeros(MAX_STACK, STACK), StackRow),
+            open=zero_rows(2 * rows, OPEN, OpenRow),
+            stack=zero_rows(MAX_STACK, STACK, StackRow),
             near=np.zeros(WIDTH),
-            crossed=as_rows(np.zeros(MAX_CROSSINGS, CROSSING), CrossingRow),
+            crossed=zero_rows(MAX_CROSSINGS, CROSSING, CrossingRow),
             directions=np.zeros((3, BATCH)),
             rays=np.zeros(len(KINDS), np.int64),
             tests=np.zeros(1, np.int64),
@@ -75,9 +75,9 @@ class Workspace:
         rows = 4 * len(self.arrays.table)
         words = len(self.arrays.eye_solids)
         self.arrays = self.arrays._replace(
-            table=as_rows(np.zeros(rows, NODE), NodeRow),
+            table=zero_rows(rows, NODE, NodeRow),
             solids=np.zeros((rows, 2, words), np.int64),
-            open=as_rows(np.zeros(2 * rows, OPEN), OpenRow),
+            open=zero_rows(2 * rows, OPEN, OpenRow),
         )
         self._bundle()
 

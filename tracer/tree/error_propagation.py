@@ -62,12 +62,12 @@ class Step(NamedTuple):
 
 def propagate_errors(world: Arrays, table: Rows[NodeRow], count: int) -> None:
     """Fill in `error` and `turn` of the first `count` rows of a node table."""
-    rows = table[:count]
-    waiting = np.bincount(rows["parent"][1:], minlength=count).astype(np.int64)
+    parent = table["parent"].view(np.ndarray)[1:count]
+    waiting = np.bincount(parent, minlength=count).astype(np.int64)
     # Rays come after their parent, so counting along the rows gives the largest number of slots in use.
     opened = np.cumsum(waiting > 0)
     last = np.zeros(count, np.int64)
-    np.maximum.at(last, rows["parent"][1:], np.arange(1, count))
+    np.maximum.at(last, parent, np.arange(1, count))
     closed = np.cumsum(np.bincount(last[waiting > 0], minlength=count))
     slots = int((opened - closed).max(initial=0)) + 2
     space = PropagationSpace(
@@ -77,7 +77,7 @@ def propagate_errors(world: Arrays, table: Rows[NodeRow], count: int) -> None:
         np.arange(slots, dtype=np.int64),
         np.zeros((6, 6)),
     )
-    first = rows[0]
+    first = table[0]
     size = first.magnitude + (first.t if math.isfinite(first.t) else 0.0)
     unit_length = math.ldexp(1.0, math.frexp(size)[1]) if 0.0 < size < math.inf else 1.0
     propagate_rows(world, table, count, unit_length, space)

@@ -7,12 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from tracer.choices import MODELS, SAMPLERS, SOBOL
+from tracer.compile.rows import as_rows
 from tracer.formulas.camera import View
 from tracer.formulas.sampler import PIXEL_CENTER, make_sampler
 from tracer.formulas.vector import rescale, unit
 from tracer.kernel.entry import one_pixel, ray_view, trace_list
 from tracer.kernel.limits import MAX_NODES, make_limits
-from tracer.kernel.nodes import PUBLIC
+from tracer.kernel.nodes import PUBLIC, NodeRow
 from tracer.kernel.workspace import Workspace
 from tracer.kernel.world import World
 from tracer.tree.error_propagation import propagate_errors
@@ -62,7 +63,7 @@ def trace(
     trace_list(world.arrays, view, limits, points, one_pixel(x, y, first, first + 1), workspace)
     space = workspace.arrays
     count = int(space.tree[0])
-    propagate_errors(world.arrays, space.table, count)
+    propagate_errors(world.arrays, as_rows(space.table, NodeRow), count)
     nodes = np.zeros(count, PUBLIC)
     for name in PUBLIC.names or ():
         nodes[name] = space.table[name][:count]
