@@ -79,6 +79,9 @@ def write_pixels(
             largest = max(largest, residual)
             total = dd_add(total, (residual, 0.0))
         x, y = pixels[k].x - left, pixels[k].y - top
+        if step == 1:
+            store(image[y, x], color)
+            continue
         for j in range(y, min(y + step, image.shape[0])):
             for i in range(x, min(x + step, image.shape[1])):
                 store(image[j, i], color)

@@ -64,24 +64,24 @@ def pixel_list(tile: Tile, first: np.ndarray | int = 0, end: np.ndarray | int = 
     left out.
     """
     offsets = _offsets(tile.right - tile.left, tile.bottom - tile.top, tile.step, tile.traced)
-    pixels = np.zeros(len(offsets), PIXEL)
-    x, y = offsets.T
-    pixels["x"], pixels["y"] = x + tile.left, y + tile.top
     if isinstance(first, np.ndarray) and isinstance(end, np.ndarray):
-        pixels["first"], pixels["end"] = first[y, x], end[y, x]
-        pixels = pixels[pixels["end"] > pixels["first"]]
+        x, y = offsets[:, 0], offsets[:, 1]
+        has_new = end[y, x] > first[y, x]
+        offsets, x, y = offsets[has_new], x[has_new], y[has_new]
+        samples = np.stack([first[y, x], end[y, x]], axis=1)
+        pixels = offsets + np.pad(samples, ((0, 0), (2, 0))) + np.array([tile.left, tile.top, 0, 0])
     else:
-        pixels["first"], pixels["end"] = first, end
-    return as_rows(pixels, PixelRow)
+        pixels = offsets + np.array([tile.left, tile.top, first, end], np.int32)
+    return as_rows(pixels.astype(np.int32, copy=False).view(PIXEL)[:, 0], PixelRow)
 
 
 @lru_cache(maxsize=64)
 def _offsets(width: int, height: int, step: int, traced: int) -> np.ndarray:
-    """The pixels (n, 2) of a tile of this size, relative to its corner, block by block."""
+    """The pixels of a tile of this size, relative to its corner, block by block: (n, 4) as in PIXEL, no samples."""
     y, x = (grid.ravel() for grid in np.mgrid[0:height:step, 0:width:step])
     order = np.lexsort((x, y, x // (BLOCK * step), y // (BLOCK * step)))
     x, y = x[order], y[order]
     if traced:
         new = (x % traced != 0) | (y % traced != 0)
         x, y = x[new], y[new]
-    return np.stack([x, y], axis=1).astype(np.int32)
+    return np.stack([x, y, 0 * x, 0 * y], axis=1).astype(np.int32)

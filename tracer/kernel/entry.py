@@ -5,6 +5,7 @@ traced as a view of one pixel.
 """
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -157,7 +158,7 @@ def trace_list(
 
     Returns the sums (n, 4) over the samples, including those in `before`, and the counts; None if cancelled.
     """
-    before = np.zeros((len(pixels), 4)) if before is None else before
+    before = _no_sums(len(pixels)) if before is None else before
     sums = np.zeros((len(pixels), 4))
     counts = Counts(np.zeros(len(KINDS), np.int64), np.zeros(1, np.int64))
     done = 0
@@ -184,3 +185,9 @@ def ray_view(origin: Vector, direction: Vector) -> View:
     """A view of one pixel, whose ray is this one. `direction` is a unit vector."""
     nowhere = (0.0, 0.0, 0.0)
     return View(origin, direction, nowhere, nowhere, 1, 1)
+
+
+@lru_cache(maxsize=16)
+def _no_sums(count: int) -> np.ndarray:
+    """Sums of no samples. Lists of whole tiles have few different lengths."""
+    return np.zeros((count, 4))
