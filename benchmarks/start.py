@@ -22,7 +22,6 @@ FIRST_MOST = 40.0  # seconds
 FIRST_RUNS = 2  # at most
 KEPT = {"PYTHONDONTWRITEBYTECODE": ""}  # as for users: Python caches the bytecode of raytree's files, too
 VIEW_NEEDS = "numpy, numba, platformdirs, moderngl, imgui_bundle, glfw, PIL.Image"
-MESH_NEEDS = f"{VIEW_NEEDS}, trimesh"  # a lesson with a mesh file
 TRACE_NEEDS = "numpy, numba"
 
 
@@ -45,7 +44,7 @@ def starts(options: Options) -> list[Task]:
 
     return [
         Task("view", 2.5 * (options.runs + 1), lambda: view(WITHOUT_MESH, VIEW_NEEDS)),
-        Task("view, with a mesh", 2.5 * (options.runs + 1), lambda: view(LESSON, MESH_NEEDS)),
+        Task("view, with a mesh", 2.5 * (options.runs + 1), lambda: view(LESSON, VIEW_NEEDS)),
         Task("trace", 1.5 * (options.runs + 1), trace),
         Task("first start ever", 40.0 * min(FIRST_RUNS, options.runs), first),
     ]

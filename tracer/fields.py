@@ -33,7 +33,7 @@ def number(
     def read(value: Any) -> float:
         if not _is_number(value):
             raise Refused(f"a number {allowed}".rstrip())
-        if not math.isfinite(value) or abs(value) > LARGEST:
+        if not abs(value) <= LARGEST:
             raise Refused(f"a number with an absolute value of at most {LARGEST:g}")
         outside = (
             (above is not None and not value > above)
@@ -134,7 +134,7 @@ def points(at_least: int = 0, exactly: int | None = None) -> Mapping[str, Callab
 def _three(value: Any, allowed: str) -> tuple[float, float, float]:
     if not isinstance(value, list | tuple) or len(value) != 3 or not all(_is_number(item) for item in value):
         raise Refused(allowed)
-    if not all(math.isfinite(item) and abs(item) <= LARGEST for item in value):
+    if not all(abs(item) <= LARGEST for item in value):
         raise Refused(f"{allowed} with absolute values of at most {LARGEST:g}")
     return (float(value[0]), float(value[1]), float(value[2]))
 
@@ -166,6 +166,8 @@ def shown(value: Any) -> str:
             written = "[" + ", ".join(shown(item) for item in value) + "]"
         case dict():
             written = "a table"
+        case int() if abs(value) > 10**20:
+            written = "a number of more than 20 digits"
         case _:
             written = str(value)
     return written if len(written) <= 60 else written[:57] + "..."

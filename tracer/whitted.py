@@ -45,7 +45,7 @@ def radiance(world: World, origin: Vector, direction: Vector, depth: int, n1: fl
     color = local_light(world, item, material, point, n, direction)
     if depth == 0:
         return color
-    is_sheet = item.solid < 0
+    is_sheet = bool(item.sheet)
     n2 = material.ior if is_sheet or not leaves else 1.0
     reflected, refracted = shares(world, material, direction, n, n1, n2, is_sheet)
     if reflected > 0.0:

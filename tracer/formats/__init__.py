@@ -15,33 +15,52 @@ if TYPE_CHECKING:
 
 Progress = Callable[[float], None]
 
-MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb")
+# The function of each suffix of a mesh file: (path, progress) -> MeshFile.
+MESH_READERS = {
+    ".obj": "tracer.formats.obj:read_obj",
+    ".ply": "tracer.formats.ply:read_ply",
+    ".stl": "tracer.formats.stl:read_stl",
+    ".glb": "tracer.formats.gltf.reader:read_gltf",
+    ".gltf": "tracer.formats.gltf.reader:read_gltf",
+}
+UP_AXES = ("y", "z")  # of a mesh file that may point upwards
+
+OTHER_MESHES = (".dae", ".3mf", ".usd", ".usda", ".usdc", ".usdz", ".fbx", ".blend", ".3ds", ".x3d", ".wrl")
 
 # The function of each suffix: (path, progress) -> Scene.
 READERS = {
     ".toml": "tracer.formats.toml:read_scene",
     ".nff": "tracer.formats.nff:read_nff",
-    **dict.fromkeys(MESH_SUFFIXES, "tracer.formats.meshes:read_mesh_scene"),
+    **dict.fromkeys(MESH_READERS, "tracer.formats.meshes:read_mesh_scene"),
 }
 
 
-def load(path: str | Path, progress: Progress = lambda share: None) -> Scene:
+def load(path: str | Path, progress: Progress = lambda share: None, up: str = UP_AXES[0]) -> Scene:
     """Read the scene in a file. The suffix decides on the format.
 
-    `progress` is called with the fraction that has been read, if the reader knows it. Raises SceneError with every
-    fault.
+    `progress` is called with the fraction that has been read, if the reader knows it. `up` is the axis of a mesh file
+    that points upwards, one of UP_AXES. Raises SceneError with every fault.
     """
+    from tracer.formats.source import Fault, check_regular, shown_path
     from tracer.scene import SceneError
 
     path = Path(path)
-    reader = READERS.get(path.suffix.lower())
+    suffix = path.suffix.lower()
+    reader = READERS.get(suffix)
+    if suffix in OTHER_MESHES:
+        raise SceneError([f"{shown_path(path)}: {suffix} files are not read: export it as GLB"])
     if reader is None:
-        raise SceneError([f"{path}: a scene must be one of {', '.join(READERS)}, got {path.suffix or 'no suffix'}"])
-    if path.is_dir():
-        raise SceneError([f"{path}: a scene must be a file, got a folder"])
+        got = shown_path(path.suffix) or "no suffix"
+        raise SceneError([f"{shown_path(path)}: a scene must be one of {', '.join(READERS)}, got {got}"])
+    options = {} if up == UP_AXES[0] else {"up": up}
+    if options and suffix not in MESH_READERS:
+        raise SceneError([f"{shown_path(path)}: only a mesh file has an axis that points upwards (up)"])
     try:
-        return resolve_name(reader)(path, progress)
+        check_regular(path)
+        return resolve_name(reader)(path, progress, **options)
+    except Fault as fault:
+        raise SceneError([fault.within(shown_path(path))]) from None
     except FileNotFoundError:
-        raise SceneError([f"{path}: file not found"]) from None
+        raise SceneError([f"{shown_path(path)}: file not found"]) from None
     except OSError as error:
-        raise SceneError([f"{path}: cannot be read: {error.strerror or error}"]) from None
+        raise SceneError([f"{shown_path(path)}: cannot be read: {error.strerror or error}"]) from None

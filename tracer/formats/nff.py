@@ -10,21 +10,23 @@ a comment:
     c   base, its radius, apex, its radius: the side of a cone or a cylinder
 
 Ks is both the specular and the reflection coefficient. Consecutive triangles and patches of one material become one
-mesh. Surfaces are seen from both sides, also those with a negative radius, which the format means to be seen from
-inside.
+mesh. A transparent ball of negative radius inside another ball is a cavity: empty space with a higher priority. Other
+surfaces are seen from both sides, also those of negative radius, which the format means to be seen from inside.
 """
 
 import math
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from tracer import fields
-from tracer.formats.words import Fault, Word, Words
+from tracer.formats.notes import Notes
+from tracer.formats.source import Fault, read_text, shown_path
+from tracer.formats.words import Word, Words
 from tracer.formulas.double_double import dd_cross, exact_difference
 from tracer.formulas.vector import Vector, as_floats, rescale, unit
 from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, SceneError, Shape
@@ -76,9 +78,11 @@ class Patches:
 def read_nff(path: Path, progress: Callable[[float], None]) -> Scene:
     """Read a file. Raises SceneError with every fault, and OSError if it cannot be read."""
     try:
-        text = path.read_bytes().decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise SceneError([f"{path}: byte {error.start}: an NFF file is text, got something else"]) from None
+        text = read_text(path)
+    except Fault as fault:
+        raise SceneError([fault.within(shown_path(path))]) from None
+    if "\0" in text:
+        raise SceneError([f"{shown_path(path)}: an NFF file is text, got a zero byte at {text.index(chr(0))}"])
     return Reader(path, Words(text, {*ENTITIES, *VIEW})).scene(progress)
 
 
@@ -94,6 +98,7 @@ class Reader:
         self.material: Material | None = None
         self.shapes: list[tuple[Shape, Material]] = []
         self.run: Patches | None = None
+        self.inverted: list[int] = []  # shapes of negative radius
 
     def scene(self, progress: Callable[[float], None]) -> Scene:
         while self.words.left():
@@ -109,14 +114,31 @@ class Reader:
             self.faults.append(f"{self.path}: a scene needs at least one object (s, p, pp or c), got none")
         if self.faults:
             raise SceneError(self.faults)
-        return Scene(
-            tuple(Object(shape, material) for shape, material in self.shapes),
-            tuple(self._lights()),
-            self.camera,
-            self.image,
-            self.background,
-            title=self.path.stem,
-            path=self.path,
+        cavities = {k for k in self.inverted if self._is_cavity(k)}
+        notes = Notes()
+        notes.count(
+            "surfaces of negative radius inside no ball are shown from both sides", len(self.inverted) - len(cavities)
+        )
+        objects = [
+            Object(shape, replace(material, ior=1.0), priority=1) if k in cavities else Object(shape, material)
+            for k, (shape, material) in enumerate(self.shapes)
+        ]
+        parts = (tuple(objects), tuple(self._lights()), self.camera, self.image, self.background)
+        path = self.path
+        own = tuple(f"{path.name}: {note}" for note in notes.lines())
+        return Scene(*parts, title=path.stem, path=path, notes=own, files=(path,))
+
+    def _is_cavity(self, k: int) -> bool:
+        """Whether a ball of negative radius lies inside a transparent ball of positive radius, and is transparent."""
+        inner, material = self.shapes[k]
+        if not isinstance(inner, Sphere) or material.transmit == 0.0:
+            return False
+        return any(
+            isinstance(outer, Sphere)
+            and j not in self.inverted
+            and other.transmit > 0.0
+            and math.dist(inner.center, outer.center) + inner.radius <= outer.radius
+            for j, (outer, other) in enumerate(self.shapes)
         )
 
     def _entity(self, word: Word) -> None:
@@ -133,6 +155,8 @@ class Reader:
             case "s":
                 center, radius = vector("the centre of a sphere"), number("the radius of a sphere")
                 self._add(Sphere(center, abs(radius)), "sphere")
+                if radius < 0.0:
+                    self.inverted.append(len(self.shapes) - 1)
             case "p" | "pp":
                 self._polygon(word.text == "pp")
             case "c":
@@ -141,6 +165,8 @@ class Reader:
                 if base_radius * apex_radius < 0.0:
                     raise Fault(f"a cone's radii must have one sign, got {base_radius:g} and {apex_radius:g}")
                 self._add(Cone(base, abs(base_radius), apex, abs(apex_radius)), "cone")
+                if base_radius < 0.0 or apex_radius < 0.0:
+                    self.inverted.append(len(self.shapes) - 1)
             case other:
                 known = ", ".join(f"{name} ({what})" for name, what in ENTITIES.items())
                 raise Fault(f'an entity must be one of {known}, got "{other}"')

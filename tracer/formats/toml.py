@@ -5,11 +5,14 @@ A fault is one line: `scene.toml: object[2] "ball": radius must be > 0, got -1`.
 
 import tomllib
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
 from tracer import fields
-from tracer.formats.meshes import MeshError, load_parts
+from tracer.formats.mesh_part import MeshFile
+from tracer.formats.meshes import load_mesh, part_objects
+from tracer.formats.source import MOST_TEXT, Fault, decode, read_bytes, shown_path
 from tracer.scene import Background, Camera, Checker, Image, Light, Material, Object, Scene, SceneError, Tracing
 from tracer.scene.scene import place
 from tracer.shapes import SHAPE_NAMES, SHAPES
@@ -28,12 +31,34 @@ OBJECT_KEYS = ("shape", "material", *OWN_KEYS)
 def read_scene(path: Path, progress: Callable[[float], None]) -> Scene:
     """Read a file. Raises SceneError with every fault, and OSError if it cannot be read."""
     try:
-        document = tomllib.loads(path.read_bytes().decode("utf-8"))
-    except UnicodeDecodeError as error:
-        raise SceneError([f"{path}: byte {error.start}: a scene file is UTF-8 text, got something else"]) from None
-    except tomllib.TOMLDecodeError as error:
-        raise SceneError([f"{path}: not TOML: {str(error)[:1].lower()}{str(error)[1:]}"]) from None
+        document = parsed(read_bytes(path, MOST_TEXT))
+    except Fault as fault:
+        raise SceneError([fault.within(shown_path(path))]) from None
     return Reader(path).scene(document, progress)
+
+
+def parsed(data: bytes) -> dict[str, Any]:
+    """The document. In a file that is not UTF-8, only comments may have other bytes. Raises Fault."""
+    text, bad_byte = decode(data), None
+    if data[:2] not in (b"\xff\xfe", b"\xfe\xff"):
+        try:
+            data.decode("utf-8")
+        except UnicodeDecodeError as error:
+            text, bad_byte = data.decode("utf-8", "replace"), error.start
+    try:
+        document = tomllib.loads(text)
+    except RecursionError:
+        raise Fault("not TOML that can be read: tables or lists are nested too deeply") from None
+    except tomllib.TOMLDecodeError as error:
+        what = str(error)
+        windows = "\\" in what or "hex value" in what
+        hint = " (write a Windows path in '...', or with / instead of \\)" if windows else ""
+        raise Fault(f"not TOML: {what[:1].lower()}{what[1:]}{hint}") from None
+    except ValueError as error:
+        raise Fault(f"not TOML that can be read: {str(error).split(';')[0]}") from None
+    if bad_byte is not None and "\ufffd" in repr(document):
+        raise Fault(f"byte {bad_byte}: a scene file is UTF-8 text, got something else")
+    return document
 
 
 class Reader:
@@ -42,9 +67,12 @@ class Reader:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.faults: list[str] = []
+        self.notes: dict[str, None] = {}
+        self.files: dict[Path, MeshFile | Fault] = {}  # mesh files that were read
 
     def fault(self, where: str, *what: str) -> None:
-        self.faults += [f"{self.path}: {where}: {line}" if where else f"{self.path}: {line}" for line in what]
+        path = shown_path(self.path)
+        self.faults += [f"{path}: {where}: {line}" if where else f"{path}: {line}" for line in what]
 
     def scene(self, document: dict[str, Any], progress: Callable[[float], None]) -> Scene:
         self._format(document)
@@ -68,9 +96,21 @@ class Reader:
         if not document.get("object"):
             self.fault("", "a scene needs at least one [[object]], got none")
         if self.faults or camera is None or image is None or background is None or tracing is None:
-            raise SceneError(self.faults)
+            raise SceneError(self.faults, self._files())
         kept_lights = tuple(light for light in lights if light is not None)
-        return Scene(tuple(objects), kept_lights, camera, image, background, tracing, title, self.path)
+        own = (camera, image, background, tracing, title, self.path)
+        return Scene(tuple(objects), kept_lights, *own, tuple(self.notes), self._files())
+
+    def _files(self) -> tuple[Path, ...]:
+        """All files that were read, also those that were not found."""
+        files = [self.path]
+        for path, found in self.files.items():
+            files.append(path)
+            if isinstance(found, MeshFile):
+                files += found.files
+            elif found.file:
+                files.append(found.file)
+        return tuple(files)
 
     def _format(self, document: dict[str, Any]) -> None:
         found = document.get("format")
@@ -140,9 +180,10 @@ class Reader:
             return []
         given = own.pop("name", "")
         objects = []
-        for shape, part_name, part_material in parts:
-            name = ".".join(filter(None, (given, part_name)))
-            objects.append(Object(shape, material or part_material, name, **own))
+        for part in parts:
+            name = ".".join(filter(None, (given, part.name if len(parts) > 1 or not given else "")))
+            thin = own.get("thin", part.thin and material is None)
+            objects.append(replace(part, material=material or part.material, name=name, **{**own, "thin": thin}))
         return objects
 
     def _material_of(self, where: str, table: dict[str, Any], materials: dict[str, Material | None]) -> Material | None:
@@ -155,8 +196,8 @@ class Reader:
             return None
         return materials[name] or Material()
 
-    def _shape(self, where: str, table: dict[str, Any]) -> list[tuple[Any, str, Material]]:
-        """(shape, name of the part, material of the part) for each object that this table makes."""
+    def _shape(self, where: str, table: dict[str, Any]) -> list[Object]:
+        """The objects that this table makes, as its file describes them."""
         name = table.get("shape")
         if name is None:
             self.fault(where, f"shape is missing: it must be {fields.one_of(SHAPE_NAMES)}")
@@ -170,20 +211,26 @@ class Reader:
             return self._mesh(where, own)
         kind = next(shape for shape in SHAPES if shape.name == name)
         shape = self.table(kind, where, own, OBJECT_KEYS)
-        return [] if shape is None else [(shape, "", Material())]
+        return [] if shape is None else [Object(shape, Material())]
 
-    def _mesh(self, where: str, own: dict[str, Any]) -> list[tuple[Any, str, Material]]:
+    def _mesh(self, where: str, own: dict[str, Any]) -> list[Object]:
         values = self.values(Mesh, where, own, OBJECT_KEYS)
         if "file" not in own:
             self.fault(where, "file is missing: it must be the path of a mesh, relative to the scene file")
         if values is None or "file" not in values:
             return []
-        try:
-            parts = load_parts(self.path.parent / values["file"])
-        except MeshError as error:
-            self.fault(where, str(error))
+        path = self.path.parent / values["file"]
+        if path not in self.files:
+            try:
+                self.files[path] = load_mesh(path)
+            except Fault as fault:
+                self.files[path] = fault
+        found = self.files[path]
+        if isinstance(found, Fault):
+            self.fault(where, found.within(f"mesh {shown_path(path.name)}"))
             return []
-        return [(Mesh(part.geometry, **values), part.name if len(parts) > 1 else "", part.material) for part in parts]
+        self.notes.update(dict.fromkeys(f"{path.name}: {note}" for note in found.notes))
+        return part_objects(found.parts, **values)
 
 
 def known(names: Iterable[str]) -> str:

@@ -6,20 +6,13 @@ import math
 from collections.abc import Container
 from typing import NamedTuple
 
+from tracer.formats.source import Fault
 from tracer.formulas.vector import Vector
 
 
 class Word(NamedTuple):
     text: str
     line: int  # counted from 1
-
-
-class Fault(Exception):
-    """An error, without the file's name. `line` is set if it is not the line of the entity."""
-
-    def __init__(self, text: str, line: int | None = None) -> None:
-        super().__init__(text)
-        self.line = line
 
 
 class Words:

@@ -12,8 +12,7 @@ class ObjectRow(Row):
     """One object."""
 
     material: Int32
-    solid: Int32  # its rank among the transparent solids, -1 if it bounds no medium
-    closed: Bool  # whether the solid has an inside
+    sheet: Bool  # whether it is thin: if it transmits light, it bounds no medium
     tiled: Bool  # whether its checkers lie along u and v
     u: Float3
     v: Float3
@@ -58,6 +57,7 @@ class Arrays(NamedTuple):
     materials: Rows[MaterialRow]
     lights: Rows[LightRow]
     indices: Numbers  # of refraction, by the rank of a solid
+    closed: Numbers  # whether a solid has an inside, by its rank
     background: Numbers
     ambient: Numbers
     unboxed: Numbers  # ids of the surfaces tested against every ray: the infinite ones, and all where they are few

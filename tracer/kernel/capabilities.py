@@ -8,7 +8,6 @@ from tracer.accel.bvh import MAX_UNBOXED
 from tracer.choices import FILTER, FRESNEL, MODELS, SHADOWS
 from tracer.compile.simd import WIDTH
 from tracer.scene import Material, Object, Scene
-from tracer.shapes.mesh import NO_FILE, Mesh
 
 
 class Capability(StrEnum):
@@ -23,7 +22,6 @@ class Capability(StrEnum):
     LIGHT_THROUGH_GLASS = "light through glass"
     CHECKER = "checker"
     HIERARCHY = "hierarchy"
-    MESH_LIBRARY = "mesh library"
     VERTEX_NORMALS = "vertex normals"
 
 
@@ -50,7 +48,6 @@ def needs(scene: Scene, surfaces: int, nodes: int, blocks: int) -> tuple[Need, .
     mirrors = [item for item in scene.objects if item.material.reflect > 0.0]
     fresnel = scene.tracing.model == MODELS[FRESNEL]
     lit = [m for m in materials if m.is_lit]
-    files = [item for item in scene.objects if isinstance(item.shape, Mesh) and item.shape.file != NO_FILE]
     smooth = [item for item in scene.objects if item.shape.smooth() is not None]
     splitting = [item for item in solids if item.material.ior != 1.0]
     filtered = bool(glass) and bool(scene.lights) and scene.tracing.shadows == SHADOWS[FILTER]
@@ -67,7 +64,6 @@ def needs(scene: Scene, surfaces: int, nodes: int, blocks: int) -> tuple[Need, .
         Capability.LIGHT_THROUGH_GLASS: (filtered, _filter_reason(scene, glass)),
         Capability.CHECKER: (any(m.checker for m in materials), _checkered(materials)),
         Capability.HIERARCHY: (nodes > 0, _hierarchy(surfaces, nodes, blocks)),
-        Capability.MESH_LIBRARY: (bool(files), _which(files, "comes from a mesh file", "come from mesh files")),
         Capability.VERTEX_NORMALS: (
             bool(smooth),
             _which(smooth, "has normals at its vertices", "have normals at their vertices"),

@@ -48,24 +48,24 @@ def cross_surfaces(
     edge between two faces, counts once. Entering and leaving, at an edge on the silhouette, changes nothing.
     """
     opaque, sheet = -1, -1
-    solid, closed, enters, leaves = -1, False, False, False
+    solid, enters, leaves = -1, False, False
     first, last_t, last = s, t, s
     here = t
     while s >= 0:
-        this = world.objects[world.surfaces[s].object]
-        same_crossing = this.solid >= 0 and this.solid == solid
+        this = world.surfaces[s].solid
+        same_crossing = this >= 0 and this == solid
         if here != t and not same_crossing:
             break
         last_t, last = here, s
         if transmit(world, s) == 0.0:
             opaque = s if opaque < 0 else opaque
-        elif this.solid < 0:
+        elif this < 0:
             sheet = s if sheet < 0 else sheet
         else:
-            if this.solid != solid:
+            if this != solid:
                 if solid >= 0:
-                    change_medium(solid, closed, enters, leaves, before, behind)
-                solid, closed, enters, leaves = this.solid, this.closed, False, False
+                    change_medium(world, solid, enters, leaves, before, behind)
+                solid, enters, leaves = this, False, False
             entering = is_entering(world, s, ray, here)
             enters, leaves = enters or entering, leaves or not entering
         # Surfaces farther away belong to this crossing only if rounding may have put them there.
@@ -76,13 +76,13 @@ def cross_surfaces(
     if opaque >= 0:
         return (opaque, last_t, last)
     if solid >= 0:
-        change_medium(solid, closed, enters, leaves, before, behind)
+        change_medium(world, solid, enters, leaves, before, behind)
     old, new = medium(before), medium(behind)
     if old == new:
         return (sheet, last_t, last)
     seen = max(old, new) if min(old, new) < 0 else min(old, new)
     shown = first
-    while world.objects[world.surfaces[shown].object].solid != seen:
+    while world.surfaces[shown].solid != seen:
         _, shown, _ = closest(world, ray, t, shown, space)
     return (shown, last_t, last)
 
@@ -106,7 +106,7 @@ def distance_uncertainty(world: Arrays, s: int, ray: Ray) -> float:
 
 
 @inlined
-def change_medium(solid: int, closed: bool, enters: bool, leaves: bool, before: Numbers, behind: Numbers) -> None:
+def change_medium(world: Arrays, solid: int, enters: bool, leaves: bool, before: Numbers, behind: Numbers) -> None:
     """Add a solid to the set behind the surface, or remove it.
 
     If an open solid is left without having been entered, the ray must have been inside all along: then it is added to
@@ -114,6 +114,6 @@ def change_medium(solid: int, closed: bool, enters: bool, leaves: bool, before: 
     """
     if enters and leaves:
         return
-    if leaves and not closed and not contains(before, solid):
+    if leaves and not world.closed[solid] and not contains(before, solid):
         set_inside(before, solid, True)
     set_inside(behind, solid, enters)

@@ -30,17 +30,18 @@ class Surfaces(NamedTuple):
         return corners
 
 
-def pack_surfaces(scene: Scene) -> Surfaces:
-    """One row for a shape, or for each face of a mesh."""
+def pack_surfaces(objects: Sequence[Object], solid_of: dict[int, np.ndarray | int]) -> Surfaces:
+    """One row for a shape, or for each face of a mesh. `solid_of` gives the solids of an object or of its faces."""
     blocks, corners, smooth = [], [np.zeros((0, 3))], [np.zeros((0, 3, 3))]
     bounds: list[np.ndarray] = []
     corner_count = smooth_count = count = 0
     first_such: dict[Shape, int] = {}
-    for k, item in enumerate(scene.objects):
+    for k, item in enumerate(objects):
         shape = item.shape
         boxes = shape.bounds()
         rows = np.zeros(1 if boxes is None else len(boxes), SURFACE)
         rows["object"], rows["first"], rows["smooth"] = k, -1, -1
+        rows["solid"] = solid_of.get(k, -1)
         rows["coincident"] = count + np.arange(len(rows))
         if shape.curved:
             rows["coincident"] = first_such.setdefault(shape, count)
@@ -61,20 +62,17 @@ def pack_surfaces(scene: Scene) -> Surfaces:
     return Surfaces(rows, np.concatenate(corners), np.concatenate(smooth), np.concatenate(bounds))
 
 
-def pack_objects(scene: Scene, materials: dict[Material, int], solids: list[int]) -> Rows[ObjectRow]:
-    """One row for each object. `materials` maps a material to its number, `solids` lists the objects that bound a
-    medium, by rank.
-    """
-    ranks = {k: rank for rank, k in enumerate(solids)}
-    rows = [_object(item, materials[item.material], ranks.get(k, -1)) for k, item in enumerate(scene.objects)]
+def pack_objects(objects: Sequence[Object], materials: dict[Material, int]) -> Rows[ObjectRow]:
+    """One row for each object. `materials` maps a material to its number."""
+    rows = [_object(item, materials[item.material]) for item in objects]
     return as_rows(np.array(rows, OBJECT), ObjectRow)
 
 
-def _object(item: Object, material: int, rank: int) -> tuple[Any, ...]:
+def _object(item: Object, material: int) -> tuple[Any, ...]:
     shape = item.shape
     plane = shape.plane() if shape.checker_in_plane else None
     u, v = plane_axes(plane[1]) if plane else ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    return (material, rank, rank >= 0 and shape.is_closed(), plane is not None, u, v)
+    return (material, item.thin, plane is not None, u, v)
 
 
 def plane_axes(n: Vector) -> tuple[Vector, Vector]:

@@ -36,7 +36,7 @@ def scatter(world: Arrays, limits: Limits, row: NodeRow) -> Scattered:
     d = vector(row.direction)
     if kt == 0.0:
         return Scattered(REFLECTION, kr, 0.0, d)
-    thin = world.objects[row.object].solid < 0
+    thin = world.objects[row.object].sheet
     if row.n1 == row.n2 and not thin:
         return Scattered(REFLECTION, 0.0, kt, d)
     if row.radicand <= 0.0 and not thin:

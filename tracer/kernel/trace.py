@@ -107,10 +107,7 @@ def trace_ray(world: Arrays, space: Space, i: int) -> None:
     this = world.objects[row.object]
     material = world.materials[this.material]
     if material.transmit > 0.0:
-        if this.solid >= 0:
-            row.n2 = index_of(world, medium(solids[i, 1]))
-        else:
-            row.n2 = n1
+        row.n2 = n1 if this.sheet else index_of(world, medium(solids[i, 1]))
         if shading_n != n and not is_usable(world, d, n, shading_n, n1, row.n2):
             shading_n = n
         row.radicand = radicand(world.formulas.sine(d, shading_n), n1, row.n2)

@@ -1,6 +1,6 @@
 """A prepared scene: its arrays for kernels, without all that this scene does not need."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -17,8 +17,9 @@ from tracer.kernel.formulas import STABLE, Formulas
 from tracer.kernel.packing import pack_lights, pack_materials, pack_objects, pack_surfaces
 from tracer.scene import Material, Scene, SceneError
 from tracer.scene.cameras import scene_view
-from tracer.scene.notes import hidden_notes, mesh_notes, open_notes
+from tracer.scene.notes import hidden_notes, open_notes, turned_notes
 from tracer.scene.scene import middle_and_radius
+from tracer.scene.solids import Solid, find_solids
 from tracer.shapes.planar import PLANE_ERROR
 from tracer.shapes.surface_row import BlockRow
 
@@ -34,7 +35,8 @@ class World:
     bounds: np.ndarray  # (n, 2, 3): boxes about the bounded surfaces
     extent: tuple[Vector, float]  # centre and radius of these, for a scene without a camera position or target
     needs: tuple[Need, ...]
-    solids: tuple[int, ...]  # objects that bound a medium, by rank
+    solids: tuple[Solid, ...]  # by rank
+    turned: tuple[int, ...]  # objects whose faces were wound inside out
     _solids_around: dict[Vector, np.ndarray] = field(default_factory=dict)  # cache: the eye seldom moves
 
     @property
@@ -45,10 +47,9 @@ class World:
     @property
     def notes(self) -> list[str]:
         """Warnings, one line each: valid input that is probably not intended."""
-        objects, closed = self.scene.objects, self.arrays.objects["closed"]
-        solids = [objects[k] for k in self.solids]
-        opened = [objects[k] for k in self.solids if not closed[k]]
-        return hidden_notes(solids) + open_notes(opened) + mesh_notes(objects)
+        names = [item.name or item.shape.name for item in self.scene.objects]
+        found = [*self.scene.notes, *turned_notes([names[k] for k in self.turned])]
+        return found + open_notes(self.solids, names) + hidden_notes(self.solids, names)
 
     def __repr__(self) -> str:
         scene = self.scene
@@ -66,8 +67,8 @@ class World:
                 self._solids_around.clear()
             mask = np.zeros(-(-len(self.solids) // WORD), np.int64)
             p = np.array(point)
-            for rank, k in enumerate(self.solids):
-                if self.scene.objects[k].shape.contains(p):
+            for rank, solid in enumerate(self.solids):
+                if solid.contains(p):
                     mask[rank // WORD] |= 1 << (rank % WORD)
             self._solids_around[point] = mask
         return self._solids_around[point]
@@ -88,8 +89,9 @@ def prepare(scene: Scene, hierarchy: bool | None = None, formulas: Formulas = ST
     materials: dict[Material, int] = {}
     for item in scene.objects:
         materials.setdefault(item.material, len(materials))
-    solids = _ranked(scene)
-    surfaces = pack_surfaces(scene)
+    solids = find_solids(scene.objects)
+    scene = replace(scene, objects=solids.objects)
+    surfaces = pack_surfaces(scene.objects, solids.of_faces)
     finite = np.asarray(np.isfinite(surfaces.bounds).all(axis=(1, 2)))
     boxed = finite & (np.count_nonzero(finite) > MAX_UNBOXED if hierarchy is None else hierarchy)
     nodes, blocks, unit = build(_padded(surfaces.bounds), surfaces.triangles(), boxed)
@@ -97,10 +99,11 @@ def prepare(scene: Scene, hierarchy: bool | None = None, formulas: Formulas = ST
         surfaces=surfaces.rows,
         corners=surfaces.corners,
         smooth=surfaces.smooth,
-        objects=pack_objects(scene, materials, solids),
+        objects=pack_objects(scene.objects, materials),
         materials=pack_materials(materials),
         lights=pack_lights(scene),
-        indices=np.array([scene.objects[k].material.ior for k in solids], np.float64),
+        indices=np.array([scene.objects[solid.objects[0]].material.ior for solid in solids.ranked], np.float64),
+        closed=np.array([solid.closed for solid in solids.ranked], np.bool_),
         background=np.array(scene.background.color, np.float64),
         ambient=np.array(scene.tracing.ambient, np.float64),
         unboxed=np.flatnonzero(~boxed).astype(np.int32),
@@ -111,7 +114,7 @@ def prepare(scene: Scene, hierarchy: bool | None = None, formulas: Formulas = ST
     )
     bounds = surfaces.bounds[finite]
     found = needs(scene, len(surfaces.rows), len(nodes), len(blocks))
-    return World(scene, bundle(arrays), bounds, _extent(scene, bounds), found, tuple(solids))
+    return World(scene, bundle(arrays), bounds, _extent(scene, bounds), found, solids.ranked, solids.turned)
 
 
 def _extent(scene: Scene, bounds: np.ndarray) -> tuple[Vector, float]:
@@ -120,12 +123,6 @@ def _extent(scene: Scene, bounds: np.ndarray) -> tuple[Vector, float]:
         return ((0.0, 0.0, 0.0), 1.0)
     middle, radius = middle_and_radius(bounds)
     return (as_floats(middle), radius)
-
-
-def _ranked(scene: Scene) -> list[int]:
-    """The objects that bound a medium, by falling priority, and in the file's order among equals."""
-    solids = [k for k, item in enumerate(scene.objects) if item.material.transmit > 0.0 and not item.thin]
-    return sorted(solids, key=lambda k: -scene.objects[k].priority)
 
 
 def _padded(boxes: np.ndarray) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Warnings about scenes that are valid but probably not intended."""
+"""Notes about scenes that are valid but probably not intended, or not shown as they are. One line for each kind."""
 
 import itertools
 import math
@@ -6,47 +6,57 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tracer.scene.scene import Object
-from tracer.shapes.mesh import Mesh
+from tracer.scene.solids import Solid
+
+MOST_NAMES = 3  # in a note
+MOST_COMPARED = 2000  # solids of which each is compared with all others
 
 
-def hidden_notes(ranked: list[Object]) -> list[str]:
-    """Warnings about transparent solids that are never visible, since they lie inside one of higher priority; a line
-    each.
+def listed(names: Sequence[str]) -> str:
+    """Names in quotes, each once; of a long list the first few."""
+    different = list(dict.fromkeys(names))
+    shown = ", ".join(f'"{name}"' for name in different[:MOST_NAMES])
+    return shown if len(different) <= MOST_NAMES else f"{shown} and {len(different) - MOST_NAMES} more"
 
-    `ranked` is in the order of priority. A solid counts as inside if all corners of its box are, so every note is
-    true, but not every hidden solid is found.
+
+def turned_notes(names: Sequence[str]) -> list[str]:
+    """The note about closed meshes that were wound inside out."""
+    return [f"{listed(names)}: wound inside out in the file, and turned"] if names else []
+
+
+def open_notes(solids: Sequence[Solid], names: Sequence[str]) -> list[str]:
+    """The note about media that are bounded by an open surface."""
+    opened = [names[solid.objects[0]] for solid in solids if not solid.closed]
+    if not opened:
+        return []
+    one = len(opened) == 1
+    what = "is open" if one else f"are open ({len(opened)} surfaces)"
+    return [f"{listed(opened)} {what}: light that enters stays in the medium; use thin = true, or close the mesh"]
+
+
+def hidden_notes(solids: Sequence[Solid], names: Sequence[str]) -> list[str]:
+    """Notes about solids that are never visible, since they lie inside one of higher priority; a line for each such
+    pair of names.
+
+    `solids` are in the order of priority. A solid counts as inside if all corners of its box are, so every note is
+    true, but not every hidden solid is found; none in scenes with more than MOST_COMPARED solids.
     """
-    infinite = np.full(3, math.inf)
-    boxes = [item.shape.bounds() for item in ranked]
-    low = np.array([-infinite if box is None else box[:, 0].min(axis=0) for box in boxes]).reshape(-1, 3)
-    high = np.array([infinite if box is None else box[:, 1].max(axis=0) for box in boxes]).reshape(-1, 3)
-    notes = []
-    for k, inner in enumerate(ranked):
+    if len(solids) > MOST_COMPARED:
+        return []
+    infinite = np.array([[-math.inf] * 3, [math.inf] * 3])
+    boxes = [solid.bounds() for solid in solids]
+    low, high = np.moveaxis(np.array([infinite if box is None else box for box in boxes]).reshape(-1, 2, 3), 1, 0)
+    found: dict[str, list[str]] = {}
+    for k, inner in enumerate(solids):
         if boxes[k] is None:
             continue
         around = ((low[:k] <= low[k]) & (high[:k] >= high[k])).all(axis=1)
         corners = np.array(list(itertools.product(*zip(low[k], high[k], strict=True))))
-        for outer in (ranked[j] for j in np.flatnonzero(around)):
-            if all(outer.shape.contains(corner) for corner in corners):
-                notes.append(f'"{_name(inner)}" lies inside "{_name(outer)}" and is never visible: raise its priority')
+        for outer in (solids[j] for j in np.flatnonzero(around).tolist()):
+            if all(outer.contains(corner) for corner in corners):
+                found.setdefault(names[outer.objects[0]], []).append(names[inner.objects[0]])
                 break
-    return notes
-
-
-def mesh_notes(objects: Sequence[Object]) -> list[str]:
-    """Warnings of the readers of mesh files, a line for each file."""
-    meshes = [item.shape for item in objects if isinstance(item.shape, Mesh)]
-    return list(dict.fromkeys(f"{mesh.file}: {mesh.geometry.note}" for mesh in meshes if mesh.geometry.note))
-
-
-def open_notes(opened: list[Object]) -> list[str]:
-    """Warnings about media that are bounded by an open surface; a line each."""
     return [
-        f'"{_name(item)}" is open: light that enters through it stays in its medium; make it thin, or a closed mesh'
-        for item in opened
+        f'{listed(inner)} lies inside "{outer}" and is never visible: raise its priority'
+        for outer, inner in found.items()
     ]
-
-
-def _name(item: Object) -> str:
-    return item.name or item.shape.name

@@ -143,6 +143,8 @@ class Scene:
     tracing: Tracing = Tracing()
     title: str = ""
     path: Path | None = None  # the file it came from
+    notes: tuple[str, ...] = ()  # what its files have and it has not, a line each
+    files: tuple[Path, ...] = ()  # the files that it was read from, also those that were not found
 
     @property
     def caption(self) -> str:
@@ -178,11 +180,12 @@ class Scene:
 
 
 class SceneError(ValueError):
-    """A scene that cannot be used. `faults` has a line for each fault."""
+    """A scene that cannot be used. `faults` has a line for each fault, `files` are those that were read."""
 
-    def __init__(self, faults: list[str]) -> None:
+    def __init__(self, faults: list[str], files: tuple[Path, ...] = ()) -> None:
         super().__init__("\n".join(faults))
         self.faults = faults
+        self.files = files
 
 
 def place(table: str, k: int, name: str = "") -> str:

@@ -4,7 +4,7 @@ The author names the file and its placement: the mesh is scaled, then rotated ab
 """
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from tracer import fields
 from tracer.formulas.vector import Vector
 from tracer.shapes.shape import Shape
+from tracer.shapes.shells import OPEN, find_shells, winding_number
 from tracer.shapes.tessellation import flat, normals_of
 from tracer.shapes.triangle import Triangle, pack_triangles
 
@@ -25,8 +26,23 @@ class Geometry:
 
     vertices: np.ndarray  # (n, 3)
     faces: np.ndarray  # (m, 3) indices of vertices, counter-clockwise seen from outside
-    normals: np.ndarray | None = None  # (n, 3) vertex normals, if the file has them
-    note: str = ""  # warning of the reader
+    normals: np.ndarray | None = None  # (k, 3) unit normals, or 0 for a corner without one; None if the file has none
+    normal_faces: np.ndarray | None = None  # (m, 3) indices of normals; None: those of the vertices
+    degenerate: np.ndarray = field(default_factory=lambda: np.zeros((0, 3), np.int64))  # faces without area
+
+    def turned(self, which: np.ndarray) -> "Geometry":
+        """The same with some faces, a mask (m,), wound the other way."""
+        faces = np.where(which[:, None], self.faces[:, ::-1], self.faces)
+        if self.normals is None:
+            return replace(self, faces=faces)
+        normals = np.concatenate([self.normals, -self.normals])
+        old = self.faces if self.normal_faces is None else self.normal_faces
+        new = np.where(which[:, None], old[:, ::-1] + len(self.normals), old)
+        return replace(self, faces=faces, normals=normals, normal_faces=new)
+
+
+class Body:
+    """Stands for one mesh file in one place. The meshes of its parts share it, so that they bound solids together."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,6 +56,7 @@ class Mesh(Shape):
     scale: float = field(default=1.0, metadata=fields.number(above=0))
     rotate: Vector = field(default=(0.0, 0.0, 0.0), metadata=fields.point())  # degrees about x, then y, then z
     translate: Vector = field(default=(0.0, 0.0, 0.0), metadata=fields.point())
+    body: Body | None = None  # None: the mesh is alone
 
     @classmethod
     def example(cls) -> "Mesh":
@@ -61,39 +78,25 @@ class Mesh(Shape):
     def smooth(self) -> np.ndarray | None:
         if self.geometry.normals is None:
             return None
-        return (self.geometry.normals @ rotation_matrix(self.rotate).T)[self.geometry.faces]
+        indices = self.geometry.faces if self.geometry.normal_faces is None else self.geometry.normal_faces
+        return (self.geometry.normals @ rotation_matrix(self.rotate).T)[indices]
+
+    def all_faces(self) -> np.ndarray:
+        """The corners (n, 3, 3) of all faces before placement: those with an area, then those without."""
+        return self.geometry.vertices[np.concatenate([self.geometry.faces, self.geometry.degenerate])]
 
     def bounds(self) -> np.ndarray:
         corners = self.placed()
         return np.stack([corners.min(axis=1), corners.max(axis=1)], axis=1)
 
     def is_closed(self) -> bool:
-        """Whether every edge is used once in each direction."""
-        corners = self.geometry.vertices + 0.0  # -0 becomes 0
-        order = np.lexsort(corners.T)
-        differs = (corners[order[1:]] != corners[order[:-1]]).any(axis=1)
-        place = np.zeros(len(order), np.int64)
-        place[order[1:]] = np.cumsum(differs)
-        faces = place[self.geometry.faces]
-        start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
-        forward = np.sort(start * len(order) + end)
-        backward = np.sort(end * len(order) + start)
-        return bool((forward[1:] != forward[:-1]).all()) and bool((forward == backward).all())
+        """Whether all its shells are closed."""
+        return bool((find_shells(self.all_faces()).solid != OPEN).all())
 
     def contains(self, p: np.ndarray) -> bool:
-        """Whether the solid angles of the faces, seen from p, add up to 4 pi.
-
-        Van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983.
-        """
-        vertices = self.vertices()
-        outside = (p < vertices.min(axis=0)).any() or (p > vertices.max(axis=0)).any()
-        if outside or not self.is_closed():
-            return False
-        a, b, c = np.moveaxis(vertices[self.geometry.faces] - p, 1, 0)
-        la, lb, lc = (np.sqrt((x * x).sum(axis=1)) for x in (a, b, c))
-        volume = (a * np.cross(b, c)).sum(axis=1)
-        spread = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
-        return bool(abs(2.0 * np.arctan2(volume, spread).sum()) > 2.0 * math.pi)
+        corners = self.placed()
+        outside = (p < corners.min(axis=(0, 1))).any() or (p > corners.max(axis=(0, 1))).any()
+        return not outside and self.is_closed() and abs(winding_number(corners, p)) > 0.5
 
     def triangles(self, middle: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
         corners, normals = self.placed(), self.smooth()

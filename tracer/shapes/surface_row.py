@@ -21,6 +21,7 @@ class SurfaceRow(Row):
     count: Int32  # corners of a flat face, 1 for a sphere, 0 for a shape without corners
     shape_code: Int32  # as CODES numbers the shapes
     object: Int32
+    solid: Int32  # rank of the transparent solid that it bounds, -1 for none
     coincident: Int32  # the first surface with an equal curved shape; usually itself
     smooth: Int32  # index into `ShapeArrays.smooth`, -1 for a face without vertex normals
 

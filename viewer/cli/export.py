@@ -23,7 +23,7 @@ def export(options: ExportOptions) -> int:
         raise Unusable("raytree export: give a pixel (--pixel X,Y) or a ray (--ray ox,oy,oz,dx,dy,dz)")
     compile_once()
     with faults():
-        world = prepared(path)
+        world = prepared(path, options.up)
         with Progress("export") as progress:
             name, view = (lesson.name, lesson.view) if lesson else (path.stem, None)
             made = make(options, world, name, target, view, progress)

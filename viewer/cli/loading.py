@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import tracer
-from tracer.formats import READERS
+from tracer.formats import READERS, UP_AXES
 from viewer.base.files import Unusable
 from viewer.base.progress import Progress
 from viewer.lessons import lesson
@@ -37,12 +37,12 @@ def faults() -> Iterator[None]:
         raise Unusable(f"raytree: {error}") from None
 
 
-def prepared(path: Path) -> tracer.World:
-    """Load and prepare a scene. Its notes are printed."""
+def prepared(path: Path, up: str = UP_AXES[0], prints_notes: bool = True) -> tracer.World:
+    """Load and prepare a scene."""
     with Progress(f"load {path.name}") as progress:
-        scene = tracer.load(path, progress)
+        scene = tracer.load(path, progress, up)
         progress.say(f"prepare {path.name}")
         world = tracer.prepare(scene)
-        for note in world.notes:
+        for note in world.notes if prints_notes else []:
             progress.put(f"note: {note}")
     return world

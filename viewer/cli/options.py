@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from tracer.choices import MODELS, SAMPLERS
+from tracer.formats import UP_AXES
 from viewer.base.options import argument, option, switch
 from viewer.base.pictures import WRITERS
 from viewer.base.values import FILE, PIXEL, POSITIVE, RAY, SCENE_HELP, SIZE, TEXT, WEIGHT, one_of, whole
@@ -37,6 +38,10 @@ def _size(of: str = "of the image, the scene's own by default") -> Any:
     return option(SIZE, of)
 
 
+def _up() -> Any:
+    return option(one_of(UP_AXES), "axis of a mesh file that points upwards, y by default", UP_AXES[0])
+
+
 @dataclass(frozen=True, kw_only=True)
 class ViewOptions:
     """`raytree view`."""
@@ -47,6 +52,7 @@ class ViewOptions:
     model: str | None = _model()
     screenshot: Path | None = option(FILE, "draw the viewer into a file, and exit", metavar="FILE.png")
     size: tuple[int, int] | None = _size("of the window or the screenshot")
+    up: str = _up()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,6 +67,7 @@ class TraceOptions:
     min_weight: float = _min_weight()
     tolerance: float | None = _tolerance()
     size: tuple[int, int] | None = _size()
+    up: str = _up()
     format: str = option(one_of(DATA), "text by default", "text")
     rays: int = option(whole(0), f"text: show the N rays of largest weight, {HEAVIEST} by default; 0: all", HEAVIEST)
     output: Path | None = option(FILE, "write there instead of the terminal", short="-o")
@@ -80,6 +87,7 @@ class RenderOptions:
     min_weight: float = _min_weight()
     tolerance: float | None = _tolerance()
     size: tuple[int, int] | None = _size()
+    up: str = _up()
     samples: int | None = option(
         whole(1), "samples per pixel, 1 (its centre) by default; their maximum with --until-error or --until-seconds"
     )
@@ -111,6 +119,7 @@ class PlanOptions:
     """`raytree plan`."""
 
     scene: str = argument("SCENE", TEXT, SCENE_HELP)
+    up: str = _up()
     measure: bool = switch("measure rays and time with and without each capability; about 20 seconds")
     json: bool = switch("print JSON")
 

@@ -27,19 +27,20 @@ class Plan:
     scene: str
     image: Sequence[Need]
     window: Sequence[Need]
+    notes: Sequence[str] = ()
     measured: Measured | None = None
 
 
 def plan(options: PlanOptions) -> int:
     path, lesson = find(options.scene)
     with faults():
-        world = prepared(path)
+        world = prepared(path, options.up, prints_notes=False)
     found = None
     if options.measure:
         compile_once()
         with Progress("measuring") as progress:
             found = measure(world, progress)
-    made = Plan(world.scene.caption, world.needs, window_needs(world.scene, lesson is not None), found)
+    made = Plan(world.scene.caption, world.needs, window_needs(world.scene, lesson is not None), world.notes, found)
     put(as_json(made) if options.json else as_text(made))
     return 0
 
@@ -63,6 +64,8 @@ def as_text(plan: Plan) -> str:
         for need in needs:
             state = "needed" if need.needed else "left out"
             lines.append(hanging(f"{need.name:{width}}  {state:8}  ", need.why))
+    if plan.notes:
+        lines += ["", "NOTES", *(hanging("", note) for note in plan.notes)]
     if plan.measured:
         lines += ["", *_measured(plan.measured, width), "", *_together(plan.measured)]
     return "\n".join(lines) + "\n"
@@ -133,7 +136,7 @@ def _size(size: tuple[int, int] | None) -> str:
 
 def as_json(plan: Plan) -> str:
     """The plan for programs."""
-    document: dict[str, Any] = {"format": FORMAT, "scene": plan.scene}
+    document: dict[str, Any] = {"format": FORMAT, "scene": plan.scene, "notes": list(plan.notes)}
     savings = {}
     if image := plan.measured:
         document["image"] = {"size": list(image.size), "depth": image.depth, "threads": 1, "rays": image.rays}

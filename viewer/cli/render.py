@@ -100,7 +100,7 @@ def render_one(
     with faults():
         began = time.perf_counter()
         share.say(f"load {job.name}")
-        scene = tracer.load(job.scene, progress if share.count == 1 else lambda share: None)
+        scene = tracer.load(job.scene, progress if share.count == 1 else lambda share: None, options.up)
         loaded = time.perf_counter()
         share.say(f"prepare {job.name}")
         world = tracer.prepare(scene)

@@ -14,7 +14,7 @@ def trace(options: TraceOptions) -> int:
     path, _ = find(options.scene)
     compile_once()
     with faults():
-        world = prepared(path)
+        world = prepared(path, options.up)
         ray = (options.ray[:3], options.ray[3:]) if options.ray else None
         tree = tracer.trace(
             world,

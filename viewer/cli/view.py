@@ -38,7 +38,7 @@ def view(options: ViewOptions) -> int:
     app = App(window, Session())
     app.session.export.remember(_settings().with_name("figure.json"))
     try:
-        app.session.loader.open(path, lesson, options.depth, options.pixel, options.model)
+        app.session.loader.open(path, lesson, options.depth, options.pixel, options.model, options.up)
         app.run()
     finally:
         app.close()
@@ -52,7 +52,7 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: ViewOptions, tar
     except NoWindow as reason:
         raise Unusable(str(reason)) from None
     try:
-        app.session.loader.open(path, lesson, options.depth, options.pixel, options.model)
+        app.session.loader.open(path, lesson, options.depth, options.pixel, options.model, options.up)
         with (
             Progress(COMPILING, at_once=True) if app.session.warmup.compiles else Progress("load the scene") as progress
         ):
@@ -73,7 +73,7 @@ def without_display(path: Path, lesson: Lesson | None, options: ViewOptions, rea
     put(f"{reason}.\n")
     compile_once()
     with faults():
-        world = prepared(path)
+        world = prepared(path, options.up)
         image = world.scene.image
         pixel = options.pixel or (lesson and lesson.pixel) or (image.width // 2, image.height // 2)
         depth = options.depth if options.depth is not None else lesson and lesson.depth

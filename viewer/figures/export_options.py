@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from tracer.choices import MODELS
+from tracer.formats import UP_AXES
 from viewer.base.options import argument, option, switch
 from viewer.base.theme import THEMES
 from viewer.base.values import (
@@ -46,6 +47,7 @@ class ExportOptions:
     model: str | None = option(one_of(MODELS), "the scene's own by default")
     min_weight: float = option(WEIGHT, "do not follow rays of a smaller weight", 0.0)
     size: tuple[int, int] | None = option(SIZE, "of the image, the scene's own by default")
+    up: str = option(one_of(UP_AXES), "axis of a mesh file that points upwards, y by default", UP_AXES[0])
     format: tuple[str, ...] = option(some_of(tuple(FORMATS)), f"of {', '.join(FORMATS)}; svg by default", ())
     theme: str = option(one_of(tuple(THEMES)), "light by default", "light")
     swatches: bool = switch("show the radiance of each ray in its box")

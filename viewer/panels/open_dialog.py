@@ -4,7 +4,7 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from tracer.formats import READERS
+from tracer.formats import MESH_READERS, READERS, UP_AXES
 from viewer.panels import draw as d
 from viewer.session.session import Session
 
@@ -47,6 +47,8 @@ def draw(session: Session) -> None:
             if imgui.selectable(f"{path.name}/" if path.is_dir() else path.name, False)[0]:
                 _go(session, path)
     imgui.end_child()
+    _, dialog.z_up = imgui.checkbox("z axis up (mesh files)", dialog.z_up)
+    imgui.same_line()
     if imgui.button("Cancel") or imgui.is_key_pressed(imgui.Key.escape):
         imgui.close_current_popup()
     imgui.end_popup()
@@ -59,7 +61,8 @@ def _go(session: Session, path: Path) -> None:
         dialog.folder = path
     elif path.exists():
         imgui.close_current_popup()
-        session.loader.open(path)
+        is_mesh = path.suffix.lower() in MESH_READERS
+        session.loader.open(path, up=UP_AXES[is_mesh and dialog.z_up])
 
 
 def _entries(folder: Path) -> list[Path]:

@@ -1,10 +1,8 @@
-"""Notices that the scene's file, or a mesh file it names, has been saved."""
+"""Notices that the scene's file, or a file that it names, has been saved."""
 
 import time
+from collections.abc import Iterable
 from pathlib import Path
-
-from tracer.scene import Scene
-from tracer.shapes.mesh import Mesh
 
 PERIOD = 0.3  # seconds between polls
 SETTLED = 2  # consecutive polls that must agree: an editor may write a file in several parts
@@ -26,10 +24,9 @@ class FileWatch:
         self.known = self.seen = {path: _stamp(path)}
         self.agreed = 0
 
-    def follow_meshes(self, path: Path, scene: Scene) -> None:
-        """Look also at the mesh files of the scene in `path`."""
-        names = {item.shape.file for item in scene.objects if isinstance(item.shape, Mesh)}
-        self.known = {**{path.parent / name: _stamp(path.parent / name) for name in names}, **self.known}
+    def follow_also(self, files: Iterable[Path]) -> None:
+        """Look at these files, too: meshes, their materials and buffers. A file may be missing: it may come."""
+        self.known = {**{path: _stamp(path) for path in files}, **self.known}
 
     def changed(self) -> bool:
         """Whether a file has changed since it was read, and is not being written any more."""
@@ -40,7 +37,8 @@ class FileWatch:
         stamps = {path: _stamp(path) for path in self.known}
         self.agreed = self.agreed + 1 if stamps == self.seen else 1
         self.seen = stamps
-        if stamps == self.known or self.agreed < SETTLED or None in stamps.values():
+        replaced = any(stamps[path] is None and stamp is not None for path, stamp in self.known.items())
+        if stamps == self.known or self.agreed < SETTLED or replaced:
             return False
         self.known = stamps
         return True

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import tracer
+from tracer.formats import UP_AXES
 from tracer.kernel.world import World
 from viewer.lessons.lesson import Lesson
 from viewer.session.call_queue import CallQueue
@@ -21,6 +22,7 @@ class Opening(NamedTuple):
     depth: int | None = None
     pixel: tuple[int, int] | None = None
     model: str | None = None
+    up: str = UP_AXES[0]
 
 
 class SceneLoader:
@@ -47,12 +49,13 @@ class SceneLoader:
         depth: int | None = None,
         pixel: tuple[int, int] | None = None,
         model: str | None = None,
+        up: str = UP_AXES[0],
     ) -> None:
         """Load a scene in the background. The scene on show stays until it is there, or if it has faults."""
         if lesson:
             depth = lesson.depth if depth is None else depth
             pixel = pixel or lesson.pixel
-        self._load(Opening(path, lesson, depth, pixel, model))
+        self._load(Opening(path, lesson, depth, pixel, model, up))
 
     def _load(self, opening: Opening) -> None:
         self.opening = opening
@@ -63,7 +66,7 @@ class SceneLoader:
         def load() -> World:
             if not self.warmup.ready and self.warmup.compiles:
                 self.warmup.wait()  # the kernels that prepare a large scene are being compiled as well
-            return tracer.prepare(tracer.load(opening.path))
+            return tracer.prepare(tracer.load(opening.path, up=opening.up))
 
         self.loading = self.worker.submit(load)
         self.loading.add_done_callback(lambda loading: self.calls.post(lambda: self._finish(loading, opening)))
@@ -85,11 +88,12 @@ class SceneLoader:
         try:
             world = loading.result()
         except tracer.SceneError as error:
+            self.watch.follow_also(error.files)
             self.failed(error.faults)
         except Exception as error:  # a bug must not end the program: it is reported, and the last scene stays
             self.failed([f"{type(error).__name__}: {error}"])
         else:
-            self.watch.follow_meshes(opening.path, world.scene)
+            self.watch.follow_also(world.scene.files)
             self.loaded(world, opening)
 
     def close(self) -> None:

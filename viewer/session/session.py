@@ -10,6 +10,7 @@ import numpy as np
 import tracer
 from tracer.choices import MODELS
 from tracer.compile.numba_private import NOTE
+from tracer.formats import UP_AXES
 from tracer.kernel.limits import Limits, make_limits
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
@@ -51,7 +52,9 @@ class Session:
         self.shows_help = False
         # The scene on show.
         self.faults: list[str] = []  # of the last opened scene or the last action; the last good scene stays on show
+        self.notes: list[str] = []  # on the scene on show, until they are closed
         self.path: Path | None = None
+        self.up = UP_AXES[0]  # of a mesh file
         self.lesson: Lesson | None = None
         self.world: World | None = None
         self.frame = Frame(np.zeros(3), 1.0)
@@ -75,7 +78,7 @@ class Session:
         self.refinement.forget()
         if opening.lesson and self.world and not again:
             self.requests.append(Request.SHOW_LESSON)
-        self.world, self.path, self.lesson = world, opening.path, opening.lesson
+        self.world, self.path, self.lesson, self.up = world, opening.path, opening.lesson, opening.up
         self.frame = Frame.of(world)
         self.tree = self.full_tree = None
         tracing = world.scene.tracing
@@ -87,8 +90,7 @@ class Session:
             self.image_view = PanZoom()
             self.home()
         self._check_pixel(again)
-        for note in world.notes[:1]:
-            self.notice.say(note)
+        self.notes = world.notes
 
     def _check_pixel(self, moves: bool) -> None:
         """A pixel outside the image is a fault. If the image has become smaller (`moves`), the pixel moves inside."""
@@ -249,6 +251,7 @@ class Session:
             depth=range(self.depth, self.depth + 1),
             model=self.model,
             no_lights="shadow" not in self.shown.kinds,
+            up=self.up,
             output=".",
         )
         name, angles = (lesson.name, lesson.view) if lesson else (self.path.stem, None)

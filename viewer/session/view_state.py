@@ -99,3 +99,4 @@ class OpenDialog:
 
     folder: Path | None = None  # whose files it lists
     not_found: str = ""  # a path that was typed and does not exist
+    z_up: bool = False  # whether the z axis of a mesh file points upwards

@@ -9,7 +9,7 @@ from imgui_bundle.imgui import internal
 
 from viewer.base.cached import Changed
 from viewer.gl.canvas import Canvas
-from viewer.panels import PANELS, bar, faults, help, menu, open_dialog
+from viewer.panels import PANELS, bar, help, menu, messages, open_dialog
 from viewer.panels.panel import Corner, Panel
 from viewer.session.session import Session
 from viewer.session.view_state import Request
@@ -153,7 +153,7 @@ class App:
         keys.handle(session)
         reset = menu.draw(session)
         open_dialog.draw(session)
-        faults.draw(session)
+        messages.draw(session)
         help.draw(session, keys.HELP)
         room = imgui.get_main_viewport()
         left, top = room.work_pos

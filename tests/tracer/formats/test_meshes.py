@@ -4,14 +4,12 @@ import json
 import struct
 import tracemalloc
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import tracer
 from tests.scenes import world_of
-from tracer.formats import meshes
 from tracer.scene import Light, Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
 
@@ -159,15 +157,6 @@ def test_vertex_normals_are_kept(tmp_path: Path) -> None:
     assert found[0] == pytest.approx(np.array([[0, 0, 1], [0.6, 0, 0.8], [0, 0.6, 0.8]]), rel=2.0**-52, abs=0.0)
 
 
-def test_a_trimesh_without_its_private_part_is_noted() -> None:
-    """Without it nobody knows whether the file has normals: faces are flat, and a note says so."""
-    bare = SimpleNamespace(vertices=np.eye(3), faces=np.array([[0, 1, 2]]))
-    geometry = meshes._geometry(Path("face.obj"), bare, np.eye(4))
-    assert geometry.normals is None
-    (note,) = world_of(Object(Mesh(geometry, "face.obj"), Material("matte"))).notes
-    assert note == "face.obj: this trimesh does not tell whether the file has vertex normals, so its faces are flat"
-
-
 def test_no_light_comes_through_a_face_that_its_vertex_normals_turn_towards_it() -> None:
     """Normal (0.8, 0.6, 0) on a horizontal face: a light far right and low is before the normal and behind the face."""
     tilted = np.tile([0.8, 0.6, 0.0], (3, 1))
@@ -221,19 +210,23 @@ BOMB = [
 @pytest.mark.parametrize(
     ("name", "content", "said"),
     [
-        ("empty.obj", "", "must have triangles, got an empty file"),
-        ("noise.obj", bytes(range(256)) * 4, "cannot be read as OBJ"),
-        ("points.obj", "v 0 0 0\nv 1 0 0\n", "triangles"),
-        ("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "vertex 0 must be three finite numbers"),
-        ("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "index.obj"),
-        ("noise.stl", bytes(range(256)) * 4, "cannot be read as STL"),
-        ("cut.ply", ply()[:-20], "must have 12 faces as its header says, got 9"),
-        ("bomb.ply", ply(10**9), "must have no more elements than bytes, got 1000000000 of vertex"),
-        ("noise.glb", b"glTF" + bytes(40), "cannot be read as GLB"),
-        ("cut.glb", glb()[:200], "cannot be read as GLB"),
-        ("bomb.glb", glb(accessors=BOMB), "accessor 0 must have no more elements than the file holds, got 30000000"),
-        ("cyclic.glb", glb(nodes=[{"mesh": 0, "children": [0]}]), ""),
-        ("view.glb", glb(bufferViews=[]), "cannot be read as GLB"),
+        ("empty.obj", "", "must have faces (f), got none"),
+        ("noise.obj", bytes(range(256)) * 4, "must have faces (f), got none"),
+        ("points.obj", "v 0 0 0\nv 1 0 0\n", "faces"),
+        ("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 'line 1: v must have finite numbers, got "nan"'),
+        ("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "line 4: a face refers to vertex 9, but the file has 3"),
+        ("noise.stl", bytes(range(256)) * 4, "triangles, as its header says, got 18"),
+        ("cut.ply", ply()[:-20], "must have 12 of element face, as its header says"),
+        (
+            "bomb.ply",
+            ply(10**9),
+            "line 3: element vertex must have no more elements than the file has bytes",
+        ),
+        ("noise.glb", b"glTF" + bytes(40), "must be glTF 2, got version 0"),
+        ("cut.glb", glb()[:200], "bytes, as its header says, got 200"),
+        ("bomb.glb", glb(accessors=BOMB), "accessors[0].count must be from 0 to 12000000, got 30000000"),
+        ("cyclic.glb", glb(nodes=[{"mesh": 0, "children": [0]}]), "node 0 must have one parent, got a second"),
+        ("view.glb", glb(bufferViews=[]), "accessors[0].bufferView must be from 0 to -1, got 0"),
     ],
 )
 def test_bad_mesh_is_one_line(tmp_path: Path, name: str, content: str | bytes, said: str) -> None:

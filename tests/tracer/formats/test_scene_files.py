@@ -234,9 +234,9 @@ def test_format_and_one_object_are_enough(scene_file) -> None:
         (f"format = 1\n{DISC}".replace("radius = 1", "radius = 0"), "object[0]: radius must be > 0, got 0"),
         (f"format = 1\n{DISC}".replace("[0, 2, 0]", "[0, 0, 0]"), "object[0]: normal must be a direction other than [0, 0, 0]"),
         (f"format = 1\n{DISC}".replace("center", "centre"), 'object[0]: unknown key "centre" (did you mean "center"?)'),
-        ('format = 1\n[[object]]\nshape = "mesh"\nfile = "none.obj"', "object[0]: mesh file not found: "),
+        ('format = 1\n[[object]]\nshape = "mesh"\nfile = "none.obj"', "object[0]: mesh none.obj: file not found"),
         ('format = 1\n[[object]]\nshape = "mesh"', "object[0]: file is missing"),
-        ('format = 1\n[[object]]\nshape = "mesh"\nfile = "scene.toml"', "object[0]: a mesh must be one of .obj, .ply, .stl, .glb"),
+        ('format = 1\n[[object]]\nshape = "mesh"\nfile = "scene.toml"', "object[0]: mesh scene.toml: a mesh must be one of .obj, .ply, .stl, .glb, .gltf"),
     ],
 )  # fmt: skip
 def test_fault(scene_file, text: str, fault: str) -> None:
@@ -265,7 +265,7 @@ def test_file_that_is_no_scene(tmp_path: Path, name: str) -> None:
 def test_folder_is_no_scene(tmp_path: Path) -> None:
     folder = tmp_path / "scene.toml"
     folder.mkdir()
-    assert faults_of(folder) == ["a scene must be a file, got a folder"]
+    assert faults_of(folder) == ["must be a file, got a folder"]
 
 
 def test_scene_written_in_python_is_held_to_the_same_rules() -> None:

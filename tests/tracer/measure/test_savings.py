@@ -61,7 +61,7 @@ def test_what_is_left_out_would_change_no_picture(name: str, worlds: dict[str, t
 
 
 def test_every_capability_has_both_scenes_or_says_why(worlds: dict[str, tracer.World]) -> None:
-    names = {need.name for need in worlds["glass-ball"].needs} - {"mesh library", "light from behind"}
+    names = {need.name for need in worlds["glass-ball"].needs} - {"light from behind"}
     assert set(WITH) == names
     assert set(WITHOUT) == names
     for world in worlds.values():

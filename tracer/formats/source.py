@@ -1,0 +1,75 @@
+"""The content of a file: bytes of a regular file of limited size, or text in any encoding that programs write."""
+
+import stat
+from pathlib import Path
+
+MOST_TEXT = 256 * 2**20  # bytes of a text file
+MOST_BYTES = 2**30  # bytes of a binary file
+
+KINDS = ((stat.S_ISDIR, "a folder"), (stat.S_ISFIFO, "a pipe"), (stat.S_ISSOCK, "a socket"))
+
+
+class Fault(Exception):
+    """An error in a file. The text is one line, without the file's name: what was found and what is allowed.
+
+    `line` is the line of the error. `file` is set if it is in another file than the one that is read, for example in a
+    material library.
+    """
+
+    def __init__(self, text: str, line: int | None = None, file: Path | None = None) -> None:
+        super().__init__(text)
+        self.line = line
+        self.file = file
+
+    def within(self, name: str) -> str:
+        """The whole message, for an error in the file `name`."""
+        places = [name, self.file.name if self.file else "", f"line {self.line}" if self.line else ""]
+        return ": ".join([*filter(None, places), str(self)])
+
+
+def check_regular(path: Path, most: int = MOST_BYTES) -> None:
+    """Raises FileNotFoundError if there is no such file, and Fault if it is not a regular file of at most `most` bytes.
+
+    Reading anything else, such as a pipe, might never end.
+    """
+    try:
+        status = path.stat()
+    except ValueError as error:  # a name with a zero byte
+        raise Fault(f"not the name of a file: {error}") from None
+    if not stat.S_ISREG(status.st_mode):
+        kind = next((kind for test, kind in KINDS if test(status.st_mode)), "a device")
+        raise Fault(f"must be a file, got {kind}")
+    if status.st_size > most:
+        raise Fault(f"must have at most {most} bytes, got {status.st_size}")
+
+
+def read_bytes(path: Path, most: int = MOST_BYTES) -> bytes:
+    """The bytes of a regular file. Raises as `check_regular`, and OSError if it cannot be read."""
+    check_regular(path, most)
+    return path.read_bytes()
+
+
+def read_text(path: Path) -> str:
+    """The text of a file; see `decode`."""
+    return decode(read_bytes(path, MOST_TEXT))
+
+
+def decode(data: bytes) -> str:
+    """Text in UTF-8 or UTF-16 with a byte order mark, in UTF-8, or else in Latin-1, which most old programs wrote.
+
+    A Control-Z at the end, from DOS, is not part of the text.
+    """
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        text = data.decode("utf-16", "replace")
+    else:
+        try:
+            text = data.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            text = data.decode("latin-1")
+    body, end, rest = text.rpartition("\x1a")
+    return body if end and not rest.strip("\x1a\0 \r\n") else text
+
+
+def shown_path(path: Path | str) -> str:
+    """A path that can be printed, even if its name is not valid UTF-8."""
+    return str(path).encode("utf-8", "backslashreplace").decode("utf-8")

@@ -1,0 +1,127 @@
+"""The transparent solids of a scene: which surfaces bound each, and which objects are made of it.
+
+A shape bounds one solid. A mesh file bounds one solid for each of its shells, whatever the names and materials of its
+faces (`tracer.shapes.shells`); an object may have faces of several, and a solid faces of several objects.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tracer.scene.scene import Object, SceneError, place
+from tracer.shapes.mesh import Body, Mesh
+from tracer.shapes.shape import Shape
+from tracer.shapes.shells import OPEN, find_shells, winding_number
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """A transparent solid, or a medium behind an open surface."""
+
+    objects: tuple[int, ...]  # those with faces on it that transmit light
+    closed: bool
+    shape: Shape | None = None  # of a solid that is one shape
+    corners: np.ndarray | None = None  # (m, 3, 3) of the faces of a closed shell of a mesh
+
+    def bounds(self) -> np.ndarray | None:
+        """Its box (2, 3); None where it is infinite."""
+        if self.corners is not None:
+            return np.stack([self.corners.min(axis=(0, 1)), self.corners.max(axis=(0, 1))])
+        boxes = self.shape.bounds() if self.shape else None
+        return None if boxes is None else np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+
+    def contains(self, p: np.ndarray) -> bool:
+        """Whether the point lies inside."""
+        if self.corners is None:
+            return self.closed and self.shape is not None and self.shape.contains(p)
+        low, high = self.corners.min(axis=(0, 1)), self.corners.max(axis=(0, 1))
+        return bool((p >= low).all() and (p <= high).all()) and winding_number(self.corners, p) > 0.5
+
+
+@dataclass(frozen=True)
+class Solids:
+    """The solids of a scene, by rank: by falling priority, and in the file's order among equals."""
+
+    objects: tuple[Object, ...]  # the scene's, with shells that were wound inside out turned
+    ranked: tuple[Solid, ...]
+    of_faces: dict[int, np.ndarray | int]  # by object: the rank of its solid, or of each face's; only transparent ones
+    turned: tuple[int, ...]  # objects with faces that were turned
+
+
+def find_solids(objects: Sequence[Object]) -> Solids:
+    """The solids of a scene's objects. Raises SceneError if the faces of one have different indices of refraction."""
+    found: list[Solid] = []
+    faces: dict[int, np.ndarray | int] = {}
+    changed = list(objects)
+    turned: list[int] = []
+    bodies: dict[Body | int, list[int]] = {}
+    for k, item in enumerate(objects):
+        if isinstance(item.shape, Mesh):
+            bodies.setdefault(item.shape.body or k, []).append(k)
+        elif is_medium(item):
+            faces[k] = len(found)
+            found.append(Solid((k,), item.shape.is_closed(), item.shape))
+    for members in bodies.values():
+        if any(is_medium(objects[k]) for k in members):
+            turned += _add_body(members, changed, found, faces)
+    order = sorted(range(len(found)), key=lambda j: (-objects[found[j].objects[0]].priority, found[j].objects[0]))
+    rank = np.zeros(len(found), np.int64)
+    rank[order] = np.arange(len(found))
+    return Solids(tuple(changed), tuple(found[j] for j in order), {k: rank[j] for k, j in faces.items()}, tuple(turned))
+
+
+def is_medium(item: Object) -> bool:
+    """Whether light enters the object."""
+    return item.material.transmit > 0.0 and not item.thin
+
+
+def _add_body(
+    members: list[int], objects: list[Object], found: list[Solid], faces: dict[int, np.ndarray | int]
+) -> list[int]:
+    """Add the solids of one mesh file in one place. Returns the objects of which faces were turned."""
+    shapes = [objects[k].shape for k in members]
+    assert all(isinstance(shape, Mesh) for shape in shapes)
+    corners = [shape.all_faces() for shape in shapes if isinstance(shape, Mesh)]
+    shells = find_shells(np.concatenate(corners))
+    turned = []
+    media = {k for k in members if is_medium(objects[k])}
+    starts = dict(zip(members, np.cumsum([0, *(len(own) for own in corners)]), strict=False))
+    for k in members:
+        shape = objects[k].shape
+        assert isinstance(shape, Mesh)
+        count = len(shape.geometry.faces)
+        own = shells.turned[starts[k] : starts[k] + count]
+        if own.any() and k in media:
+            turned.append(k)
+        if own.any():
+            objects[k] = replace(objects[k], shape=replace(shape, geometry=shape.geometry.turned(own)))
+    placed = {k: shape.placed() for k in members if isinstance(shape := objects[k].shape, Mesh)}
+    of_face = {k: shells.solid[starts[k] : starts[k] + len(placed[k])] for k in members}
+    numbers = np.full(shells.count + 1, OPEN)
+    for solid in range(shells.count):
+        with_faces = [k for k in members if (of_face[k] == solid).any()]
+        outer = tuple(k for k in with_faces if k in media)
+        if outer:
+            _check_one_medium(outer, [k for k in with_faces if objects[k].material.transmit > 0.0], objects)
+            numbers[solid] = len(found)
+            found.append(Solid(outer, True, None, np.concatenate([placed[k][of_face[k] == solid] for k in with_faces])))
+    for k in sorted(media):
+        own = np.where(of_face[k] == OPEN, OPEN, numbers[of_face[k]])
+        if (own == OPEN).any():
+            own = np.where(own == OPEN, len(found), own)
+            found.append(Solid((k,), False, objects[k].shape))
+        faces[k] = own
+    return turned
+
+
+def _check_one_medium(media: tuple[int, ...], members: list[int], objects: list[Object]) -> None:
+    """All faces of a solid that transmit light have one index of refraction, and none is thin."""
+    first = media[0]
+    for k in members:
+        names = " and ".join(place("object", n, objects[n].name) for n in (first, k))
+        a, b = objects[first].material, objects[k].material
+        if k not in media:
+            raise SceneError([f"{names} bound one solid: they must be thin both, or neither"])
+        if a.ior != b.ior:
+            raise SceneError([f"{names} bound one solid: they must have one ior, got {a.ior:g} and {b.ior:g}"])

@@ -1,0 +1,139 @@
+"""Shells of a triangle mesh: its connected pieces, which of them are closed, and which solid each bounds.
+
+Corners at equal places are one point, whatever the file's indices. Two triangles are connected if they are the only
+ones at an edge, and run along it in opposite directions. A shell is closed if every edge is run along as often in
+one direction as in the other. Then its signed volume tells whether it is wound right side out (positive).
+
+A positive shell is a solid of its own. A negative one inside a positive one is a cavity of that solid; inside no
+other it is wound inside out, and must be turned.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+OPEN = -1
+
+
+class Shells(NamedTuple):
+    """The solids of a mesh with m faces."""
+
+    solid: np.ndarray  # (m,) number of the solid that each face bounds, OPEN for a face of an open shell
+    turned: np.ndarray  # (m,) whether the face belongs to a closed shell that is wound inside out
+    count: int  # number of solids
+
+
+def find_shells(corners: np.ndarray) -> Shells:
+    """The solids of triangles (m, 3, 3). Faces without area count as faces here: they may close a mesh."""
+    points = welded(corners.reshape(-1, 3)).reshape(-1, 3)
+    shell, closed = shells_of(points)
+    sizes = signed_volumes(corners, shell, len(closed))
+    lows, highs = bounds_of(corners, shell, len(closed))
+    host = np.arange(len(closed))
+    for k in np.flatnonzero(closed & (sizes < 0.0)):
+        around = closed & (sizes > 0.0) & (lows <= lows[k]).all(axis=1) & (highs >= highs[k]).all(axis=1)
+        point = corners[shell == k][0].mean(axis=0)
+        for other in sorted(np.flatnonzero(around), key=lambda j: sizes[j]):
+            if winding_number(corners[shell == other], point) > 0.5:
+                host[k] = other
+                break
+    own = closed & (host == np.arange(len(closed)))
+    number = np.where(own, np.cumsum(own) - 1, OPEN)
+    solid = np.where(closed, number[host], OPEN)
+    return Shells(solid[shell], (own & (sizes < 0.0))[shell], int(own.sum()))
+
+
+def welded(points: np.ndarray) -> np.ndarray:
+    """A number (n,) for each point (n, 3). Equal points have equal numbers."""
+    points = points + 0.0  # -0 becomes 0
+    order = np.lexsort(points.T)
+    differs = (points[order[1:]] != points[order[:-1]]).any(axis=1)
+    place = np.zeros(len(order), np.int64)
+    place[order[1:]] = np.cumsum(differs)
+    return place
+
+
+def shells_of(faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(shell of each face (m,), whether each shell is closed) for triangles of numbered points (m, 3)."""
+    start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    face = np.repeat(np.arange(len(faces)), 3)
+    real = start != end
+    start, end, face = start[real], end[real], face[real]
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    key = low * (int(high.max(initial=0)) + 1) + high
+    order = np.argsort(key, kind="stable")
+    key, face, way = key[order], face[order], np.where(start < end, 1, -1)[order]
+    first = np.flatnonzero(np.diff(key, prepend=-1))
+    count = np.diff(first, append=len(key))
+    pairs = first[count == 2]
+    pairs = pairs[way[pairs] + way[pairs + 1] == 0]
+    label = components(len(faces), face[pairs], face[pairs + 1])
+    edge = np.repeat(np.arange(len(first)), count)
+    loose = unbalanced(label[face], edge, way)
+    if loose.any():
+        # Pieces that are not closed by themselves may close each other, at edges with more than two faces.
+        at = np.flatnonzero(loose)
+        joined = at[np.diff(edge[at], prepend=-1) != 0]
+        anchor = np.zeros(len(first), np.int64)
+        anchor[edge[joined]] = face[joined]
+        a = np.concatenate([face[pairs], face[at]])
+        b = np.concatenate([face[pairs + 1], anchor[edge[at]]])
+        label = components(len(faces), a, b)
+        loose = unbalanced(label[face], edge, way)
+    _, shell = np.unique(label, return_inverse=True)
+    shell = shell.ravel()
+    closed = np.ones(int(shell.max(initial=-1)) + 1, bool)
+    closed[shell[face[loose]]] = False
+    return shell, closed
+
+
+def components(count: int, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """The smallest number in the connected component of each of `count` nodes, for edges from a to b."""
+    label = np.arange(count)
+    while True:
+        la, lb = label[a], label[b]
+        if (la == lb).all():
+            return label
+        np.minimum.at(label, np.maximum(la, lb), np.minimum(la, lb))
+        while (label[label] != label).any():
+            label = label[label]
+
+
+def unbalanced(piece: np.ndarray, edge: np.ndarray, way: np.ndarray) -> np.ndarray:
+    """Whether the piece of a face runs along the edge more often one way than the other, for each side of a face."""
+    order = np.lexsort((piece, edge))
+    changes = (np.diff(piece[order], prepend=-1) != 0) | (np.diff(edge[order], prepend=-1) != 0)
+    group = np.cumsum(changes) - 1
+    sums = np.bincount(group, way[order], minlength=int(group.max(initial=-1)) + 1)
+    result = np.zeros(len(piece), bool)
+    result[order] = sums[group] != 0
+    return result
+
+
+def signed_volumes(corners: np.ndarray, shell: np.ndarray, count: int) -> np.ndarray:
+    """The volume of each shell: positive if it is wound right side out."""
+    origin = np.zeros((count, 3))
+    origin[shell] = corners[:, 0]
+    a, b, c = np.moveaxis(corners - origin[shell][:, None], 1, 0)
+    return np.bincount(shell, (a * np.cross(b, c)).sum(axis=1) / 6.0, minlength=count)
+
+
+def bounds_of(corners: np.ndarray, shell: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """The lowest and the highest corner (count, 3) of each shell's box."""
+    low, high = np.full((count, 3), math.inf), np.full((count, 3), -math.inf)
+    np.minimum.at(low, shell, corners.min(axis=1))
+    np.maximum.at(high, shell, corners.max(axis=1))
+    return low, high
+
+
+def winding_number(corners: np.ndarray, p: np.ndarray) -> float:
+    """How often closed triangles (m, 3, 3) wind about a point: 1 inside, 0 outside. From the solid angles of the faces.
+
+    Van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983.
+    """
+    a, b, c = np.moveaxis(corners - p, 1, 0)
+    la, lb, lc = (np.sqrt((x * x).sum(axis=1)) for x in (a, b, c))
+    volume = (a * np.cross(b, c)).sum(axis=1)
+    spread = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
+    return float(2.0 * np.arctan2(volume, spread).sum() / (4.0 * math.pi))
