@@ -6,8 +6,10 @@ into what the tracer uses, or says what is allowed: `radius must be > 0, got -1`
 
 import difflib
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, Field, fields, is_dataclass
+from functools import cache
+from itertools import chain
 from typing import Any
 
 LARGEST = 1e150  # limit of a coordinate: its square must not overflow
@@ -18,9 +20,13 @@ class Refused(Exception):
     """A value that is not allowed. The text says what is."""
 
 
-def rule(read: Callable[[Any], Any]) -> Mapping[str, Callable[[Any], Any]]:
-    """The metadata of a field that `read` converts and checks."""
-    return {"read": read}
+def rule(
+    read: Callable[[Any], Any], allows_all: Callable[[list[Any]], bool] = lambda values: False
+) -> Mapping[str, Callable[[Any], Any]]:
+    """The metadata of a field that `read` converts and checks. `allows_all` checks many values at once: it may return
+    False for allowed ones, which are then read one by one.
+    """
+    return {"read": read, "allows_all": allows_all}
 
 
 def number(
@@ -47,7 +53,18 @@ def number(
             raise Refused(f"at least {LEAST:g}")
         return float(value)
 
-    return rule(read)
+    def allows_all(values: list[Any]) -> bool:
+        # The range has no gaps, so the smallest and the largest value decide.
+        if not values or not set(map(type, values)) <= {float} or any(map(math.isnan, values)):
+            return False
+        try:
+            read(min(values))
+            read(max(values))
+        except Refused:
+            return False
+        return True
+
+    return rule(read, allows_all)
 
 
 def whole(least: int, most: int) -> Mapping[str, Callable[[Any], Any]]:
@@ -58,7 +75,7 @@ def whole(least: int, most: int) -> Mapping[str, Callable[[Any], Any]]:
             raise Refused(f"a whole number from {least} to {most}")
         return value
 
-    return rule(read)
+    return rule(read, lambda values: set(map(type, values)) <= {int} and least <= min(values) <= max(values) <= most)
 
 
 def flag() -> Mapping[str, Callable[[Any], Any]]:
@@ -67,7 +84,7 @@ def flag() -> Mapping[str, Callable[[Any], Any]]:
             raise Refused("true or false")
         return value
 
-    return rule(read)
+    return rule(read, lambda values: set(map(type, values)) <= {bool})
 
 
 def text() -> Mapping[str, Callable[[Any], Any]]:
@@ -76,7 +93,7 @@ def text() -> Mapping[str, Callable[[Any], Any]]:
             raise Refused("a non-empty string")
         return value
 
-    return rule(read)
+    return rule(read, lambda values: set(map(type, values)) <= {str} and all(map(str.strip, values)))
 
 
 def choice(*allowed: str) -> Mapping[str, Callable[[Any], Any]]:
@@ -90,7 +107,18 @@ def choice(*allowed: str) -> Mapping[str, Callable[[Any], Any]]:
 
 def point() -> Mapping[str, Callable[[Any], Any]]:
     """Three coordinates."""
-    return rule(lambda value: _three(value, "three numbers [x, y, z]"))
+
+    def allows_all(values: list[Any]) -> bool:
+        if not values or not set(map(type, values)) <= {tuple} or not set(map(len, values)) <= {3}:
+            return False
+        numbers = list(chain.from_iterable(values))
+        return (
+            set(map(type, numbers)) <= {float}
+            and all(map(math.isfinite, numbers))
+            and max(map(abs, numbers)) <= LARGEST
+        )
+
+    return rule(lambda value: _three(value, "three numbers [x, y, z]"), allows_all)
 
 
 def direction() -> Mapping[str, Callable[[Any], Any]]:
@@ -132,15 +160,18 @@ def points(at_least: int = 0, exactly: int | None = None) -> Mapping[str, Callab
 
 
 def _three(value: Any, allowed: str) -> tuple[float, float, float]:
-    if not isinstance(value, list | tuple) or len(value) != 3 or not all(_is_number(item) for item in value):
+    if not isinstance(value, list | tuple) or len(value) != 3:
         raise Refused(allowed)
-    if not all(abs(item) <= LARGEST for item in value):
+    x, y, z = value
+    if not (_is_number(x) and _is_number(y) and _is_number(z)):
+        raise Refused(allowed)
+    if not (abs(x) <= LARGEST and abs(y) <= LARGEST and abs(z) <= LARGEST):
         raise Refused(f"{allowed} with absolute values of at most {LARGEST:g}")
-    return (float(value[0]), float(value[1]), float(value[2]))
+    return (float(x), float(y), float(z))
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
+    return type(value) is float or (isinstance(value, int | float) and not isinstance(value, bool))
 
 
 def one_of(allowed: Iterable[str]) -> str:
@@ -177,6 +208,7 @@ def refusal(name: str, allowed: Refused | str, value: Any) -> str:
     return f"{name} must be {allowed}, got {shown(value)}"
 
 
+@cache
 def ruled(kind: type) -> dict[str, Field[Any]]:
     """The fields of a dataclass that an author may write."""
     return {field.name: field for field in fields(kind) if "read" in field.metadata}
@@ -207,6 +239,17 @@ def read_fields(kind: type, table: Mapping[str, Any], faults: list[str], also: I
 
 def _same(value: Any, default: Any) -> bool:
     return type(value) is type(default) and value == default
+
+
+def allow_all(things: Sequence[Any]) -> bool:
+    """Whether many dataclasses of one type have only allowed values. Much faster than one by one; it may return False
+    where each is allowed.
+    """
+    for name, field in ruled(type(things[0])).items():
+        values = [value for thing in things if (value := getattr(thing, name)) is not field.default]
+        if values and not field.metadata["allows_all"](values):
+            return False
+    return True
 
 
 def value_faults(thing: Any) -> list[str]:

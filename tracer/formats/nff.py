@@ -17,23 +17,22 @@ surfaces are seen from both sides, also those of negative radius, which the form
 import math
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from tracer import fields
+from tracer.formats.nff_polygons import Patches, flattened
 from tracer.formats.notes import Notes
 from tracer.formats.source import Fault, read_text, shown_path
 from tracer.formats.words import Word, Words
-from tracer.formulas.double_double import dd_cross, exact_difference
 from tracer.formulas.vector import Vector, as_floats, rescale, unit
 from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, SceneError, Shape
 from tracer.shapes.cone import Cone
-from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.planar import unit_normal
-from tracer.shapes.polygon import FLATNESS, Polygon
+from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 
 ENTITIES = {
@@ -50,29 +49,7 @@ FORMAT_NAMES: dict[type, dict[str, str]] = {
     },
 }  # fmt: skip
 
-# Corners that are off their plane by less than this, relative to the polygon's size, are moved into it.
-PLANARITY_TOLERANCE = 1e-3
 MOST_CORNERS = 10**6
-
-
-@dataclass
-class Patches:
-    """Consecutive triangles of one material: their corners, and their normals if they have any."""
-
-    material: Material
-    smooth: bool
-    corners: list[Any]
-    normals: list[Any]
-
-    def mesh(self) -> Mesh | None:
-        """The mesh; None if it has no area: generators write degenerate triangles where a patch ends in a point."""
-        corners = np.array(self.corners).reshape(-1, 3)
-        normals = np.array(self.normals).reshape(-1, 3) if self.smooth else None
-        faces = np.arange(len(corners)).reshape(-1, 3)
-        a, b, c = (tuple(corners[k::3].T) for k in range(3))
-        area = dd_cross(exact_difference(b, a), exact_difference(c, a))
-        faces = faces[np.any([high != 0.0 for high, _ in area], axis=0)]
-        return Mesh(Geometry(corners, faces, normals)) if len(faces) else None
 
 
 def read_nff(path: Path, progress: Callable[[float], None]) -> Scene:
@@ -92,7 +69,9 @@ class Reader:
     def __init__(self, path: Path, words: Words) -> None:
         self.path = path
         self.words = words
-        self.faults: list[str] = []
+        self.faults: list[tuple[int, str]] = []  # with the line
+        self.line = 0  # of the entity that is read
+        self.unchecked: dict[type, list[tuple[int, str, Shape]]] = {}  # (line, name, shape), by type
         self.camera, self.image, self.background = Camera(), Image(), Background()
         self.lights: list[tuple[Vector, Vector | None]] = []
         self.material: Material | None = None
@@ -104,17 +83,20 @@ class Reader:
         while self.words.left():
             progress(self.words.share())
             word = self.words.take()
+            self.line = word.line
             try:
                 self._entity(word)
             except Fault as fault:
-                self.faults.append(f"{self.path}: line {fault.line or word.line}: {fault}")
+                self.faults.append((fault.line or word.line, str(fault)))
                 self.words.skip()
         self._end_run()
-        if not self.faults and not self.shapes:
-            self.faults.append(f"{self.path}: a scene needs at least one object (s, p, pp or c), got none")
+        self._check_shapes()
+        path = shown_path(self.path)
         if self.faults:
-            raise SceneError(self.faults)
-        cavities = {k for k in self.inverted if self._is_cavity(k)}
+            raise SceneError([f"{path}: line {line}: {text}" for line, text in sorted(self.faults)])
+        if not self.shapes:
+            raise SceneError([f"{path}: a scene needs at least one object (s, p, pp or c), got none"])
+        cavities = self._cavities()
         notes = Notes()
         notes.count(
             "surfaces of negative radius inside no ball are shown from both sides", len(self.inverted) - len(cavities)
@@ -124,22 +106,37 @@ class Reader:
             for k, (shape, material) in enumerate(self.shapes)
         ]
         parts = (tuple(objects), tuple(self._lights()), self.camera, self.image, self.background)
-        path = self.path
-        own = tuple(f"{path.name}: {note}" for note in notes.lines())
-        return Scene(*parts, title=path.stem, path=path, notes=own, files=(path,))
+        own = tuple(f"{self.path.name}: {note}" for note in notes.lines())
+        return Scene(*parts, title=self.path.stem, path=self.path, notes=own, files=(self.path,))
 
-    def _is_cavity(self, k: int) -> bool:
-        """Whether a ball of negative radius lies inside a transparent ball of positive radius, and is transparent."""
-        inner, material = self.shapes[k]
-        if not isinstance(inner, Sphere) or material.transmit == 0.0:
-            return False
-        return any(
-            isinstance(outer, Sphere)
-            and j not in self.inverted
-            and other.transmit > 0.0
-            and math.dist(inner.center, outer.center) + inner.radius <= outer.radius
-            for j, (outer, other) in enumerate(self.shapes)
-        )
+    def _check_shapes(self) -> None:
+        """Check all shapes: those of one type together, and one by one if that finds a fault."""
+        for kind, shapes in self.unchecked.items():
+            if kind.faults is Shape.faults and fields.allow_all([shape for _, _, shape in shapes]):
+                continue
+            for line, name, shape in shapes:
+                try:
+                    self._checked(shape, name)
+                except Fault as fault:
+                    self.faults.append((line, str(fault)))
+
+    def _cavities(self) -> set[int]:
+        """The transparent balls of negative radius that lie inside a transparent ball of positive radius."""
+        balls = [
+            (k, shape.center, shape.radius)
+            for k, (shape, material) in enumerate(self.shapes)
+            if self.inverted and isinstance(shape, Sphere) and material.transmit > 0.0
+        ]
+        inverted = set(self.inverted)
+        outer = [(center, radius) for k, center, radius in balls if k not in inverted]
+        if not outer:
+            return set()
+        centers, radii = np.array([center for center, _ in outer]), np.array([radius for _, radius in outer])
+        found = set()
+        for k, center, radius in balls:
+            if k in inverted and (np.linalg.norm(centers - center, axis=1) + radius <= radii).any():
+                found.add(k)
+        return found
 
     def _entity(self, word: Word) -> None:
         number, vector = self.words.number, self.words.vector
@@ -253,7 +250,8 @@ class Reader:
 
     def _add(self, shape: Any, name: str) -> None:
         self._end_run()
-        self.shapes.append((self._checked(shape, name), self._filled()))
+        self.shapes.append((shape, self._filled()))
+        self.unchecked.setdefault(type(shape), []).append((self.line, name, shape))
 
     def _filled(self) -> Material:
         if self.material is None:
@@ -275,15 +273,3 @@ class Reader:
             text = re.sub(r"\w+", lambda word: names.get(word.group(), word.group()), "; ".join(faults))
             raise Fault(f"{name}: {text}", line)
         return part
-
-
-def flattened(points: list[Vector]) -> list[Vector]:
-    """The corners of a polygon, moved into its plane if they are off it only because few digits were printed."""
-    corners = np.array(points)
-    middle = corners.mean(axis=0)
-    normal = unit_normal(corners)
-    heights = (corners - middle) @ normal
-    size = np.linalg.norm(corners - middle, axis=1).max()
-    if not 0.25 * FLATNESS * size < np.abs(heights).max() < PLANARITY_TOLERANCE * size:
-        return points
-    return [as_floats(corner) for corner in corners - np.outer(heights, normal)]

@@ -25,6 +25,8 @@ TABLES = ("camera", "image", "background", "tracing")
 LISTS = ("light", "material", "object")
 KEYS = ("format", "title", *TABLES, *LISTS)
 OWN_KEYS = ("name", "priority", "thin")  # keys of an object of any shape
+KINDS = {shape.name: shape for shape in SHAPES}
+NO_MATERIAL = Material()
 OBJECT_KEYS = ("shape", "material", *OWN_KEYS)
 
 
@@ -71,6 +73,8 @@ class Reader:
         self.files: dict[Path, MeshFile | Fault] = {}  # mesh files that were read
 
     def fault(self, where: str, *what: str) -> None:
+        if not what:
+            return
         path = shown_path(self.path)
         self.faults += [f"{path}: {where}: {line}" if where else f"{path}: {line}" for line in what]
 
@@ -175,9 +179,12 @@ class Reader:
         before = len(self.faults)
         material = self._material_of(where, table, materials)
         parts = self._shape(where, table)
-        own = self.values(Object, where, {key: table[key] for key in OWN_KEYS if key in table})
+        given_keys = {key: table[key] for key in OWN_KEYS if key in table}
+        own = self.values(Object, where, given_keys) if given_keys else {}
         if len(self.faults) > before or own is None:
             return []
+        if not given_keys and len(parts) == 1 and not parts[0].name:
+            return [Object(parts[0].shape, material or parts[0].material, thin=parts[0].thin and material is None)]
         given = own.pop("name", "")
         objects = []
         for part in parts:
@@ -189,12 +196,12 @@ class Reader:
     def _material_of(self, where: str, table: dict[str, Any], materials: dict[str, Material | None]) -> Material | None:
         name = table.get("material")
         if name is None:
-            return None if table.get("shape") == Mesh.name else Material()
+            return None if table.get("shape") == Mesh.name else NO_MATERIAL
         if not isinstance(name, str) or name not in materials:
             hint = fields.nearest(name, materials) or known(materials)
             self.fault(where, f"material must be the name of a [[material]], got {fields.shown(name)}{hint}")
             return None
-        return materials[name] or Material()
+        return materials[name] or NO_MATERIAL
 
     def _shape(self, where: str, table: dict[str, Any]) -> list[Object]:
         """The objects that this table makes, as its file describes them."""
@@ -209,9 +216,8 @@ class Reader:
         own = {key: value for key, value in table.items() if key not in OBJECT_KEYS}
         if name == Mesh.name:
             return self._mesh(where, own)
-        kind = next(shape for shape in SHAPES if shape.name == name)
-        shape = self.table(kind, where, own, OBJECT_KEYS)
-        return [] if shape is None else [Object(shape, Material())]
+        shape = self.table(KINDS[name], where, own, OBJECT_KEYS)
+        return [] if shape is None else [Object(shape, NO_MATERIAL)]
 
     def _mesh(self, where: str, own: dict[str, Any]) -> list[Object]:
         values = self.values(Mesh, where, own, OBJECT_KEYS)

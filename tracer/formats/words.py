@@ -65,6 +65,13 @@ class Words:
         return value
 
     def vector(self, what: str) -> Vector:
+        try:
+            x, y, z = map(float, self.texts[self.at : self.at + 3])
+        except ValueError:
+            return (self.number(what), self.number(what), self.number(what))  # raises Fault
+        if math.isfinite(x) and math.isfinite(y) and math.isfinite(z):
+            self.at += 3
+            return (x, y, z)
         return (self.number(what), self.number(what), self.number(what))
 
     def skip(self) -> None:

@@ -1,6 +1,7 @@
 """Packs a scene into the rows that kernels read. Surfaces are in the file's order: their ids decide ties."""
 
 from collections.abc import Sequence
+from itertools import groupby
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -36,43 +37,57 @@ def pack_surfaces(objects: Sequence[Object], solid_of: dict[int, np.ndarray | in
     bounds: list[np.ndarray] = []
     corner_count = smooth_count = count = 0
     first_such: dict[Shape, int] = {}
-    for k, item in enumerate(objects):
-        shape = item.shape
-        boxes = shape.bounds()
-        rows = np.zeros(1 if boxes is None else len(boxes), SURFACE)
-        rows["object"], rows["first"], rows["smooth"] = k, -1, -1
-        rows["solid"] = solid_of.get(k, -1)
-        rows["coincident"] = count + np.arange(len(rows))
-        if shape.curved:
-            rows["coincident"] = first_such.setdefault(shape, count)
-        count += len(rows)
-        rows["shape_code"] = CODES[shape.packed_as or shape.name]
-        shape.pack(rows)
-        if (outline := shape.outline()) is not None:
-            rows["first"] = corner_count
-            corners.append(outline)
-            corner_count += len(outline)
-        if (normals := shape.smooth()) is not None:
-            rows["smooth"] = smooth_count + np.arange(len(normals))
-            smooth.append(normals)
-            smooth_count += len(normals)
-        blocks.append(rows)
-        bounds.append(INFINITE if boxes is None else boxes)
+    for kind, run in groupby(enumerate(objects), key=lambda pair: type(pair[1].shape)):
+        members = list(run)
+        shapes = [item.shape for _, item in members]
+        rows = np.zeros(len(members), SURFACE)
+        boxes = kind.pack_together(shapes, rows)
+        if boxes is not None:
+            rows["object"] = [k for k, _ in members]
+            rows["solid"] = [solid_of.get(k, -1) for k, _ in members]
+            rows["first"], rows["smooth"] = -1, -1
+            rows["shape_code"] = CODES[kind.name]
+            rows["coincident"] = [first_such.setdefault(shape, count + n) for n, shape in enumerate(shapes)]
+            blocks.append(rows)
+            bounds.append(boxes)
+            count += len(rows)
+            continue
+        for k, item in members:
+            shape = item.shape
+            boxes = shape.bounds()
+            rows = np.zeros(1 if boxes is None else len(boxes), SURFACE)
+            rows["object"], rows["first"], rows["smooth"] = k, -1, -1
+            rows["solid"] = solid_of.get(k, -1)
+            rows["coincident"] = count + np.arange(len(rows))
+            if shape.curved:
+                rows["coincident"] = first_such.setdefault(shape, count)
+            count += len(rows)
+            rows["shape_code"] = CODES[shape.packed_as or shape.name]
+            shape.pack(rows)
+            if (outline := shape.outline()) is not None:
+                rows["first"] = corner_count
+                corners.append(outline)
+                corner_count += len(outline)
+            if (normals := shape.smooth()) is not None:
+                rows["smooth"] = smooth_count + np.arange(len(normals))
+                smooth.append(normals)
+                smooth_count += len(normals)
+            blocks.append(rows)
+            bounds.append(INFINITE if boxes is None else boxes)
     rows = as_rows(np.concatenate(blocks), SurfaceRow)
     return Surfaces(rows, np.concatenate(corners), np.concatenate(smooth), np.concatenate(bounds))
 
 
 def pack_objects(objects: Sequence[Object], materials: dict[Material, int]) -> Rows[ObjectRow]:
     """One row for each object. `materials` maps a material to its number."""
-    rows = [_object(item, materials[item.material]) for item in objects]
-    return as_rows(np.array(rows, OBJECT), ObjectRow)
-
-
-def _object(item: Object, material: int) -> tuple[Any, ...]:
-    shape = item.shape
-    plane = shape.plane() if shape.checker_in_plane else None
-    u, v = plane_axes(plane[1]) if plane else ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    return (material, item.thin, plane is not None, u, v)
+    rows = np.zeros(len(objects), OBJECT)
+    rows["material"] = [materials[item.material] for item in objects]
+    rows["sheet"] = [item.thin for item in objects]
+    for k, item in enumerate(objects):
+        if item.shape.checker_in_plane and (plane := item.shape.plane()):
+            rows[k]["tiled"] = True
+            rows[k]["u"], rows[k]["v"] = plane_axes(plane[1])
+    return as_rows(rows, ObjectRow)
 
 
 def plane_axes(n: Vector) -> tuple[Vector, Vector]:

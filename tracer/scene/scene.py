@@ -162,13 +162,24 @@ class Scene:
 
     def faults(self) -> list[str]:
         """Every value that is not allowed, a line each, by the same rules as for a file."""
-        found = []
-        parts = [("camera", self.camera), ("image", self.image), ("background", self.background)]
-        parts += [("tracing", self.tracing)]
+        parts: list[tuple[str, Any]] = [("camera", self.camera), ("image", self.image)]
+        parts += [("background", self.background), ("tracing", self.tracing)]
         parts += [(place("light", k, light.name), light) for k, light in enumerate(self.lights)]
+        items: dict[type, list[Object]] = {}
+        for item in self.objects:
+            items.setdefault(type(item.shape), []).append(item)
+        # Of many shapes of one type, nearly always all values are allowed: they are checked together.
+        fine = {kind for kind, own in items.items() if kind.faults is Shape.faults and _allows_all(own)}
+        materials: set[int] = set()
         for k, item in enumerate(self.objects):
-            here = place("object", k, item.name)
-            parts += [(here, item), (here, item.shape), (f'{here}: material "{item.material.name}"', item.material)]
+            if type(item.shape) not in fine:
+                here = place("object", k, item.name)
+                parts += [(here, item), (here, item.shape)]
+            if id(item.material) not in materials:
+                materials.add(id(item.material))
+                here = place("object", k, item.name)
+                parts.append((f'{here}: material "{item.material.name}"', item.material))
+        found = []
         for here, part in parts:
             faults = fields.value_faults(part)
             if not faults and hasattr(part, "faults"):
@@ -177,6 +188,11 @@ class Scene:
         if not self.objects:
             found.append("a scene needs at least one object")
         return found
+
+
+def _allows_all(items: list[Object]) -> bool:
+    """Whether all values of objects with shapes of one type are allowed; see `fields.allow_all`."""
+    return fields.allow_all([item.shape for item in items]) and fields.allow_all(items)
 
 
 class SceneError(ValueError):

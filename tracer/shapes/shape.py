@@ -1,6 +1,7 @@
 """The base class of all shapes: their properties, with defaults. `sphere.py` is the model to follow."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from typing import ClassVar, Self
 
 import numpy as np
@@ -27,6 +28,14 @@ class Shape(ABC):
     @abstractmethod
     def pack(self, rows: np.ndarray) -> None:
         """Fill its rows of `SURFACE`, one for each box that `bounds` gives."""
+
+    @classmethod
+    def pack_together(cls, shapes: "Sequence[Self]", rows: np.ndarray) -> np.ndarray | None:
+        """Fill one row for each of many shapes, and return their boxes (n, 2, 3); None if the shape has no such method.
+
+        It is worth its lines for a shape of which scenes have very many.
+        """
+        return None
 
     @abstractmethod
     def bounds(self) -> np.ndarray | None:

@@ -8,6 +8,7 @@ first form cannot decide, the whole quadratic is solved in double-double.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar
 
@@ -71,6 +72,12 @@ class Sphere(Shape):
         rows["a"] = self.center
         rows["r"] = self.radius
         rows["count"] = SPHERE_COUNT
+
+    @classmethod
+    def pack_together(cls, shapes: Sequence["Sphere"], rows: np.ndarray) -> np.ndarray:
+        centers, radii = np.array([s.center for s in shapes]), np.array([s.radius for s in shapes])
+        rows["a"], rows["r"], rows["count"] = centers, radii, SPHERE_COUNT
+        return np.stack([centers - radii[:, None], centers + radii[:, None]], axis=1)
 
     def bounds(self) -> np.ndarray:
         center = np.array(self.center)
