@@ -43,6 +43,7 @@ def load(path: str | Path, progress: Progress = lambda share: None, up: str = UP
     """
     from tracer.formats.source import Fault, check_regular, shown_path
     from tracer.scene import SceneError
+    from tracer.scene.garbage import no_garbage_collection
 
     path = Path(path)
     suffix = path.suffix.lower()
@@ -57,7 +58,8 @@ def load(path: str | Path, progress: Progress = lambda share: None, up: str = UP
         raise SceneError([f"{shown_path(path)}: only a mesh file has an axis that points upwards (up)"])
     try:
         check_regular(path)
-        return resolve_name(reader)(path, progress, **options)
+        with no_garbage_collection():
+            return resolve_name(reader)(path, progress, **options)
     except Fault as fault:
         raise SceneError([fault.within(shown_path(path))]) from None
     except FileNotFoundError:

@@ -17,6 +17,7 @@ from tracer.kernel.formulas import STABLE, Formulas
 from tracer.kernel.packing import pack_lights, pack_materials, pack_objects, pack_surfaces
 from tracer.scene import Material, Scene, SceneError
 from tracer.scene.cameras import scene_view
+from tracer.scene.garbage import no_garbage_collection
 from tracer.scene.notes import hidden_notes, open_notes, turned_notes
 from tracer.scene.scene import middle_and_radius
 from tracer.scene.solids import Solid, find_solids
@@ -74,6 +75,7 @@ class World:
         return self._solids_around[point]
 
 
+@no_garbage_collection()
 def prepare(scene: Scene, hierarchy: bool | None = None, formulas: Formulas = STABLE) -> World:
     """Prepare a scene for tracing.
 
