@@ -26,8 +26,6 @@ def read_mesh_scene(path: Path, progress: Callable[[float], None], up: str = "y"
     """The scene that consists of this mesh file, with its camera and lights. If it has no lights, the scene is lit
     from above the camera. `up` is the axis of the file that points upwards.
     """
-    if not path.exists():
-        raise FileNotFoundError(path)
     try:
         found = load_mesh(path, progress)
     except Fault as fault:

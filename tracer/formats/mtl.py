@@ -213,12 +213,12 @@ def material_of(entry: Entry, notes: Notes) -> Material:
     if model in PICTURE_REFLECTIONS:
         notes.name("materials with illum 8 or 9 reflect a picture, which is not shown", entry.name)
     if "ka" in colors and model != CONSTANT:
-        notes.say(f"Ka is not read: the ambient coefficient is {AMBIENT}")
+        notes.say("Ka is not read: all materials have the same ambient coefficient")
     highlight = mean(colors.get("ks", (0.0, 0.0, 0.0)))
     return Material(
         name=uncommented(entry.name),
         color=colors.get("kd", CLAY.color),
-        ambient=1.0 if model == CONSTANT else AMBIENT,
+        ambient=1.0 if model == CONSTANT else AMBIENT * (1.0 - transmit),
         diffuse=0.0 if model == CONSTANT else 1.0 - transmit,
         specular=0.0 if model in WITHOUT_HIGHLIGHT else highlight,
         shininess=max(1.0, given.get("ns", 1.0)),

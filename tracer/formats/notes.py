@@ -11,7 +11,7 @@ class Notes:
         self._names: dict[str, dict[str, None]] = {}
 
     def count(self, text: str, n: int = 1) -> None:
-        """Add n things to the note `text`, which continues the number: "faces without area are left out"."""
+        """Add n things to the note `text`, which is followed by their number."""
         if n:
             self._counts[text] = self._counts.get(text, 0) + n
 
@@ -26,4 +26,4 @@ class Notes:
     def lines(self) -> list[str]:
         """The notes, in the order in which their kinds were first added: named ones, then counted ones."""
         named = [f"{text}: {listed(list(names))}" if names else text for text, names in self._names.items()]
-        return named + [f"{n} {text}" for text, n in self._counts.items()]
+        return named + [f"{text}: {n}" for text, n in self._counts.items()]

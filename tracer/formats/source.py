@@ -54,8 +54,9 @@ def read_text(path: Path) -> str:
     return decode(read_bytes(path, MOST_TEXT))
 
 
-def decode(data: bytes) -> str:
-    """Text in UTF-8 or UTF-16 with a byte order mark, in UTF-8, or else in Latin-1, which most old programs wrote.
+def decode(data: bytes, replaced: bool = False) -> str:
+    """Text in UTF-8 or UTF-16 with a byte order mark, in UTF-8, or else in Latin-1, which most old programs wrote. If
+    `replaced`, bytes that are not UTF-8 become U+FFFD instead.
 
     A Control-Z at the end, from DOS, is not part of the text.
     """
@@ -65,11 +66,12 @@ def decode(data: bytes) -> str:
         try:
             text = data.decode("utf-8-sig")
         except UnicodeDecodeError:
-            text = data.decode("latin-1")
+            text = data.decode("utf-8-sig", "replace") if replaced else data.decode("latin-1")
     body, end, rest = text.rpartition("\x1a")
     return body if end and not rest.strip("\x1a\0 \r\n") else text
 
 
 def shown_path(path: Path | str) -> str:
-    """A path that can be printed, even if its name is not valid UTF-8."""
-    return str(path).encode("utf-8", "backslashreplace").decode("utf-8")
+    """A path that can be printed, even if its name is not valid UTF-8 or has control characters."""
+    text = str(path).encode("utf-8", "backslashreplace").decode("utf-8")
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)

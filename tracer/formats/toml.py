@@ -41,12 +41,7 @@ def read_scene(path: Path, progress: Callable[[float], None]) -> Scene:
 
 def parsed(data: bytes) -> dict[str, Any]:
     """The document. In a file that is not UTF-8, only comments may have other bytes. Raises Fault."""
-    text, bad_byte = decode(data), None
-    if data[:2] not in (b"\xff\xfe", b"\xfe\xff"):
-        try:
-            data.decode("utf-8")
-        except UnicodeDecodeError as error:
-            text, bad_byte = data.decode("utf-8", "replace"), error.start
+    text = decode(data, replaced=True)
     try:
         document = tomllib.loads(text)
     except RecursionError:
@@ -58,9 +53,18 @@ def parsed(data: bytes) -> dict[str, Any]:
         raise Fault(f"not TOML: {what[:1].lower()}{what[1:]}{hint}") from None
     except ValueError as error:
         raise Fault(f"not TOML that can be read: {str(error).split(';')[0]}") from None
-    if bad_byte is not None and "\ufffd" in repr(document):
-        raise Fault(f"byte {bad_byte}: a scene file is UTF-8 text, got something else")
+    if "\ufffd" in text and "\ufffd" in repr(document):
+        raise Fault(f"byte {first_bad_byte(data)}: a scene file is UTF-8 text, got something else")
     return document
+
+
+def first_bad_byte(data: bytes) -> int:
+    """The position of the first byte that is not UTF-8."""
+    try:
+        data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        return error.start
+    return len(data)
 
 
 class Reader:

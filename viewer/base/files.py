@@ -68,3 +68,11 @@ def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
+
+
+def is_there(path: Path) -> bool:
+    """Whether a file or folder exists. False for a name that cannot be one, for example because it is too long."""
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import tracer
-from tracer.formats import READERS, UP_AXES
-from viewer.base.files import Unusable
+from tracer.formats import OTHER_MESHES, READERS, UP_AXES
+from viewer.base.files import Unusable, is_there
 from viewer.base.progress import Progress
 from viewer.lessons import lesson
 from viewer.lessons.lesson import Lesson
@@ -15,10 +15,10 @@ from viewer.lessons.lesson import Lesson
 def find(name: str) -> tuple[Path, Lesson | None]:
     """The scene's file, and the lesson if a lesson was named. Unusable if there is neither."""
     path = Path(name)
-    if (path / "lesson.md").is_file():
+    if is_there(path / "lesson.md"):
         found = lesson.read_file(path / "lesson.md")
         return found.scene, found
-    if path.exists() or path.suffix.lower() in READERS:
+    if is_there(path) or path.suffix.lower() in (*READERS, *OTHER_MESHES):
         return path, None
     if name not in lesson.names() and (path.suffix or len(path.parts) > 1):
         raise Unusable(f"{name}: a scene must be one of {', '.join(READERS)} or a lesson's name")

@@ -6,7 +6,8 @@ from pathlib import Path
 import platformdirs
 
 import tracer
-from viewer.base.files import Unusable, check_writable
+from tracer.formats.source import shown_path
+from viewer.base.files import Unusable, check_writable, is_there
 from viewer.base.pictures import write_picture
 from viewer.base.progress import Progress
 from viewer.cli.loading import faults, find, prepared
@@ -23,8 +24,8 @@ SIZE = (1280, 720)
 
 def view(options: ViewOptions) -> int:
     path, lesson = find(options.scene or lessons.names()[0])
-    if not path.exists():  # a file that cannot be read is shown with its faults: perhaps it is being written
-        raise Unusable(f"{path}: file not found")
+    if not is_there(path):  # a file that cannot be read is shown with its faults: perhaps it is being written
+        raise Unusable(f"{shown_path(path)}: file not found")
     if options.screenshot:
         if options.screenshot.suffix.lower() != ".png":
             raise Unusable(f"{options.screenshot}: a screenshot must be a .png file")

@@ -22,7 +22,8 @@ from pathlib import Path
 from typing import Any
 
 from tracer import fields
-from viewer.base.files import Unusable
+from tracer.formats.source import Fault, read_text, shown_path
+from viewer.base.files import Unusable, is_there
 from viewer.base.orbit import AZIMUTH, DISTANCE, ELEVATION
 
 MARK = "+++"
@@ -63,14 +64,17 @@ def names() -> list[str]:
 def read(name: str) -> Lesson:
     """Read one lesson by name. Raises Unusable with all faults of its file."""
     path = folder() / name / "lesson.md"
-    if not path.is_file():
+    if not is_there(path):
         raise Unusable(f'no lesson "{name}"{fields.nearest(name, names())} (known: {", ".join(names())})')
     return read_file(path)
 
 
 def read_file(path: Path) -> Lesson:
     """Read a lesson from any file."""
-    text = path.read_text("utf-8")
+    try:
+        text = read_text(path).replace("\r\n", "\n")
+    except Fault as fault:
+        raise Unusable(fault.within(shown_path(path))) from None
     if text.count(f"{MARK}\n") < 2 or not text.startswith(MARK):
         raise Unusable(f"{path}: a lesson begins with its data between two lines {MARK}")
     _, head, body = text.split(f"{MARK}\n", 2)

@@ -56,9 +56,9 @@ RIGHT = [
     Right("05-mtllib-two-lines/two.obj", **TWO, names=("red", "glass"), transmit=(0.0, 0.9), ior=(1.0, 1.5)),
     Right("05-one-bad-one-good/two.obj", **TWO, **GLASS, colors=((0.9, 0.9, 0.9), (0.0, 0.0, 0.0))),
     Right("05-usemtl-comment/two.obj", **TWO, **GLASS),
-    Right("06-degenerate/t.obj", notes=("t.obj: 2 faces without area are left out",)),
+    Right("06-degenerate/t.obj", notes=("t.obj: faces without area are left out: 2",)),
     Right("06-inline-comment/t.obj"),
-    Right("06-v-colour/t.obj", notes=("t.obj: 8 vertex colours are not shown",)),
+    Right("06-v-colour/t.obj", notes=("t.obj: vertex colours are not shown: 8",)),
     Right("07-glb-mirrored/m.glb", bounds=([-1, 0, 0], [0, 1, 1])),
     Right("08-glb-thin-transmission/m.glb", transmit=(0.9,), thin=(True,)),
     Right(
@@ -72,8 +72,8 @@ RIGHT = [
     Right("12-glb-quantized/m.glb"),
     Right("14-glb-fan/m.glb", 2, 0.0, 1.0, ([0, 0, 0], [1, 1, 0])),
     Right("15-stl-ascii-latin1/c.stl", names=("Würfel",)),
-    Right("16-ply-colours/c.ply", notes=("c.ply: 8 vertex colours are not shown",)),
-    Right("16-ply-edge-first/c.ply", notes=('c.ply: 1 elements "edge" are not read',)),
+    Right("16-ply-colours/c.ply", notes=("c.ply: vertex colours are not shown: 8",)),
+    Right("16-ply-edge-first/c.ply", notes=('c.ply: elements "edge" are not read: 1',)),
     Right("17-inverted-glass/s.toml", ior=(1.5,), notes=('"cube": wound inside out in the file, and turned',)),
     Right("31-overlap-mesh/s.toml", 24, 2.0, 12.0, ([0, 0, 0], [1.5, 1, 1])),
 ]

@@ -95,3 +95,13 @@ def test_faults_of_a_lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, tex
     with pytest.raises(Unusable) as caught:
         lesson.read("mine")
     assert any(said in fault for fault in caught.value.faults)
+
+
+def test_a_lesson_may_come_from_a_windows_editor(tmp_path: Path) -> None:
+    """A byte order mark, and lines that end with a carriage return."""
+    source = ROOT / "lessons" / "mirror-balls" / "lesson.md"
+    plain = lesson.read_file(source)
+    copy = tmp_path / "lesson.md"
+    copy.write_bytes(b"\xef\xbb\xbf" + source.read_bytes().replace(b"\n", b"\r\n"))
+    found = lesson.read_file(copy)
+    assert (found.title, found.text, found.pixel) == (plain.title, plain.text, plain.pixel)

@@ -113,3 +113,24 @@ def test_scene_of_any_size_is_drawn(tmp_path: Path) -> None:
             pictures.append(driver.picture()[top : top + height, left : left + width].astype(int))
     for picture in pictures[1:]:
         assert (np.abs(picture - pictures[0]).max(axis=2) > 8).mean() < 0.001
+
+
+def test_saving_a_material_library_shows_the_change(tmp_path: Path) -> None:
+    """Also one that was missing when the scene was opened. Until then a note says so, and is shown."""
+    path, library = tmp_path / "face.obj", tmp_path / "face.mtl"
+    path.write_text("mtllib face.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    with viewer() as driver:
+        driver.open_file(path)
+        assert len(driver.session.notes) == 2
+        driver.frames()
+        library.write_text("newmtl red\nKd 1 0 0\n")
+        saved(driver, library)
+        assert driver.session.world
+        assert driver.session.world.scene.objects[0].material.color == (1.0, 0.0, 0.0)
+        assert driver.session.notes == []
+        library.write_text("newmtl red\nKd nan\n")
+        saved(driver, library)
+        assert driver.session.faults
+        library.write_text("newmtl red\nKd 0 1 0\n")
+        saved(driver, library)
+        assert driver.session.world.scene.objects[0].material.color == (0.0, 1.0, 0.0)

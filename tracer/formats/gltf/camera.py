@@ -84,9 +84,9 @@ def lights_of(document: Item, nodes: list[Placed], parts: list[Part], notes: Not
             lights.append(Light(name, as_floats(place), None, rgb([value / distance**2 for value in color])))
     if not lights:
         return ()
-    notes.count("lights are spots, which are shown without their cones", spots)
+    notes.count("spots are shown without their cones", spots)
     total = max(sum(light.color[k] for light in lights) for k in range(3))
-    notes.count("lights are scaled to 1 in the middle of the scene, and do not fall off with the distance", len(lights))
+    notes.count("lights are scaled to 1 in the middle of the scene, and do not fall off with distance", len(lights))
     return tuple(Light(x.name, x.position, x.direction, rgb([value / total for value in x.color])) for x in lights)
 
 

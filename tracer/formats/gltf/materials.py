@@ -31,7 +31,7 @@ def material_of(item: Item, number: int, notes: Notes) -> tuple[Material, bool]:
     elif item.text("alphaMode") == "MASK":
         notes.name('materials with alphaMode "MASK" are shown opaque', name)
     smooth = 1.0 - rough
-    color, ambient, diffuse = (r, g, b), AMBIENT, (1.0 - METAL_MIRROR * metal) * (1.0 - transmit)
+    color, ambient, diffuse = (r, g, b), AMBIENT * (1.0 - transmit), (1.0 - METAL_MIRROR * metal) * (1.0 - transmit)
     specular, reflect = 0.5 * smooth, METAL_MIRROR * metal * smooth
     if extensions.has("KHR_materials_unlit"):
         ambient, diffuse, specular, reflect = 1.0, 0.0, 0.0, 0.0

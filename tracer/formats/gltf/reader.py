@@ -107,9 +107,9 @@ def primitive_parts(
         notes.count("primitives without positions are not shown")
         return []
     if any(key.startswith("COLOR_") for key in attributes.value):
-        notes.count("primitives have vertex colours, which are not shown")
+        notes.count("vertex colours of primitives are not shown")
     if primitive.entries("targets"):
-        notes.count("primitives have morph targets, which are not shown")
+        notes.count("morph targets of primitives are not shown")
     points = accessors.array(attributes.whole("POSITION"), 3, f"{attributes.place}.POSITION").astype(np.float64)
     corners = np.arange(len(points))
     if primitive.has("indices"):
