@@ -12,7 +12,7 @@ import numpy as np
 from tracer.scene.scene import Object, SceneError, place
 from tracer.shapes.mesh import Body, Mesh
 from tracer.shapes.shape import Shape
-from tracer.shapes.shells import OPEN, find_shells, winding_number
+from tracer.shapes.shells import OPEN, find_shells, grouped, winding_number
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,16 +96,19 @@ def _add_body(
             turned.append(k)
         if own.any():
             objects[k] = replace(objects[k], shape=replace(shape, geometry=shape.geometry.turned(own)))
-    placed = {k: shape.placed() for k in members if isinstance(shape := objects[k].shape, Mesh)}
-    of_face = {k: shells.solid[starts[k] : starts[k] + len(placed[k])] for k in members}
+    counts = {k: len(shape.geometry.faces) for k in members if isinstance(shape := objects[k].shape, Mesh)}
+    of_face = {k: shells.solid[starts[k] : starts[k] + counts[k]] for k in members}
+    placed = np.concatenate([shape.placed() for k in members if isinstance(shape := objects[k].shape, Mesh)])
+    owner = np.repeat(members, [counts[k] for k in members])
     numbers = np.full(shells.count + 1, OPEN)
-    for solid in range(shells.count):
-        with_faces = [k for k in members if (of_face[k] == solid).any()]
+    # Faces of open shells (-1) come first.
+    for solid, which in enumerate(grouped(np.concatenate([of_face[k] for k in members]) + 1, shells.count + 1)[1:]):
+        with_faces = np.unique(owner[which]).tolist()
         outer = tuple(k for k in with_faces if k in media)
         if outer:
             _check_one_medium(outer, [k for k in with_faces if objects[k].material.transmit > 0.0], objects)
             numbers[solid] = len(found)
-            found.append(Solid(outer, True, None, np.concatenate([placed[k][of_face[k] == solid] for k in with_faces])))
+            found.append(Solid(outer, True, None, placed[which]))
     for k in sorted(media):
         own = np.where(of_face[k] == OPEN, OPEN, numbers[of_face[k]])
         if (own == OPEN).any():

@@ -31,17 +31,24 @@ def find_shells(corners: np.ndarray) -> Shells:
     sizes = signed_volumes(corners, shell, len(closed))
     lows, highs = bounds_of(corners, shell, len(closed))
     host = np.arange(len(closed))
+    faces_of = grouped(shell, len(closed))
     for k in np.flatnonzero(closed & (sizes < 0.0)):
         around = closed & (sizes > 0.0) & (lows <= lows[k]).all(axis=1) & (highs >= highs[k]).all(axis=1)
-        point = corners[shell == k][0].mean(axis=0)
+        point = corners[faces_of[k][0]].mean(axis=0)
         for other in sorted(np.flatnonzero(around), key=lambda j: sizes[j]):
-            if winding_number(corners[shell == other], point) > 0.5:
+            if winding_number(corners[faces_of[other]], point) > 0.5:
                 host[k] = other
                 break
     own = closed & (host == np.arange(len(closed)))
     number = np.where(own, np.cumsum(own) - 1, OPEN)
     solid = np.where(closed, number[host], OPEN)
     return Shells(solid[shell], (own & (sizes < 0.0))[shell], int(own.sum()))
+
+
+def grouped(labels: np.ndarray, count: int) -> list[np.ndarray]:
+    """The positions of each label from 0 to before `count`."""
+    order = np.argsort(labels, kind="stable")
+    return np.split(order, np.searchsorted(labels[order], np.arange(1, count)))
 
 
 def welded(points: np.ndarray) -> np.ndarray:
