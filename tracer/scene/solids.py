@@ -4,6 +4,7 @@ A shape bounds one solid. A mesh file bounds one solid for each of its shells, w
 faces (`tracer.shapes.shells`); an object may have faces of several, and a solid faces of several objects.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -83,7 +84,10 @@ def _add_body(
     shapes = [objects[k].shape for k in members]
     assert all(isinstance(shape, Mesh) for shape in shapes)
     corners = [shape.all_faces() for shape in shapes if isinstance(shape, Mesh)]
-    shells = find_shells(np.concatenate(corners))
+    sizes = [len(own) for own in corners]
+    indices = [objects[k].material.ior if objects[k].material.transmit > 0.0 else math.nan for k in members]
+    parts = np.repeat(np.arange(len(members)), sizes)
+    shells = find_shells(np.concatenate(corners), parts, np.repeat(indices, sizes))
     turned = []
     media = {k for k in members if is_medium(objects[k])}
     starts = dict(zip(members, np.cumsum([0, *(len(own) for own in corners)]), strict=False))

@@ -24,18 +24,28 @@ class Shells(NamedTuple):
     count: int  # number of solids
 
 
-def find_shells(corners: np.ndarray) -> Shells:
-    """The solids of triangles (m, 3, 3). Faces without area count as faces here: they may close a mesh."""
+def find_shells(corners: np.ndarray, parts: np.ndarray | None = None, media: np.ndarray | None = None) -> Shells:
+    """The solids of triangles (m, 3, 3). Faces without area count as faces here: they may close a mesh.
+
+    `parts` (m,) numbers the parts of a file: a part that is closed by itself is a shell, even if it touches another
+    part. `media` (m,) are the indices of refraction, NaN for opaque faces: a cavity belongs to a solid of its own
+    index, if it lies inside one.
+    """
     points = welded(corners.reshape(-1, 3)).reshape(-1, 3)
-    shell, closed = shells_of(points)
+    shell, closed = shells_of(points, np.zeros(len(corners), np.int64) if parts is None else parts)
     sizes = signed_volumes(corners, shell, len(closed))
     lows, highs = bounds_of(corners, shell, len(closed))
-    host = np.arange(len(closed))
     faces_of = grouped(shell, len(closed))
+    index = np.zeros(len(closed))
+    if media is not None:
+        index[shell] = media
+    host = np.arange(len(closed))
+    solid_like = closed & (sizes > 0.0) & ~np.isnan(index)
     for k in np.flatnonzero(closed & (sizes < 0.0)):
-        around = closed & (sizes > 0.0) & (lows <= lows[k]).all(axis=1) & (highs >= highs[k]).all(axis=1)
+        around = np.flatnonzero(solid_like & (lows <= lows[k]).all(axis=1) & (highs >= highs[k]).all(axis=1))
         point = corners[faces_of[k][0]].mean(axis=0)
-        for other in sorted(np.flatnonzero(around), key=lambda j: sizes[j]):
+        # The same medium first, then the smallest.
+        for other in sorted(around.tolist(), key=lambda j: (index[j] != index[k], sizes[j])):
             if winding_number(corners[faces_of[other]], point) > 0.5:
                 host[k] = other
                 break
@@ -61,14 +71,35 @@ def welded(points: np.ndarray) -> np.ndarray:
     return place
 
 
-def shells_of(faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(shell of each face (m,), whether each shell is closed) for triangles of numbered points (m, 3)."""
+def shells_of(faces: np.ndarray, parts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(shell of each face (m,), whether each shell is closed) for triangles of numbered points (m, 3).
+
+    First the shells within each part; then those of the faces whose part is not closed by itself.
+    """
+    shell, closed = pieces_of(faces, parts)
+    rest = ~closed[shell]
+    if not rest.any() or not parts.any():
+        return shell, closed
+    again, closed_again = pieces_of(faces[rest], np.zeros(int(rest.sum()), np.int64))
+    shell[rest] = len(closed) + again
+    _, compact = np.unique(shell, return_inverse=True)
+    compact = compact.ravel()
+    both = np.zeros(int(compact.max()) + 1, bool)
+    both[compact] = np.concatenate([closed, closed_again])[shell]
+    return compact, both
+
+
+def pieces_of(faces: np.ndarray, parts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """As `shells_of`, without connections between different parts."""
     start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
     face = np.repeat(np.arange(len(faces)), 3)
     real = start != end
     start, end, face = start[real], end[real], face[real]
     low, high = np.minimum(start, end), np.maximum(start, end)
     key = low * (int(high.max(initial=0)) + 1) + high
+    if parts.any():
+        _, key = np.unique(key, return_inverse=True)
+        key = key.ravel() * (int(parts.max()) + 1) + parts[face]
     order = np.argsort(key, kind="stable")
     key, face, way = key[order], face[order], np.where(start < end, 1, -1)[order]
     first = np.flatnonzero(np.diff(key, prepend=-1))
