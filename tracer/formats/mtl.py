@@ -62,7 +62,8 @@ class Library:
                 self.notes.name("material libraries that cannot be read", f"{path.name}: {error}")
                 continue
             for name, material in materials_of(text, path, self.notes):
-                self.materials.setdefault(name, material)
+                if self.materials.setdefault(name, material) is not material:
+                    self.notes.name("materials that are defined twice: the first counts", name)
 
     def find(self, name: str) -> Material:
         """The material that a `usemtl` statement names, by the text as written or without its comment."""
@@ -127,7 +128,7 @@ def materials_of(text: str, path: Path, notes: Notes) -> Iterator[tuple[str, Mat
     entries: list[Entry] = []
     for line, content in enumerate(text.splitlines(), 1):
         keyword, *words = uncommented(content).split() or [""]
-        if keyword == "newmtl":
+        if keyword.lower() == "newmtl":
             entries.append(Entry(" ".join(content.split()[1:])))
         elif keyword and not (entries and read_statement(entries[-1], keyword, words, notes, Place(path, line))):
             notes.name(f"{path.name}: {UNREADABLE}", f"line {line}: {' '.join([keyword, *words])[:60]}")
@@ -200,7 +201,7 @@ def material_of(entry: Entry, notes: Notes) -> Material:
     if "kd" not in colors:
         notes.name("materials without Kd have the colour of clay", entry.name)
     opacity = given.get("d", 1.0 - given.get("tr", 0.0))
-    if "d" in given and "tr" in given and given["d"] != 1.0 - given["tr"]:
+    if "d" in given and "tr" in given and not math.isclose(given["d"], 1.0 - given["tr"], abs_tol=1e-9):
         notes.name("materials whose d and Tr contradict each other: d counts", entry.name)
     transmit = 1.0 - opacity
     if model in REFRACTIVE and "tf" in colors:
@@ -208,7 +209,7 @@ def material_of(entry: Entry, notes: Notes) -> Material:
     for key in ("ks", "tf"):
         if key in colors and len(set(colors[key])) > 1 and (key == "ks" or model in REFRACTIVE):
             notes.name(f"coloured {key.capitalize()} is read as its mean", entry.name)
-    if model in FRESNEL:
+    if model in FRESNEL and transmit > 0.0:
         notes.name('materials with illum 5 or 7 need the model "fresnel"', entry.name)
     if model in PICTURE_REFLECTIONS:
         notes.name("materials with illum 8 or 9 reflect a picture, which is not shown", entry.name)

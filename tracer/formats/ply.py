@@ -33,7 +33,11 @@ def read_ply(path: Path, progress: Callable[[float], None]) -> MeshFile:
     data = read_bytes(path)
     notes = Notes()
     order, elements, body = header_of(data)
-    tables = binary_tables(data, body, order, elements) if order else text_tables(data[body:], elements)
+    if order:
+        tables, end = binary_tables(data, body, order, elements)
+        notes.count("bytes after the last element are not read", len(data) - end)
+    else:
+        tables = text_tables(data[body:], elements)
     for needed in ("vertex", "face"):
         if needed not in tables:
             raise Fault(f"must have the element {needed}, got {', '.join(tables) or 'none'}")

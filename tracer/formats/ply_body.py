@@ -57,16 +57,19 @@ def text_tables(body: bytes, elements: list[Element]) -> dict[str, Table]:
         Element(e.name, e.count, [Property(p.name, "f8", "f8" if p.length_type else "") for p in e.properties])
         for e in elements
     ]
-    return binary_tables(values.tobytes(), 0, "=", wide)
+    tables, end = binary_tables(values.tobytes(), 0, "=", wide)
+    if end < 8 * len(words):
+        raise Fault(f"must have {end // 8} numbers after its header, as it says, got {len(words)}")
+    return tables
 
 
-def binary_tables(data: bytes, at: int, order: str, elements: list[Element]) -> dict[str, Table]:
-    """The values of a binary file from byte `at` on. `order` is "<", ">" or "=". Raises Fault."""
+def binary_tables(data: bytes, at: int, order: str, elements: list[Element]) -> tuple[dict[str, Table], int]:
+    """(values, next byte) of a binary file from byte `at` on. `order` is "<", ">" or "=". Raises Fault."""
     tables = {}
     for element in elements:
         found = uniform(data, at, order, element)
         tables[element.name], at = found if found else row_by_row(data, at, order, element)
-    return tables
+    return tables, at
 
 
 def uniform(data: bytes, at: int, order: str, element: Element) -> tuple[Table, int] | None:

@@ -57,6 +57,6 @@ def hidden_notes(solids: Sequence[Solid], names: Sequence[str]) -> list[str]:
                 found.setdefault(names[outer.objects[0]], []).append(names[inner.objects[0]])
                 break
     return [
-        f'{listed(inner)} lies inside "{outer}" and is never visible: raise its priority'
+        f'{listed(inner)} lies inside "{outer}" and is never visible, unless it has a higher priority'
         for outer, inner in found.items()
     ]

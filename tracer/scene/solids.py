@@ -126,9 +126,11 @@ def _check_one_medium(media: tuple[int, ...], members: list[int], objects: list[
     """All faces of a solid that transmit light have one index of refraction, and none is thin."""
     first = media[0]
     for k in members:
-        names = " and ".join(place("object", n, objects[n].name) for n in (first, k))
+        shape = objects[first].shape
+        file = f"{shape.file}: " if isinstance(shape, Mesh) else ""
+        names = file + " and ".join(place("object", n, objects[n].name) for n in (first, k))
         a, b = objects[first].material, objects[k].material
         if k not in media:
-            raise SceneError([f"{names} bound one solid: they must be thin both, or neither"])
+            raise SceneError([f"{names} bound one solid, so they must be thin both, or neither"])
         if a.ior != b.ior:
-            raise SceneError([f"{names} bound one solid: they must have one ior, got {a.ior:g} and {b.ior:g}"])
+            raise SceneError([f"{names} bound one solid, so they must have one ior, got {a.ior:g} and {b.ior:g}"])

@@ -63,7 +63,7 @@ def test_mtl_field(text: str, wanted: dict[str, Any], tmp_path: Path) -> None:
         ("d 0.5", "without Kd"),
         ("Kd 1\nKs 0.2 0.4 0.6", "coloured Ks is read as its mean"),
         ("Kd 1\nd 0.5\nTr 0.6", "contradict each other: d counts"),
-        ("Kd 1\nillum 7", 'need the model "fresnel"'),
+        ("Kd 1\nd 0.5\nillum 7", 'need the model "fresnel"'),
         ("Kd 1\nillum 8", "reflect a picture"),
         ("Kd 1\nKa 1 1 1", "Ka is not read"),
         ("Kd 1\nmap_Kd a.png", "textures are not shown: 1"),

@@ -216,3 +216,46 @@ def test_damaged_files_are_scenes_or_one_line_for_each_fault(name: str, tmp_path
             assert error.faults
             assert all("\n" not in fault and fault.encode() for fault in error.faults)
     assert loaded < 150
+
+
+MATERIALS = "newmtl glass\nd 0\nNi 1.5\nnewmtl water\nd 0\nNi 1.33\nnewmtl wall\nKd 1\n"
+
+
+def write_filled(path: Path, *groups: tuple[str, list[tuple[np.ndarray, ...]]]) -> Path:
+    """An OBJ file with one group for each (material, faces)."""
+    write(path.with_suffix(".mtl"), MATERIALS)
+    write_obj(path, *groups)
+    text = path.read_text()
+    for name, _ in groups:
+        text = text.replace(f"g {name}\n", f"o {name} part\nusemtl {name}\n")
+    return write(path, f"mtllib {path.with_suffix('.mtl').name}\n{text}")
+
+
+def test_water_that_overlaps_the_wall_of_its_glass_leaves_the_wall_hollow(tmp_path: Path) -> None:
+    """The usual way to model a filled glass: the cavity belongs to the glass, though it lies inside the water, too."""
+    groups = ("glass", cube(-1.0, 2.0) + cube(-0.5, 1.5, flipped=True)), ("water", cube(-0.75, 1.75))
+    world = tracer.prepare(tracer.load(write_filled(tmp_path / "filled.obj", *groups)))
+    assert indices(world) == [(1.0, 1.5), (1.5, 1.33), (1.33, 1.5), (1.5, 1.0)]
+
+
+def test_two_solids_may_touch_at_a_whole_face(tmp_path: Path) -> None:
+    above = [tuple(corner + np.array([0.0, 0.0, 1.0]) for corner in face) for face in cube(0.0, 1.0)]
+    path = write_filled(tmp_path / "touch.obj", ("glass", cube(0.0, 1.0)), ("water", above))
+    assert indices(tracer.prepare(tracer.load(path))) == [(1.0, 1.33), (1.33, 1.5), (1.5, 1.0)]
+
+
+def test_inverted_glass_in_an_opaque_room_is_turned(tmp_path: Path) -> None:
+    path = write_filled(tmp_path / "room.obj", ("wall", cube(-10.0, 10.0)), ("glass", cube(0.0, 1.0, flipped=True)))
+    world = tracer.prepare(tracer.load(path))
+    assert indices(world)[:2] == [(1.0, 1.5), (1.5, 1.0)]
+    assert any("wound inside out" in note for note in world.notes)
+
+
+def test_numbers_that_a_ply_header_does_not_announce_are_not_passed_over(tmp_path: Path) -> None:
+    lines = ply().splitlines()
+    first = lines.index("end_header") + 1
+    wide = [*lines[:first], *(f"{line} 1" for line in lines[first : first + 8]), *lines[first + 8 :]]
+    with pytest.raises(tracer.SceneError, match=r"after its header, as it says, got 80|must be whole numbers"):
+        tracer.load(write(tmp_path / "wide.ply", "\n".join(wide) + "\n"))
+    with pytest.raises(tracer.SceneError, match="must have 72 numbers after its header, as it says, got 76"):
+        tracer.load(write(tmp_path / "more.ply", ply() + "3 0 1 2\n"))

@@ -30,6 +30,8 @@ def material_of(item: Item, number: int, notes: Notes) -> tuple[Material, bool]:
         transmit = max(transmit, 1.0 - alpha)
     elif item.text("alphaMode") == "MASK":
         notes.name('materials with alphaMode "MASK" are shown opaque', name)
+    if transmit > 0.0 and (len({r, g, b}) > 1 or rough > 0.0):
+        notes.name("coloured or rough glass is shown clear", name)
     smooth = 1.0 - rough
     color, ambient, diffuse = (r, g, b), AMBIENT * (1.0 - transmit), (1.0 - METAL_MIRROR * metal) * (1.0 - transmit)
     specular, reflect = 0.5 * smooth, METAL_MIRROR * metal * smooth

@@ -31,6 +31,9 @@ def read_gltf(path: Path, progress: Callable[[float], None]) -> MeshFile:
     """Read a file. Raises Fault."""
     document, binary = read_document(path)
     notes = Notes()
+    if not document.item("asset").text("version", "2.0").startswith("2."):
+        raise Fault(f"must be glTF 2, got version {document.item('asset').text('version')[:20]}")
+    notes.count("scenes besides the first are not shown", max(0, len(document.entries("scenes")) - 1))
     check_extensions(document, notes)
     accessors = Accessors(document, path.parent, binary)
     materials = [material_of(item, k, notes) for k, item in enumerate(document.items("materials"))]
