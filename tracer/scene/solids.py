@@ -81,6 +81,11 @@ def _add_body(
     members: list[int], objects: list[Object], found: list[Solid], faces: dict[int, np.ndarray | int]
 ) -> list[int]:
     """Add the solids of one mesh file in one place. Returns the objects of which faces were turned."""
+    for k in members:
+        shape = objects[k].shape
+        assert isinstance(shape, Mesh)
+        if is_medium(objects[k]) and (single := shape.geometry.one_sided()):
+            objects[k] = replace(objects[k], shape=replace(shape, geometry=single))
     shapes = [objects[k].shape for k in members]
     assert all(isinstance(shape, Mesh) for shape in shapes)
     corners = [shape.all_faces() for shape in shapes if isinstance(shape, Mesh)]

@@ -12,7 +12,7 @@ import numpy as np
 from tracer import fields
 from tracer.formulas.vector import Vector
 from tracer.shapes.shape import Shape
-from tracer.shapes.shells import OPEN, find_shells, winding_number
+from tracer.shapes.shells import OPEN, find_shells, welded, winding_number
 from tracer.shapes.tessellation import flat, normals_of
 from tracer.shapes.triangle import Triangle, pack_triangles
 
@@ -39,6 +39,24 @@ class Geometry:
         old = self.faces if self.normal_faces is None else self.normal_faces
         new = np.where(which[:, None], old[:, ::-1] + len(self.normals), old)
         return replace(self, faces=faces, normals=normals, normal_faces=new)
+
+    def one_sided(self) -> "Geometry | None":
+        """The same without the second of each pair of faces that differ only in their winding; None unless all faces
+        come in such pairs, as in files that have every face once for each side.
+        """
+        points = welded(self.vertices)[self.faces]
+        first = points.argmin(axis=1)
+        turned = np.take_along_axis(points, (first[:, None] + np.arange(3)) % 3, axis=1)
+        kept = turned[:, 1] < turned[:, 2]  # one winding of each pair
+        there, back = turned[kept], turned[~kept][:, [0, 2, 1]]
+        if len(there) != len(back) or (there[np.lexsort(there.T)] != back[np.lexsort(back.T)]).any():
+            return None
+        _, where = np.unique(np.sort(points, axis=1), axis=0, return_index=True)
+        if 2 * len(where) != len(points):
+            return None
+        which = np.sort(where)  # of each pair the one that comes first
+        indices = self.faces if self.normal_faces is None else self.normal_faces
+        return replace(self, faces=self.faces[which], normal_faces=None if self.normals is None else indices[which])
 
 
 class Body:

@@ -259,3 +259,10 @@ def test_numbers_that_a_ply_header_does_not_announce_are_not_passed_over(tmp_pat
         tracer.load(write(tmp_path / "wide.ply", "\n".join(wide) + "\n"))
     with pytest.raises(tracer.SceneError, match="must have 72 numbers after its header, as it says, got 76"):
         tracer.load(write(tmp_path / "more.ply", ply() + "3 0 1 2\n"))
+
+
+def test_glass_with_every_face_for_both_sides_is_glass(tmp_path: Path) -> None:
+    both = [face for pair in zip(cube(0.0, 1.0), cube(0.0, 1.0, flipped=True), strict=True) for face in pair]
+    world = glass_world(write_obj(tmp_path / "double.obj", ("it", both)))
+    assert indices(world) == [(1.0, 1.5), (1.5, 1.0)]
+    assert world.solids[0].closed
