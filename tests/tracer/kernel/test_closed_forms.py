@@ -134,7 +134,7 @@ def test_mirror_of_weight_one_has_one_child() -> None:
 
 @pytest.mark.parametrize("n", [1.0, 1.5])
 def test_equal_indices_send_one_ray_straight_on(n: float) -> None:
-    """Where the medium changes but not the index of refraction, the ray goes straight on and nothing is reflected."""
+    """If the medium changes but not the index of refraction, the ray goes straight on and nothing is reflected."""
     same = Material("same", reflect=0.3, transmit=0.7, ior=n)
     outer = box((-2, -2, -2), (2, 2, 2), same, "outer")
     inner = box((-1, -1, -1), (1, 1, 1), same, "inner", priority=1)

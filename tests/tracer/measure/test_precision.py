@@ -131,7 +131,7 @@ def test_an_edge_in_closed_form_is_approached_as_theory_says(sampler: str, wante
 
 
 def test_no_bound_is_below_the_error(worlds: dict[str, tracer.World]) -> None:
-    """Where the program states an upper bound of the missing light, no pixel misses more, beyond the reference's own
+    """If the program states an upper bound of the missing light, no pixel misses more, beyond the reference's own
     error.
     """
     (trees, *_) = sources(worlds["plates"], SIZE, TINY)
