@@ -10,6 +10,7 @@ from typing import Any
 from tracer.formats import READERS
 
 MAX_PIXELS = 16384  # across an image
+UP_HELP = "axis of a mesh file that points upwards, y by default"
 SCENE_HELP = f"a {', '.join(list(READERS)[:-1])} or {list(READERS)[-1]} file, or a lesson's name"
 
 

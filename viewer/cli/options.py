@@ -8,7 +8,7 @@ from tracer.choices import MODELS, SAMPLERS
 from tracer.formats import UP_AXES
 from viewer.base.options import argument, option, switch
 from viewer.base.pictures import WRITERS
-from viewer.base.values import FILE, PIXEL, POSITIVE, RAY, SCENE_HELP, SIZE, TEXT, WEIGHT, one_of, whole
+from viewer.base.values import FILE, PIXEL, POSITIVE, RAY, SCENE_HELP, SIZE, TEXT, UP_HELP, WEIGHT, one_of, whole
 from viewer.figures.catalogue import DATA
 
 HEAVIEST = 300  # rays that `trace` prints as text
@@ -39,7 +39,7 @@ def _size(of: str = "of the image, the scene's own by default") -> Any:
 
 
 def _up() -> Any:
-    return option(one_of(UP_AXES), "axis of a mesh file that points upwards, y by default", UP_AXES[0])
+    return option(one_of(UP_AXES), UP_HELP, UP_AXES[0])
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -18,6 +18,7 @@ from viewer.base.values import (
     SHARE,
     SIZE,
     TEXT,
+    UP_HELP,
     WEIGHT,
     one_of,
     some_of,
@@ -47,7 +48,7 @@ class ExportOptions:
     model: str | None = option(one_of(MODELS), "the scene's own by default")
     min_weight: float = option(WEIGHT, "do not follow rays of a smaller weight", 0.0)
     size: tuple[int, int] | None = option(SIZE, "of the image, the scene's own by default")
-    up: str = option(one_of(UP_AXES), "axis of a mesh file that points upwards, y by default", UP_AXES[0])
+    up: str = option(one_of(UP_AXES), UP_HELP, UP_AXES[0])
     format: tuple[str, ...] = option(some_of(tuple(FORMATS)), f"of {', '.join(FORMATS)}; svg by default", ())
     theme: str = option(one_of(tuple(THEMES)), "light by default", "light")
     swatches: bool = switch("show the radiance of each ray in its box")
