@@ -213,6 +213,8 @@ def material_of(entry: Entry, notes: Notes) -> Material:
         notes.name('materials with illum 5 or 7 need the model "fresnel"', entry.name)
     if model in PICTURE_REFLECTIONS:
         notes.name("materials with illum 8 or 9 reflect a picture, which is not shown", entry.name)
+    if max(colors.get("kd", CLAY.color)) > 1.0:
+        notes.name("materials whose Kd is above 1, so that they reflect more light than they get", entry.name)
     if "ka" in colors and model != CONSTANT:
         notes.say("Ka is not read: all materials have the same ambient coefficient")
     highlight = mean(colors.get("ks", (0.0, 0.0, 0.0)))

@@ -88,6 +88,8 @@ class Reader:
                 self._entity(word)
             except Fault as fault:
                 self.faults.append((fault.line or word.line, str(fault)))
+                if word.text == "f":
+                    self.material = Material()  # what follows has one, though it could not be read
                 self.words.skip()
         self._end_run()
         self._check_shapes()

@@ -114,7 +114,7 @@ class Reader:
         kept = np.flatnonzero(sizes)
         self.notes.count("faces with fewer than three corners are left out", len(sizes) - len(kept))
         corners -= 1
-        triangles, owners = triangulated(vertices[corners[:, 0]], sizes[kept])
+        triangles, owners = triangulated(vertices[corners[:, 0]], sizes[kept], self.notes)
         owners = kept[owners]
         faces, normal_faces = corners[triangles, 0], corners[triangles, 1]
         parts = []

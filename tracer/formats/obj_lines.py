@@ -96,7 +96,8 @@ def line_numbers(text: bytes, line: int, keyword: str, most: int) -> list[float]
     """The numbers of one line. Raises Fault."""
     words = text.split(b"#")[0].split()[1:]
     if not 3 <= len(words) <= most:
-        raise Fault(f"{keyword} must have from 3 to {most} numbers, got {len(words)}", line)
+        allowed = "3" if most == 3 else f"from 3 to {most}"
+        raise Fault(f"{keyword} must have {allowed} numbers, got {len(words)}", line)
     return [number(word, keyword, line) for word in words]
 
 

@@ -22,6 +22,7 @@ TYPES = {
     "double": "f8", "float64": "f8",
 }  # fmt: skip
 FORMATS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+LINE_END = rb"\r\n|\r|\n"
 MOST_HEADER = 1 << 20  # bytes
 INDICES = ("vertex_indices", "vertex_index")
 NORMALS = ("nx", "ny", "nz")
@@ -37,7 +38,7 @@ def read_ply(path: Path, progress: Callable[[float], None]) -> MeshFile:
         tables, end = binary_tables(data, body, order, elements)
         notes.count("bytes after the last element are not read", len(data) - end)
     else:
-        tables = text_tables(data[body:], elements)
+        tables = text_tables(data[body:], 1 + len(re.findall(LINE_END, data[:body])), elements)
     for needed in ("vertex", "face"):
         if needed not in tables:
             raise Fault(f"must have the element {needed}, got {', '.join(tables) or 'none'}")
@@ -52,10 +53,14 @@ def read_ply(path: Path, progress: Callable[[float], None]) -> MeshFile:
     points = np.stack([column(vertex, name) for name in "xyz"], axis=1)
     counts, corners = polygons_of(face)
     notes.count("faces with fewer than three corners are left out", int((counts < 3).sum()))
-    corners, counts = corners[np.repeat(counts >= 3, counts)], counts[counts >= 3]
-    if len(corners) and not 0 <= corners.min() <= corners.max() < len(points):
-        raise Fault(f"faces must have vertices from 0 to {len(points) - 1}, got {corners.min()} to {corners.max()}")
-    triangles, _ = triangulated(points[corners], counts)
+    kept = np.flatnonzero(counts >= 3)
+    corners, counts = corners[np.repeat(counts >= 3, counts)], counts[kept]
+    beyond = (corners < 0) | (corners >= len(points))
+    if beyond.any():
+        k = int(beyond.argmax())
+        number = kept[np.searchsorted(np.cumsum(counts), k, "right")]
+        raise Fault(f"face {number} must have vertices from 0 to {len(points) - 1}, got {corners[k]}")
+    triangles, _ = triangulated(points[corners], counts, notes)
     faces = corners[triangles]
     smooth = None
     if all(name in vertex for name in NORMALS):
@@ -72,8 +77,8 @@ def header_of(data: bytes) -> tuple[str, list[Element], int]:
     if not found:
         raise Fault('must begin with "ply" and a header that ends with "end_header"')
     order, elements = None, []
-    for line, text in enumerate(re.split(r"\r\n|\r|\n", decode(found[1])), 2):
-        match text.split():
+    for line, text in enumerate(re.split(LINE_END, found[1]), 2):
+        match decode(text).split():
             case ["format", name, *_]:
                 if name not in FORMATS:
                     raise Fault(f'format must be one of {", ".join(FORMATS)}, got "{name[:40]}"', line)
@@ -91,7 +96,7 @@ def header_of(data: bytes) -> tuple[str, list[Element], int]:
             case [] | ["comment" | "obj_info", *_]:
                 pass
             case _:
-                raise Fault(f'must be a format, element, property or comment, got "{text[:40]}"', line)
+                raise Fault(f'must be a format, element, property or comment, got "{decode(text)[:40]}"', line)
     if order is None:
         raise Fault("must have a format in its header, got none")
     return order, elements, found.end()

@@ -3,6 +3,7 @@
 Most files have lists of one length only (triangles). Such an element is read in one call, any other row by row.
 """
 
+import re
 import struct
 from dataclasses import dataclass, field
 
@@ -45,22 +46,49 @@ class Lists:
 Table = dict[str, np.ndarray | Lists]
 
 
-def text_tables(body: bytes, elements: list[Element]) -> dict[str, Table]:
-    """The values of a text file. Raises Fault."""
+def text_tables(body: bytes, first_line: int, elements: list[Element]) -> dict[str, Table]:
+    """The values of a text file, which begin on line `first_line`. Raises Fault."""
     words = body.split()
     values = parsed(b" ".join(words), np.float64, len(words))
     if values is None:
-        bad = next((word for word in words if parsed(word, np.float64, 1) is None), b"")
-        raise Fault(f'must have numbers after its header, got "{decode(bad)[:40]}"')
+        raise fault_of_text(body, first_line, elements)
     # As a binary file in which all numbers are float64.
     wide = [
         Element(e.name, e.count, [Property(p.name, "f8", "f8" if p.length_type else "") for p in e.properties])
         for e in elements
     ]
-    tables, end = binary_tables(values.tobytes(), 0, "=", wide)
+    try:
+        tables, end = binary_tables(values.tobytes(), 0, "=", wide)
+    except Fault:
+        raise fault_of_text(body, first_line, elements) from None
     if end < 8 * len(words):
-        raise Fault(f"must have {end // 8} numbers after its header, as it says, got {len(words)}")
+        raise fault_of_text(body, first_line, elements)
     return tables
+
+
+def fault_of_text(body: bytes, first_line: int, elements: list[Element]) -> Fault:
+    """The first fault of the values of a text file, which has an element on each line."""
+    lines = ((k, text.split()) for k, text in enumerate(re.split(rb"\r\n|\r|\n", body), first_line))
+    filled = ((k, words) for k, words in lines if words)
+    for element in elements:
+        for _ in range(element.count):
+            line, words = next(filled, (0, []))
+            if not line:
+                return too_short(element)
+            values = [parsed(word, np.float64, 1) for word in words]
+            bad = next((word for word, value in zip(words, values, strict=True) if value is None), None)
+            if bad is not None:
+                return Fault(f'element {element.name} must have numbers, got "{decode(bad)[:40]}"', line)
+            wanted = 0
+            for p in element.properties:
+                length = values[wanted] if wanted < len(values) else None
+                wanted += 1 + (size_of(float(length[0]), element, line) if p.length_type and length is not None else 0)
+            if wanted != len(words):
+                return Fault(f"element {element.name} must have {wanted} numbers on its line, got {len(words)}", line)
+    rest = next(filled, None)
+    if rest:
+        return Fault("must end after the elements that its header announces, got more numbers", rest[0])
+    return Fault("must have the elements that its header announces")
 
 
 def binary_tables(data: bytes, at: int, order: str, elements: list[Element]) -> tuple[dict[str, Table], int]:
@@ -130,10 +158,12 @@ def read_number(data: bytes, at: int, kind: str, element: Element) -> float:
     return struct.unpack_from(kind[0] + CODES[kind[1:]], data, at)[0]
 
 
-def size_of(length: float, element: Element) -> int:
+def size_of(length: float, element: Element, line: int | None = None) -> int:
     """The length of a list, as a whole number."""
     if not (0 <= length <= MOST_CORNERS and length == int(length)):
-        raise Fault(f"a list of element {element.name} must have a length from 0 to {MOST_CORNERS}, got {length:g}")
+        raise Fault(
+            f"a list of element {element.name} must have a length from 0 to {MOST_CORNERS}, got {length:g}", line
+        )
     return int(length)
 
 

@@ -6,7 +6,7 @@ Format: 3D Systems' "Stereolithography Interface Specification", 1989. Many prog
 
 import re
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from pathlib import Path
 
@@ -21,6 +21,13 @@ HEADER = 84  # bytes: a comment of 80 and the number of triangles
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 VERTEX = re.compile(rb"^\s*vertex\s([^\n]*)$", re.MULTILINE | re.IGNORECASE)
 SOLID = re.compile(rb"^\s*solid\b([^\n]*)$", re.MULTILINE | re.IGNORECASE)
+# White space before a statement that is not the first on its line.
+INLINE = re.compile(
+    rb"(?<=\S)[ \t]+(?=facet\s+normal\b|outer\s+loop\b|vertex\s+[-+.0-9]|(?:endloop|endfacet|endsolid)\b)",
+    re.IGNORECASE,
+)
+ENDFACET = re.compile(rb"\bendfacet\b", re.IGNORECASE)
+BLOCK = 1 << 22  # bytes of text that are read at once
 LOOP = re.compile(rb"^\s*outer\s+loop\b", re.MULTILINE | re.IGNORECASE)
 
 
@@ -31,7 +38,7 @@ def read_stl(path: Path, progress: Callable[[float], None]) -> MeshFile:
     count = struct.unpack_from("<I", data, 80)[0] if len(data) >= HEADER else 0
     is_binary = len(data) >= HEADER and HEADER + count * RECORD.itemsize == len(data)
     if not is_binary and re.match(rb"(?:\xef\xbb\xbf)?\s*solid\b", data, re.IGNORECASE) and is_text(data):
-        solids = text_solids(data)
+        solids = text_solids(data, progress)
     else:
         solids = [("", binary_corners(data, count, notes))]
     parts = []
@@ -55,31 +62,64 @@ def binary_corners(data: bytes, count: int, notes: Notes) -> np.ndarray:
     if count > there or (left and left % RECORD.itemsize == 0):
         raise Fault(f"must have {count} triangles, as its header says, got {there}")
     notes.count("bytes after the last triangle are not read", left)
-    return np.frombuffer(data, RECORD, count, HEADER)["corners"].astype(np.float64)
+    records = np.frombuffer(data, RECORD, count, HEADER)
+    notes.count("attributes of triangles, which may be colours, are not shown", int((records["attribute"] != 0).sum()))
+    return records["corners"].astype(np.float64)
 
 
-def text_solids(data: bytes) -> list[tuple[str, np.ndarray]]:
+def text_solids(data: bytes, progress: Callable[[float], None]) -> list[tuple[str, np.ndarray]]:
     """(name, corners (n, 3, 3)) of each solid of a text file. A missing "endsolid" does not matter."""
     text = data.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    try:
+        solids = solids_of(text, progress)
+        if any(len(corners) for _, corners in solids):
+            return solids
+    except Fault:
+        if not INLINE.search(text):
+            raise
+    # Once more, with each statement on a line of its own.
+    return solids_of(INLINE.sub(rb"\n", text), progress)
+
+
+def solids_of(text: bytes, progress: Callable[[float], None]) -> list[tuple[str, np.ndarray]]:
+    """As `text_solids`, of a text with each statement on a line of its own."""
     starts = list(SOLID.finditer(text))
     solids = []
     for start, end in pairwise([*(found.start() for found in starts), len(text)]):
         head = SOLID.match(text, start)
         assert head
-        line = text.count(b"\n", 0, start) + 1
-        vertices = VERTEX.findall(text, head.end(), end)
-        triangles = len(LOOP.findall(text, head.end(), end))
-        if len(vertices) != 3 * triangles:
-            found = f"a solid with {triangles} triangles (outer loop) must have {3 * triangles} vertices"
-            raise Fault(f"{found}, got {len(vertices)}", line)
-        numbers = parsed(b" ".join(vertices), np.float64, 9 * triangles)
-        if numbers is None:
-            raise Fault(f"every vertex of a solid must have three numbers, got {bad_vertex(vertices)}", line)
-        solids.append((decode(head[1]).strip(), numbers.reshape(-1, 3, 3)))
+        corners = [np.zeros((0, 3, 3))]
+        for first, last in blocks(text, head.end(), end):
+            progress(first / len(text))
+            vertices = VERTEX.findall(text, first, last)
+            triangles = len(LOOP.findall(text, first, last))
+            numbers = parsed(b" ".join(vertices), np.float64, 9 * triangles)
+            if numbers is None or len(vertices) != 3 * triangles:
+                raise fault_in(text, first, last)
+            corners.append(numbers.reshape(-1, 3, 3))
+        solids.append((decode(head[1]).strip(), np.concatenate(corners)))
     return solids
 
 
-def bad_vertex(vertices: list[bytes]) -> str:
-    """The first vertex that has not three numbers, as written."""
-    bad = next(vertex for vertex in vertices if parsed(vertex, np.float64, 3) is None)
-    return f'"{decode(bad).strip()[:40]}"'
+def blocks(text: bytes, start: int, end: int) -> Iterator[tuple[int, int]]:
+    """Yield the pieces (first byte, end) of a solid, each of whole triangles."""
+    while start < end:
+        stop = ENDFACET.search(text, start + BLOCK, end)
+        yield start, stop.start() if stop else end
+        start = stop.start() if stop else end
+
+
+def fault_in(text: bytes, start: int, end: int) -> Fault:
+    """The first fault of a solid, which is the text from `start` to `end`."""
+    loops = [found.end() for found in LOOP.finditer(text, start, end)]
+    for first, last in pairwise([start, *loops, end]):
+        vertices = list(VERTEX.finditer(text, first, last))
+        for found in vertices:
+            if parsed(found[1], np.float64, 3) is None:
+                line = text.count(b"\n", 0, found.start(1)) + 1
+                return Fault(f'a vertex must have three numbers, got "{decode(found[1]).strip()[:40]}"', line)
+        allowed = 3 if first in loops else 0
+        if len(vertices) != allowed:
+            line = text.count(b"\n", 0, first) + 1
+            return Fault(f"a loop must have 3 vertices, got {len(vertices)}", line)
+    return Fault("must have triangles of three vertices with three numbers each")

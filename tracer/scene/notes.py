@@ -9,6 +9,7 @@ import numpy as np
 from tracer.scene.solids import Solid
 
 MOST_NAMES = 3  # in a note
+PRIORITY = "unless it has a higher priority"
 MOST_COMPARED = 2000  # solids of which each is compared with all others
 
 
@@ -25,13 +26,18 @@ def turned_notes(names: Sequence[str]) -> list[str]:
 
 
 def open_notes(solids: Sequence[Solid], names: Sequence[str]) -> list[str]:
-    """The note about media that are bounded by an open surface."""
-    opened = [names[solid.objects[0]] for solid in solids if not solid.closed]
-    if not opened:
-        return []
-    one = len(opened) == 1
-    what = "is open" if one else f"are open ({len(opened)} surfaces)"
-    return [f"{listed(opened)} {what}: light that enters stays in the medium; use thin = true, or close the mesh"]
+    """The notes about media that are bounded by an open surface."""
+    stays = "light that enters stays in the medium"
+    found = []
+    for misaligned, cause, help_ in (
+        (False, "", "use thin = true, or close the mesh"),
+        (True, ", since some faces are wound against their neighbours", "turn these faces, so that all point outwards"),
+    ):
+        opened = [names[s.objects[0]] for s in solids if not s.closed and s.misaligned == misaligned]
+        if opened:
+            what = "is open" if len(opened) == 1 else f"are open ({len(opened)} surfaces)"
+            found.append(f"{listed(opened)} {what}{cause}: {stays}; {help_}")
+    return found
 
 
 def hidden_notes(solids: Sequence[Solid], names: Sequence[str]) -> list[str]:
@@ -46,7 +52,7 @@ def hidden_notes(solids: Sequence[Solid], names: Sequence[str]) -> list[str]:
     infinite = np.array([[-math.inf] * 3, [math.inf] * 3])
     boxes = [solid.bounds() for solid in solids]
     low, high = np.moveaxis(np.array([infinite if box is None else box for box in boxes]).reshape(-1, 2, 3), 1, 0)
-    found: dict[str, list[str]] = {}
+    found: dict[tuple[str, str], list[str]] = {}
     for k, inner in enumerate(solids):
         if boxes[k] is None:
             continue
@@ -54,9 +60,9 @@ def hidden_notes(solids: Sequence[Solid], names: Sequence[str]) -> list[str]:
         corners = np.array(list(itertools.product(*zip(low[k], high[k], strict=True))))
         for outer in (solids[j] for j in np.flatnonzero(around).tolist()):
             if all(outer.contains(corner) for corner in corners):
-                found.setdefault(names[outer.objects[0]], []).append(names[inner.objects[0]])
+                way = PRIORITY if inner.corners is None else f"{PRIORITY} or, as a cavity, is wound inside out"
+                found.setdefault((names[outer.objects[0]], way), []).append(names[inner.objects[0]])
                 break
     return [
-        f'{listed(inner)} lies inside "{outer}" and is never visible, unless it has a higher priority'
-        for outer, inner in found.items()
+        f'{listed(inner)} lies inside "{outer}" and is never visible, {way}' for (outer, way), inner in found.items()
     ]

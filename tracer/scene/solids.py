@@ -11,9 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tracer.scene.scene import Object, SceneError, place
+from tracer.shapes.crossings import Surface, cross, overlap
 from tracer.shapes.mesh import Body, Mesh
 from tracer.shapes.shape import Shape
-from tracer.shapes.shells import OPEN, find_shells, grouped, winding_number
+from tracer.shapes.shells import OPEN, bounds_of, find_shells, grouped, has_holes, signed_volumes, winding_number
+
+MOST_SHELLS = 500  # of a solid whose cavities are checked
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +27,7 @@ class Solid:
     closed: bool
     shape: Shape | None = None  # of a solid that is one shape
     corners: np.ndarray | None = None  # (m, 3, 3) of the faces of a closed shell of a mesh
+    misaligned: bool = False  # a mesh without holes that is open only because of the winding of its faces
 
     def bounds(self) -> np.ndarray | None:
         """Its box (2, 3); None where it is infinite."""
@@ -106,23 +110,28 @@ def _add_body(
         if own.any():
             objects[k] = replace(objects[k], shape=replace(shape, geometry=shape.geometry.turned(own)))
     counts = {k: len(shape.geometry.faces) for k in members if isinstance(shape := objects[k].shape, Mesh)}
-    of_face = {k: shells.solid[starts[k] : starts[k] + counts[k]] for k in members}
     placed = np.concatenate([shape.placed() for k in members if isinstance(shape := objects[k].shape, Mesh)])
     owner = np.repeat(members, [counts[k] for k in members])
+    with_area = np.concatenate([np.arange(starts[k], starts[k] + counts[k]) for k in members])
+    solid_of, shell_of = shells.solid[with_area], shells.shell[with_area]
     numbers = np.full(shells.count + 1, OPEN)
     # Faces of open shells (-1) come first.
-    for solid, which in enumerate(grouped(np.concatenate([of_face[k] for k in members]) + 1, shells.count + 1)[1:]):
+    for solid, which in enumerate(grouped(solid_of + 1, shells.count + 1)[1:]):
         with_faces = np.unique(owner[which]).tolist()
         outer = tuple(k for k in with_faces if k in media)
         if outer:
             _check_one_medium(outer, [k for k in with_faces if objects[k].material.transmit > 0.0], objects)
+            _check_cavities(placed[which], shell_of[which], owner[which], objects)
             numbers[solid] = len(found)
             found.append(Solid(outer, True, None, placed[which]))
+    opened = shells.solid == OPEN
+    misaligned = bool(opened.any()) and not has_holes(np.concatenate(corners)[opened])
     for k in sorted(media):
-        own = np.where(of_face[k] == OPEN, OPEN, numbers[of_face[k]])
+        of_face = solid_of[owner == k]
+        own = np.where(of_face == OPEN, OPEN, numbers[of_face])
         if (own == OPEN).any():
             own = np.where(own == OPEN, len(found), own)
-            found.append(Solid((k,), False, objects[k].shape))
+            found.append(Solid((k,), False, objects[k].shape, None, misaligned))
         faces[k] = own
     return turned
 
@@ -131,11 +140,40 @@ def _check_one_medium(media: tuple[int, ...], members: list[int], objects: list[
     """All faces of a solid that transmit light have one index of refraction, and none is thin."""
     first = media[0]
     for k in members:
-        shape = objects[first].shape
-        file = f"{shape.file}: " if isinstance(shape, Mesh) else ""
-        names = file + " and ".join(place("object", n, objects[n].name) for n in (first, k))
+        names = _named(objects, first, k)
         a, b = objects[first].material, objects[k].material
         if k not in media:
             raise SceneError([f"{names} bound one solid, so they must be thin both, or neither"])
         if a.ior != b.ior:
             raise SceneError([f"{names} bound one solid, so they must have one ior, got {a.ior:g} and {b.ior:g}"])
+
+
+def _check_cavities(corners: np.ndarray, shell: np.ndarray, owner: np.ndarray, objects: list[Object]) -> None:
+    """The cavities of a solid lie inside it, and apart from each other.
+
+    `corners` (m, 3, 3) are its faces, `shell` (m,) their shells and `owner` (m,) their objects.
+    """
+    _, shell = np.unique(shell, return_inverse=True)
+    shells = grouped(shell.ravel(), int(shell.max()) + 1)
+    if len(shells) == 1 or len(shells) > MOST_SHELLS:
+        return
+    hull = int(np.abs(signed_volumes(corners, shell.ravel(), len(shells))).argmax())
+    low, high = bounds_of(corners, shell.ravel(), len(shells))
+    surfaces = [Surface.of(corners[faces]) for faces in shells]
+    for k, cavity in enumerate(surfaces):
+        if k == hull:
+            continue
+        if cross(cavity, surfaces[hull]):
+            names = _named(objects, int(owner[shells[k][0]]), int(owner[shells[hull][0]]))
+            raise SceneError([f"{names}: a cavity must lie inside its solid"])
+        for j in np.flatnonzero(((low[:k] < high[k]) & (low[k] < high[:k])).all(axis=1)):
+            if j != hull and overlap(surfaces[j], cavity):
+                names = _named(objects, int(owner[shells[j][0]]), int(owner[shells[k][0]]))
+                raise SceneError([f"{names}: the cavities of a solid must not overlap"])
+
+
+def _named(objects: list[Object], a: int, b: int) -> str:
+    """Two objects of a mesh file, in a message."""
+    shape = objects[a].shape
+    file = f"{shape.file}: " if isinstance(shape, Mesh) else ""
+    return file + " and ".join(place("object", k, objects[k].name) for k in dict.fromkeys((a, b)))

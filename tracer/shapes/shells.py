@@ -14,11 +14,13 @@ from typing import NamedTuple
 import numpy as np
 
 OPEN = -1
+TRIED = 8  # faces of a shell, the middles of which may show that it lies inside another one
 
 
 class Shells(NamedTuple):
     """The solids of a mesh with m faces."""
 
+    shell: np.ndarray  # (m,) number of the shell of each face
     solid: np.ndarray  # (m,) number of the solid that each face bounds, OPEN for a face of an open shell
     turned: np.ndarray  # (m,) whether the face belongs to a closed shell that is wound inside out
     count: int  # number of solids
@@ -43,16 +45,16 @@ def find_shells(corners: np.ndarray, parts: np.ndarray | None = None, media: np.
     solid_like = closed & (sizes > 0.0) & ~np.isnan(index)
     for k in np.flatnonzero(closed & (sizes < 0.0)):
         around = np.flatnonzero(solid_like & (lows <= lows[k]).all(axis=1) & (highs >= highs[k]).all(axis=1))
-        point = corners[faces_of[k][0]].mean(axis=0)
+        points = corners[faces_of[k][:TRIED]].mean(axis=1)
         # The same medium first, then the smallest.
         for other in sorted(around.tolist(), key=lambda j: (index[j] != index[k], sizes[j])):
-            if winding_number(corners[faces_of[other]], point) > 0.5:
+            if (winding_numbers(corners[faces_of[other]], points) > 0.5).any():
                 host[k] = other
                 break
     own = closed & (host == np.arange(len(closed)))
     number = np.where(own, np.cumsum(own) - 1, OPEN)
     solid = np.where(closed, number[host], OPEN)
-    return Shells(solid[shell], (own & (sizes < 0.0))[shell], int(own.sum()))
+    return Shells(shell, solid[shell], (own & (sizes < 0.0))[shell], int(own.sum()))
 
 
 def grouped(labels: np.ndarray, count: int) -> list[np.ndarray]:
@@ -126,6 +128,14 @@ def pieces_of(faces: np.ndarray, parts: np.ndarray) -> tuple[np.ndarray, np.ndar
     return shell, closed
 
 
+def has_holes(corners: np.ndarray) -> bool:
+    """Whether triangles (m, 3, 3) have an edge at an odd number of them."""
+    faces = welded(corners.reshape(-1, 3)).reshape(-1, 3)
+    edges = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    _, counts = np.unique(edges[edges[:, 0] != edges[:, 1]], axis=0, return_counts=True)
+    return bool((counts % 2).any())
+
+
 def components(count: int, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """The smallest number in the connected component of each of `count` nodes, for edges from a to b."""
     label = np.arange(count)
@@ -166,12 +176,25 @@ def bounds_of(corners: np.ndarray, shell: np.ndarray, count: int) -> tuple[np.nd
 
 
 def winding_number(corners: np.ndarray, p: np.ndarray) -> float:
-    """How often closed triangles (m, 3, 3) wind about a point: 1 inside, 0 outside. From the solid angles of the faces.
+    """As `winding_numbers`, for one point (3,)."""
+    return float(winding_numbers(corners, p[None])[0])
 
+
+def winding_numbers(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """How often closed triangles (m, 3, 3) wind about points (n, 3): 1 inside, 0 outside, NaN on the surface; (n,).
+
+    From the solid angles of the faces.
     Van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983.
     """
-    a, b, c = np.moveaxis(corners - p, 1, 0)
-    la, lb, lc = (np.sqrt((x * x).sum(axis=1)) for x in (a, b, c))
-    volume = (a * np.cross(b, c)).sum(axis=1)
-    spread = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
-    return float(2.0 * np.arctan2(volume, spread).sum() / (4.0 * math.pi))
+    step = max(1, 1_000_000 // max(1, len(corners)))
+    return np.concatenate([_winding(corners, points[k : k + step]) for k in range(0, len(points), step)])
+
+
+def _winding(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
+    a, b, c = (corners[None, :, k] - points[:, None] for k in range(3))
+    la, lb, lc = (np.sqrt((x * x).sum(axis=2)) for x in (a, b, c))
+    volume = (a * np.cross(b, c)).sum(axis=2)
+    spread = la * lb * lc + (a * b).sum(axis=2) * lc + (b * c).sum(axis=2) * la + (c * a).sum(axis=2) * lb
+    on_surface = np.maximum(np.abs(volume), spread) <= 1e-12 * la * lb * lc
+    turns = 2.0 * np.arctan2(volume, spread).sum(axis=1) / (4.0 * math.pi)
+    return np.where(on_surface.any(axis=1), math.nan, turns)

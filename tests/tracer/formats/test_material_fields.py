@@ -65,6 +65,7 @@ def test_mtl_field(text: str, wanted: dict[str, Any], tmp_path: Path) -> None:
         ("Kd 1\nd 0.5\nTr 0.6", "contradict each other: d counts"),
         ("Kd 1\nd 0.5\nillum 7", 'need the model "fresnel"'),
         ("Kd 1\nillum 8", "reflect a picture"),
+        ("Kd 255 128 0", "reflect more light than they get"),
         ("Kd 1\nKa 1 1 1", "Ka is not read"),
         ("Kd 1\nmap_Kd a.png", "textures are not shown: 1"),
         ("Kd 1\nd -halo 0.5", "d -halo"),

@@ -201,6 +201,9 @@ def test_a_hundred_thousand_triangles_are_no_trouble() -> None:
     assert tree.nodes["t"][0] == pytest.approx(expected, abs=1e-3)  # of the facets, not of the ball
 
 
+LOOP = (
+    "solid a\nfacet normal 0 0 1 outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop endfacet\nendsolid a\n"
+)
 BOMB = [
     {"componentType": 5126, "count": 30_000_000, "type": "VEC3"},
     {"componentType": 5125, "count": 3, "type": "SCALAR"},
@@ -216,12 +219,17 @@ BOMB = [
         ("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 'line 1: v must have finite numbers, got "nan"'),
         ("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "line 4: a face refers to vertex 9, but the file has 3"),
         ("noise.stl", bytes(range(256)) * 4, "triangles, as its header says, got 18"),
-        ("cut.ply", ply()[:-20], "must have 12 of element face, as its header says"),
+        ("cut.ply", ply()[:-20], "line 27: element face must have 4 numbers on its line, got 2"),
         (
             "bomb.ply",
             ply(10**9),
             "line 3: element vertex must have no more elements than the file has bytes",
         ),
+        ("index.ply", ply().replace("\n3 0", "\n3 9", 1), "must have vertices from 0 to 7, got 9"),
+        ("more.ply", ply().replace("\n3 0", "\n3 0 5", 1), "element face must have 4 numbers on its line, got 5"),
+        ("vertex.stl", LOOP.replace("1 1 0", "1 1"), 'line 6: a vertex must have three numbers, got "1 1"'),
+        ("loop.stl", LOOP.replace("vertex 1 1 0", ""), "line 3: a loop must have 3 vertices, got 2"),
+        ("normal.obj", "vn 0 1\n", "line 1: vn must have 3 numbers, got 2"),
         ("noise.glb", b"glTF" + bytes(40), "must be glTF 2, got version 0"),
         ("cut.glb", glb()[:200], "bytes, as its header says, got 200"),
         ("bomb.glb", glb(accessors=BOMB), "accessors[0].count must be from 0 to 12000000, got 30000000"),

@@ -163,6 +163,11 @@ def test_every_fault_is_said_with_its_line(tmp_path: Path) -> None:
     assert found[9] == "scene.nff: line 11: r g b of the background must be a number, got the end of the file"
 
 
+def test_an_unreadable_material_is_one_fault_and_not_one_for_each_of_its_objects(tmp_path: Path) -> None:
+    (found,) = faults(tmp_path, "f 1 1 1 0.5 0.5 9 0\ns 0 0 0 1\ns 3 0 0 1\n")
+    assert "ior of f must be a number" in found
+
+
 def test_what_follows_a_fault_of_value_is_read_again(tmp_path: Path) -> None:
     found = faults(tmp_path, "f 1 1 1 0.5 0.5 9 0 0\nl 0 9 0 -1 0 0\nq 1\ns 0 0 0 0\nfrom 3\n")
     assert [fault.split(": ")[1] for fault in found] == ["line 2", "line 3", "line 4", "line 5"]

@@ -7,6 +7,7 @@ import numpy as np
 
 from tracer.formats.gltf.accessors import Accessors
 from tracer.formats.gltf.document import Item
+from tracer.formats.notes import Notes
 from tracer.formats.source import Fault
 
 IDENTITY = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
@@ -21,7 +22,7 @@ class Placed:
     matrix: np.ndarray
 
 
-def placed_nodes(document: Item) -> Iterator[Placed]:
+def placed_nodes(document: Item, notes: Notes) -> Iterator[Placed]:
     """Yield the nodes of the document's scene, each before its children. Raises Fault if one is reached twice."""
     nodes = document.items("nodes")
     waiting = [(number, np.eye(4), "scene") for number in reversed(roots(document, nodes))]
@@ -40,6 +41,9 @@ def placed_nodes(document: Item) -> Iterator[Placed]:
             raise Fault(f"{node.place} must have a finite placement")
         yield Placed(node, matrix)
         waiting += [(child, matrix, f"{node.place}.children") for child in reversed(node_numbers(node, "children"))]
+    if len(document.entries("scenes")) <= 1:
+        unseen = sum(node.has("mesh") for number, node in enumerate(nodes) if number not in seen)
+        notes.count("nodes with a mesh that are not in the scene are not shown", unseen)
 
 
 def roots(document: Item, nodes: list[Item]) -> list[int]:

@@ -38,7 +38,7 @@ def read_gltf(path: Path, progress: Callable[[float], None]) -> MeshFile:
     accessors = Accessors(document, path.parent, binary)
     materials = [material_of(item, k, notes) for k, item in enumerate(document.items("materials"))]
     meshes = document.items("meshes")
-    nodes = list(placed_nodes(document))
+    nodes = list(placed_nodes(document, notes))
     with_mesh = [placed for placed in nodes if placed.node.has("mesh")]
     check_size(with_mesh, meshes, accessors)
     notes.count("animations are not played", len(document.entries("animations")))
