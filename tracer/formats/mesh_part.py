@@ -7,7 +7,7 @@ import numpy as np
 
 from tracer import fields
 from tracer.formats.notes import Notes
-from tracer.formats.source import Fault
+from tracer.formats.source import Fault, printable
 from tracer.formulas.double_double import dd_cross, exact_difference
 from tracer.scene import Camera, Image, Light, Material
 from tracer.shapes.mesh import Geometry
@@ -37,10 +37,11 @@ class MeshFile:
 
     parts: list[Part]
     notes: list[str]  # what the file has and the parts have not
+    scene_notes: list[str]  # the same of camera and lights
     files: tuple[Path, ...] = ()  # the other files that it names, also those that were not found
     camera: Camera | None = None
     image: Image | None = None
-    lights: tuple[Light, ...] = ()
+    lights: tuple[Light, ...] | None = None  # None: the file has none
 
 
 def make_part(
@@ -78,7 +79,7 @@ def make_part(
     if smooth is not None and (smooth[1][~flat] >= 0).any():
         normals, normal_faces = unit_normals(*smooth)
         normal_faces = normal_faces[~flat]
-    return Part(name, Geometry(vertices, faces[~flat], normals, normal_faces, faces[flat]), material, thin)
+    return Part(printable(name), Geometry(vertices, faces[~flat], normals, normal_faces, faces[flat]), material, thin)
 
 
 def without_area(vertices: np.ndarray, faces: np.ndarray) -> np.ndarray:

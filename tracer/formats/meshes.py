@@ -38,9 +38,12 @@ def read_mesh_scene(path: Path, progress: Callable[[float], None], up: str = "y"
         own["camera"] = _turned_camera(found.camera, turn)
     if found.image:
         own["image"] = found.image
-    lights = tuple(_turned_light(light, turn) for light in found.lights) or default_lights(objects)
-    notes, files = tuple(f"{path.name}: {note}" for note in found.notes), (path, *found.files)
-    return Scene(objects, lights, title=path.stem, path=path, notes=notes, files=files, **own)
+    lights = default_lights(objects)
+    if found.lights is not None:
+        lights = tuple(_turned_light(light, turn) for light in found.lights)
+    notes = tuple(f"{shown_path(path.name)}: {note}" for note in [*found.notes, *found.scene_notes])
+    files, title = (path, *found.files), shown_path(path.stem)
+    return Scene(objects, lights, title=title, path=path, notes=notes, files=files, **own)
 
 
 def part_objects(parts: list[Part], file: str, **placement: Any) -> list[Object]:

@@ -11,9 +11,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
+from tracer import fields
 from tracer.formats.mesh_part import AMBIENT, CLAY
 from tracer.formats.notes import Notes
-from tracer.formats.source import Fault, read_text
+from tracer.formats.source import Fault, lines_of, printable, read_text
 from tracer.formulas.vector import Vector
 from tracer.scene import Material
 
@@ -43,15 +44,18 @@ UNREADABLE = "statements that cannot be read are left out"
 class Library:
     """The materials of an OBJ file, from all its libraries. Of materials with one name the first counts."""
 
-    def __init__(self, folder: Path, notes: Notes) -> None:
-        self.folder = folder
+    def __init__(self, path: Path, notes: Notes) -> None:
+        self.folders = list(dict.fromkeys([path.parent, path.resolve().parent]))  # they differ if the file is a link
         self.notes = notes
         self.files: list[Path] = []  # also those that were not found
-        self.materials: dict[str, Material] = {}
+        self.entries: dict[str, Entry] = {}
+        self.found: dict[str, Material] = {}  # those that faces use
 
     def read(self, names: str) -> None:
         """Read the libraries that a `mtllib` statement names. A name may have spaces."""
         for path in self._paths(names):
+            if path in self.files:
+                continue
             self.files.append(path)
             try:
                 text = read_text(path)
@@ -61,30 +65,45 @@ class Library:
             except (Fault, OSError) as error:
                 self.notes.name("material libraries that cannot be read", f"{path.name}: {error}")
                 continue
-            for name, material in materials_of(text, path, self.notes):
-                if self.materials.setdefault(name, material) is not material:
-                    self.notes.name("materials that are defined twice: the first counts", name)
+            for entry in entries_of(text, path, self.notes):
+                for name in dict.fromkeys((entry.name, named(entry.name), uncommented(entry.name))):
+                    if self.entries.setdefault(name, entry) is not entry and name == named(entry.name):
+                        self.notes.name("materials that are defined twice: the first counts", name)
 
     def find(self, name: str) -> Material:
         """The material that a `usemtl` statement names, by the text as written or without its comment."""
-        for candidate in (name, uncommented(name)):
-            if candidate in self.materials:
-                return self.materials[candidate]
+        if name not in self.found:
+            self.found[name] = self._material(name)
+        return self.found[name]
+
+    def _material(self, name: str) -> Material:
+        for candidate in (name, named(name), uncommented(name)):
+            if candidate in self.entries:
+                return material_of(self.entries[candidate], self.notes)
         if name:
-            self.notes.name("materials that were not found, shown as clay", uncommented(name))
+            self.notes.name("materials that were not found, shown as clay", named(name))
         return CLAY
 
     def _paths(self, names: str) -> Iterator[Path]:
-        """The files that are named: the longest sequences of words that name an existing file, else single words."""
+        """The files that are named: all of the text, or the longest sequences of words that name an existing file, else
+        single words.
+        """
+        for text in (names, uncommented(names)):
+            if path := self._existing(text):
+                yield path
+                return
         words = [quoted or word for quoted, word in re.findall(r'"([^"]*)"|(\S+)', uncommented(names))]
         start = 0
         while start < len(words):
             for end in range(len(words), start, -1):
-                path = existing(self.folder, " ".join(words[start:end]))
+                path = self._existing(" ".join(words[start:end]))
                 if path or end == start + 1:
-                    yield path or self.folder / words[start].replace("\\", "/")
+                    yield path or self.folders[0] / words[start].replace("\\", "/")
                     start = end
                     break
+
+    def _existing(self, name: str) -> Path | None:
+        return next((path for folder in self.folders if (path := existing(folder, name))), None)
 
 
 def existing(folder: Path, name: str) -> Path | None:
@@ -117,25 +136,23 @@ class Entry:
     """The statements of one material, by keyword in lower case."""
 
     name: str
+    file: Path
     colors: dict[str, Vector] = field(default_factory=dict)
     numbers: dict[str, float] = field(default_factory=dict)
 
 
-def materials_of(text: str, path: Path, notes: Notes) -> Iterator[tuple[str, Material]]:
-    """Yield the materials of a library by name: as written, and without the comment behind it. Raises Fault for a
-    number that is not finite and for a spectral colour. Other statements that cannot be read are left out.
+def entries_of(text: str, path: Path, notes: Notes) -> list[Entry]:
+    """The materials of a library. Raises Fault for a number that is not finite and for a spectral colour. Other
+    statements that cannot be read are left out.
     """
     entries: list[Entry] = []
-    for line, content in enumerate(text.splitlines(), 1):
+    for line, content in enumerate(lines_of(text), 1):
         keyword, *words = uncommented(content).split() or [""]
         if keyword.lower() == "newmtl":
-            entries.append(Entry(" ".join(content.split()[1:])))
+            entries.append(Entry(spaced(content).partition(" ")[2], path))
         elif keyword and not (entries and read_statement(entries[-1], keyword, words, notes, Place(path, line))):
             notes.name(f"{path.name}: {UNREADABLE}", f"line {line}: {' '.join([keyword, *words])[:60]}")
-    for entry in entries:
-        material = material_of(entry, notes)
-        yield entry.name, material
-        yield uncommented(entry.name), material
+    return entries
 
 
 class Place(NamedTuple):
@@ -180,8 +197,8 @@ def numbers(entry: Entry, keyword: str, words: list[str], place: Place) -> list[
         values = [float(word) for word in words]
     except ValueError:
         return []
-    if not all(map(math.isfinite, values)):
-        text = f'material "{entry.name}": {keyword} must have finite numbers, got {" ".join(words)}'
+    if not all(abs(value) <= fields.LARGEST for value in values):
+        text = f'material "{entry.name}": {keyword} must have finite numbers, got {" ".join(words)[:40]}'
         raise Fault(text, place.line, place.path)
     return values
 
@@ -219,7 +236,7 @@ def material_of(entry: Entry, notes: Notes) -> Material:
         notes.say("Ka is not read: all materials have the same ambient coefficient")
     highlight = mean(colors.get("ks", (0.0, 0.0, 0.0)))
     return Material(
-        name=uncommented(entry.name),
+        name=printable(named(entry.name)),
         color=colors.get("kd", CLAY.color),
         ambient=1.0 if model == CONSTANT else AMBIENT * (1.0 - transmit),
         diffuse=0.0 if model == CONSTANT else 1.0 - transmit,
@@ -238,3 +255,13 @@ def mean(color: Vector) -> float:
 def uncommented(text: str) -> str:
     """The text before a comment. A # inside a word belongs to the word."""
     return re.split(r"(?:^|\s)#", text)[0].strip()
+
+
+def named(text: str) -> str:
+    """A name without the comment behind it. A # before a number at the end belongs to the name, as in "Box #1"."""
+    return spaced(re.split(r"(?:^|\s)#(?!\d+\s*$)", text)[0])
+
+
+def spaced(text: str) -> str:
+    """A text with single spaces between its words. Other white space than spaces and tabs belongs to words."""
+    return re.sub("[ \t\v\f]+", " ", text).strip(" ")

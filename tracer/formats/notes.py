@@ -1,5 +1,6 @@
 """Notes of a reader: what a file has and the scene has not. One line for each kind, with a count."""
 
+from tracer.formats.source import printable
 from tracer.scene.notes import listed
 
 
@@ -17,7 +18,7 @@ class Notes:
 
     def name(self, text: str, name: str) -> None:
         """Add a name to the list that follows the note `text`."""
-        self._names.setdefault(text, {})[name] = None
+        self._names.setdefault(text, {})[printable(name)] = None
 
     def say(self, text: str) -> None:
         """Add a note without a count."""

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from tracer.formats.mesh_part import MeshFile, make_part
-from tracer.formats.mtl import Library, uncommented
+from tracer.formats.mtl import Library, named, spaced, uncommented
 from tracer.formats.notes import Notes
 from tracer.formats.obj_lines import Block, block_ends, corners_of, normalised, numbers_of
 from tracer.formats.polygons import triangulated
@@ -20,8 +20,8 @@ from tracer.formats.source import MOST_TEXT, Fault, decode, read_bytes
 
 def read_obj(path: Path, progress: Callable[[float], None]) -> MeshFile:
     """Read a file and its material libraries. Raises Fault."""
-    reader = Reader(path)
     data = normalised(read_bytes(path, MOST_TEXT))
+    reader = Reader(path)
     line = 1
     for start, end in block_ends(data):
         progress(start / len(data))
@@ -36,7 +36,7 @@ class Reader:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.notes = Notes()
-        self.library = Library(path.parent, self.notes)
+        self.library = Library(path, self.notes)
         self.vertices, self.normals = [np.zeros((0, 3))], [np.zeros((0, 3))]
         self.vertex_count = self.normal_count = self.face_count = 0
         self.corners: list[np.ndarray] = []  # (n, 2): the vertex and the normal of each corner, from 1; 0 for no normal
@@ -83,11 +83,11 @@ class Reader:
         rest = rest.strip()
         match word:
             case "o":
-                self.object, self.group = uncommented(rest), ""
+                self.object, self.group = named(rest), ""
             case "g":
-                self.group = uncommented(rest)
+                self.group = named(rest)
             case "usemtl":
-                self.material = rest
+                self.material = spaced(rest)
             case "mtllib":
                 self.library.read(rest)
             case "s":
@@ -122,8 +122,8 @@ class Reader:
             which = np.concatenate([np.arange(*np.searchsorted(owners, span)) for span in spans])
             own = self.library.find(material)
             smooth = (normals, normal_faces[which])
-            parts.append(make_part(name or uncommented(material), vertices, faces[which], smooth, own, self.notes))
-        return MeshFile([part for part in parts if part], self.notes.lines(), tuple(self.library.files))
+            parts.append(make_part(name or named(material), vertices, faces[which], smooth, own, self.notes))
+        return MeshFile([part for part in parts if part], self.notes.lines(), [], tuple(self.library.files))
 
     def _spans(self) -> dict[tuple[str, str], list[tuple[int, int]]]:
         """The first face and the end of each run of faces, by name and material."""

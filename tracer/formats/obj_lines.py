@@ -10,12 +10,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from tracer.fields import LARGEST
 from tracer.formats.numbers import parsed
 from tracer.formats.polygons import MOST_CORNERS
 from tracer.formats.source import Fault, decode
 
 BLOCK = 1 << 22  # bytes that are parsed at a time
 BLANKS = bytes.maketrans(b"\t\v\f\0", b"    ")
+# Lines of which all but the last end with a backslash. A comment is not continued: it may end with a Windows path.
+CONTINUED = re.compile(rb"^(?:(?!#)(?:[^\n#]|(?<=\S)#)*\\\n)+[^\n]*\n", re.MULTILINE)
 CORNER = re.compile(rb"([+-]?[0-9]{1,18})(?:/[+-]?[0-9]*(?:/([+-]?[0-9]{1,18})?)?)?")
 
 
@@ -29,9 +32,7 @@ def normalised(data: bytes) -> bytes:
     data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n").translate(BLANKS)
     if b"\\\n" not in data:
         return data
-    return re.sub(
-        rb"(?:[^\n]*\\\n)+[^\n]*\n", lambda m: m[0].replace(b"\\\n", b" ") + b"\n" * m[0].count(b"\\\n"), data
-    )
+    return CONTINUED.sub(lambda m: m[0].replace(b"\\\n", b" ") + b"\n" * m[0].count(b"\\\n"), data)
 
 
 def block_ends(data: bytes) -> Iterator[tuple[int, int]]:
@@ -85,7 +86,7 @@ def numbers_of(block: Block, which: np.ndarray, keyword: str, most: int) -> tupl
     values = None
     if (counts >= 3).all() and (counts <= most).all() and b"#" not in text:
         values = parsed(text.replace(keyword.encode(), b" "), np.float64, int(counts.sum()))
-    if values is None or not np.isfinite(values).all():
+    if values is None or not (np.abs(values) <= LARGEST).all():
         rows = [line_numbers(text, line, keyword, most) for _, line, text in block.lines(which)]
         values, counts = np.array([x for row in rows for x in row]), np.array([len(row) for row in rows])
     first = np.cumsum(counts) - counts
@@ -107,8 +108,8 @@ def number(word: bytes, what: str, line: int) -> float:
         value = float(word) if b"_" not in word else math.nan
     except ValueError:
         value = math.nan
-    if not math.isfinite(value):
-        raise Fault(f'{what} must have finite numbers, got "{decode(word)[:40]}"', line)
+    if not abs(value) <= LARGEST:
+        raise Fault(f'{what} must have finite numbers of at most {LARGEST:g}, got "{decode(word)[:40]}"', line)
     return value
 
 

@@ -31,7 +31,9 @@ COLORS = ("red", "green", "blue", "diffuse_red", "r")
 
 def read_ply(path: Path, progress: Callable[[float], None]) -> MeshFile:
     """Read a file. Raises Fault."""
-    data = read_bytes(path)
+    data = read_bytes(path).removeprefix(b"\xef\xbb\xbf")
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        data = decode(data).encode("utf-8")
     notes = Notes()
     order, elements, body = header_of(data)
     if order:
@@ -45,6 +47,9 @@ def read_ply(path: Path, progress: Callable[[float], None]) -> MeshFile:
     for element in elements:
         if element.name not in ("vertex", "face"):
             notes.count(f'elements "{element.name[:20]}" are not read', element.count)
+    names = [element.name for element in elements]
+    if repeated := next((name for name in names if names.count(name) > 1), None):
+        raise Fault(f"must have each element once, got {repeated} {names.count(repeated)} times")
     vertex, face = tables["vertex"], tables["face"]
     if any(name in vertex for name in COLORS):
         notes.count("vertex colours are not shown", len(column(vertex, "x")))
@@ -66,7 +71,7 @@ def read_ply(path: Path, progress: Callable[[float], None]) -> MeshFile:
     if all(name in vertex for name in NORMALS):
         smooth = (np.stack([column(vertex, name) for name in NORMALS], axis=1), faces)
     part = make_part("", points, faces, smooth, CLAY, notes)
-    return MeshFile([part] if part else [], notes.lines())
+    return MeshFile([part] if part else [], notes.lines(), [])
 
 
 def header_of(data: bytes) -> tuple[str, list[Element], int]:
@@ -112,7 +117,8 @@ def column(table: Table, name: str) -> np.ndarray:
     """The numbers of a property of the vertices."""
     values = table.get(name)
     if not isinstance(values, np.ndarray):
-        raise Fault(f"element vertex must have the numbers x, y and z, got {', '.join(table) or 'none'}")
+        shown = (f"{key} (a list)" if isinstance(column, Lists) else key for key, column in table.items())
+        raise Fault(f"element vertex must have the numbers x, y and z, got {', '.join(shown) or 'none'}")
     return values
 
 

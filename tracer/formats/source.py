@@ -1,6 +1,8 @@
 """The content of a file: bytes of a regular file of limited size, or text in any encoding that programs write."""
 
+import re
 import stat
+import unicodedata
 from pathlib import Path
 
 MOST_TEXT = 256 * 2**20  # bytes of a text file
@@ -55,8 +57,8 @@ def read_text(path: Path) -> str:
 
 
 def decode(data: bytes, replaced: bool = False) -> str:
-    """Text in UTF-8 or UTF-16 with a byte order mark, in UTF-8, or else in Latin-1, which most old programs wrote. If
-    `replaced`, bytes that are not UTF-8 become U+FFFD instead.
+    """Text in UTF-8 or UTF-16 with a byte order mark, or in UTF-8. A line that is not UTF-8 is Latin-1, which most old
+    programs wrote. If `replaced`, bytes that are not UTF-8 become U+FFFD instead.
 
     A Control-Z at the end, from DOS, is not part of the text.
     """
@@ -66,12 +68,38 @@ def decode(data: bytes, replaced: bool = False) -> str:
         try:
             text = data.decode("utf-8-sig")
         except UnicodeDecodeError:
-            text = data.decode("utf-8-sig", "replace") if replaced else data.decode("latin-1")
+            text = data.decode("utf-8-sig", "replace") if replaced else "\n".join(map(_line, data.split(b"\n")))
     body, end, rest = text.rpartition("\x1a")
     return body if end and not rest.strip("\x1a\0 \r\n") else text
 
 
+def _line(line: bytes) -> str:
+    try:
+        return line.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return line.decode("latin-1")
+
+
+def lines_of(text: str) -> list[str]:
+    """The lines of a text, which end with CR LF, LF or CR only: other characters that Python takes for line ends may
+    stand in comments.
+    """
+    return re.split(r"\r\n|\r|\n", text)
+
+
 def shown_path(path: Path | str) -> str:
     """A path that can be printed, even if its name is not valid UTF-8 or has control characters."""
-    text = str(path).encode("utf-8", "backslashreplace").decode("utf-8")
-    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+    return printable(str(path))
+
+
+def printable(text: str) -> str:
+    """A text on one line, with escapes in place of control characters and of characters that no encoding has."""
+    if text.isprintable():
+        return text
+    return "".join(ascii(c)[1:-1] if is_control(c) else c for c in text)
+
+
+def is_control(c: str) -> bool:
+    """Whether a character is a control character, a line end or unassigned. Joiners belong to words."""
+    kind = unicodedata.category(c)
+    return kind in ("Zl", "Zp") or (kind.startswith("C") and c not in "\u200c\u200d")

@@ -19,33 +19,34 @@ from tracer.formats.source import Fault, decode, read_bytes
 
 HEADER = 84  # bytes: a comment of 80 and the number of triangles
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-VERTEX = re.compile(rb"^\s*vertex\s([^\n]*)$", re.MULTILINE | re.IGNORECASE)
-SOLID = re.compile(rb"^\s*solid\b([^\n]*)$", re.MULTILINE | re.IGNORECASE)
-# White space before a statement that is not the first on its line.
-INLINE = re.compile(
-    rb"(?<=\S)[ \t]+(?=facet\s+normal\b|outer\s+loop\b|vertex\s+[-+.0-9]|(?:endloop|endfacet|endsolid)\b)",
-    re.IGNORECASE,
-)
+# The name of a solid ends with its line, or before the first statement.
+SOLID = re.compile(rb"^[ \t]*solid\b((?:(?!\bfacet\s+normal\b)[^\n])*)", re.MULTILINE | re.IGNORECASE)
+LOOP = re.compile(rb"\bouter\s+loop\b", re.IGNORECASE)
+VERTEX = re.compile(rb"\bvertex[ \t]([^\n]*)$", re.MULTILINE | re.IGNORECASE)
+FACET = re.compile(rb"\bouter\s+loop" + 3 * rb"\s+vertex\s+(\S+[ \t]+\S+[ \t]+\S+)" + rb"\s+endloop\b", re.IGNORECASE)
 ENDFACET = re.compile(rb"\bendfacet\b", re.IGNORECASE)
 BLOCK = 1 << 22  # bytes of text that are read at once
-LOOP = re.compile(rb"^\s*outer\s+loop\b", re.MULTILINE | re.IGNORECASE)
 
 
 def read_stl(path: Path, progress: Callable[[float], None]) -> MeshFile:
     """Read a file. Raises Fault."""
     data = read_bytes(path)
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") and decode(data[:64]).lstrip()[:5].lower() == "solid":
+        data = decode(data).encode("utf-8")
     notes = Notes()
     count = struct.unpack_from("<I", data, 80)[0] if len(data) >= HEADER else 0
     is_binary = len(data) >= HEADER and HEADER + count * RECORD.itemsize == len(data)
     if not is_binary and re.match(rb"(?:\xef\xbb\xbf)?\s*solid\b", data, re.IGNORECASE) and is_text(data):
         solids = text_solids(data, progress)
+    elif not is_binary and is_text(data):
+        raise Fault('must begin with "solid", as a text file, or be binary')
     else:
         solids = [("", binary_corners(data, count, notes))]
     parts = []
     for name, corners in solids:
         faces = np.arange(3 * len(corners)).reshape(-1, 3)
         parts.append(make_part(name, corners.reshape(-1, 3), faces, None, CLAY, notes))
-    return MeshFile([part for part in parts if part], notes.lines())
+    return MeshFile([part for part in parts if part], notes.lines(), [])
 
 
 def is_text(data: bytes) -> bool:
@@ -70,31 +71,15 @@ def binary_corners(data: bytes, count: int, notes: Notes) -> np.ndarray:
 def text_solids(data: bytes, progress: Callable[[float], None]) -> list[tuple[str, np.ndarray]]:
     """(name, corners (n, 3, 3)) of each solid of a text file. A missing "endsolid" does not matter."""
     text = data.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
-    try:
-        solids = solids_of(text, progress)
-        if any(len(corners) for _, corners in solids):
-            return solids
-    except Fault:
-        if not INLINE.search(text):
-            raise
-    # Once more, with each statement on a line of its own.
-    return solids_of(INLINE.sub(rb"\n", text), progress)
-
-
-def solids_of(text: bytes, progress: Callable[[float], None]) -> list[tuple[str, np.ndarray]]:
-    """As `text_solids`, of a text with each statement on a line of its own."""
     starts = list(SOLID.finditer(text))
     solids = []
-    for start, end in pairwise([*(found.start() for found in starts), len(text)]):
-        head = SOLID.match(text, start)
-        assert head
+    for head, end in zip(starts, [*(found.start() for found in starts[1:]), len(text)], strict=True):
         corners = [np.zeros((0, 3, 3))]
         for first, last in blocks(text, head.end(), end):
             progress(first / len(text))
-            vertices = VERTEX.findall(text, first, last)
-            triangles = len(LOOP.findall(text, first, last))
-            numbers = parsed(b" ".join(vertices), np.float64, 9 * triangles)
-            if numbers is None or len(vertices) != 3 * triangles:
+            facets = FACET.findall(text, first, last)
+            numbers = parsed(b" ".join(vertex for facet in facets for vertex in facet), np.float64, 9 * len(facets))
+            if numbers is None or len(facets) != len(LOOP.findall(text, first, last)):
                 raise fault_in(text, first, last)
             corners.append(numbers.reshape(-1, 3, 3))
         solids.append((decode(head[1]).strip(), np.concatenate(corners)))
@@ -112,14 +97,13 @@ def blocks(text: bytes, start: int, end: int) -> Iterator[tuple[int, int]]:
 def fault_in(text: bytes, start: int, end: int) -> Fault:
     """The first fault of a solid, which is the text from `start` to `end`."""
     loops = [found.end() for found in LOOP.finditer(text, start, end)]
-    for first, last in pairwise([start, *loops, end]):
+    for first, last in pairwise([*loops, end]):
         vertices = list(VERTEX.finditer(text, first, last))
         for found in vertices:
             if parsed(found[1], np.float64, 3) is None:
                 line = text.count(b"\n", 0, found.start(1)) + 1
                 return Fault(f'a vertex must have three numbers, got "{decode(found[1]).strip()[:40]}"', line)
-        allowed = 3 if first in loops else 0
-        if len(vertices) != allowed:
+        if len(vertices) != 3 or FACET.search(text, first - 20, last) is None:
             line = text.count(b"\n", 0, first) + 1
-            return Fault(f"a loop must have 3 vertices, got {len(vertices)}", line)
+            return Fault(f"a loop must have three vertices and an endloop, got {len(vertices)} vertices", line)
     return Fault("must have triangles of three vertices with three numbers each")

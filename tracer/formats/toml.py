@@ -239,7 +239,10 @@ class Reader:
         if isinstance(found, Fault):
             self.fault(where, found.within(f"mesh {shown_path(path.name)}"))
             return []
-        self.notes.update(dict.fromkeys(f"{path.name}: {note}" for note in found.notes))
+        notes = list(found.notes)
+        if found.camera or found.lights:
+            notes.append("camera and lights of a mesh file are not taken over into a scene file")
+        self.notes.update(dict.fromkeys(f"{shown_path(path.name)}: {note}" for note in notes))
         return part_objects(found.parts, **values)
 
 

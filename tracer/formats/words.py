@@ -6,7 +6,7 @@ import math
 from collections.abc import Container
 from typing import NamedTuple
 
-from tracer.formats.source import Fault
+from tracer.formats.source import Fault, lines_of
 from tracer.formulas.vector import Vector
 
 
@@ -25,7 +25,7 @@ class Words:
         self.names = names
         self.texts: list[str] = []
         self.lines: list[int] = []  # of each word
-        for number, line in enumerate(text.splitlines(), 1):
+        for number, line in enumerate(lines_of(text), 1):
             words = line.partition("#")[0].split()
             self.texts += words
             self.lines += [number] * len(words)

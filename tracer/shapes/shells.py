@@ -34,6 +34,7 @@ def find_shells(corners: np.ndarray, parts: np.ndarray | None = None, media: np.
     index, if it lies inside one.
     """
     points = welded(corners.reshape(-1, 3)).reshape(-1, 3)
+    corners = corners * unit_scale(corners)
     shell, closed = shells_of(points, np.zeros(len(corners), np.int64) if parts is None else parts)
     sizes = signed_volumes(corners, shell, len(closed))
     lows, highs = bounds_of(corners, shell, len(closed))
@@ -55,6 +56,12 @@ def find_shells(corners: np.ndarray, parts: np.ndarray | None = None, media: np.
     number = np.where(own, np.cumsum(own) - 1, OPEN)
     solid = np.where(closed, number[host], OPEN)
     return Shells(shell, solid[shell], (own & (sizes < 0.0))[shell], int(own.sum()))
+
+
+def unit_scale(*points: np.ndarray) -> float:
+    """The power of two that makes the largest coordinate about 1, so that no product overflows or underflows."""
+    largest = max(float(np.abs(some).max(initial=0.0)) for some in points)
+    return math.ldexp(1.0, -math.frexp(largest)[1]) if 0.0 < largest < math.inf else 1.0
 
 
 def grouped(labels: np.ndarray, count: int) -> list[np.ndarray]:
@@ -160,7 +167,8 @@ def unbalanced(piece: np.ndarray, edge: np.ndarray, way: np.ndarray) -> np.ndarr
 
 
 def signed_volumes(corners: np.ndarray, shell: np.ndarray, count: int) -> np.ndarray:
-    """The volume of each shell: positive if it is wound right side out."""
+    """The volume of each shell: positive if it is wound right side out. Lengths are scaled by `unit_scale`."""
+    corners = corners * unit_scale(corners)
     origin = np.zeros((count, 3))
     origin[shell] = corners[:, 0]
     a, b, c = np.moveaxis(corners - origin[shell][:, None], 1, 0)
@@ -186,6 +194,8 @@ def winding_numbers(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
     From the solid angles of the faces.
     Van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30(2), 1983.
     """
+    size = unit_scale(corners, points)
+    corners, points = corners * size, points * size
     step = max(1, 1_000_000 // max(1, len(corners)))
     return np.concatenate([_winding(corners, points[k : k + step]) for k in range(0, len(points), step)])
 

@@ -92,6 +92,7 @@ def extension(name: str, **values: Any) -> dict[str, Any]:
 
 
 STRONG = {"KHR_materials_emissive_strength": {"emissiveStrength": 4}}
+CLEAR = {"KHR_materials_transmission": {"transmissionFactor": 1.0}}
 THICK = {"KHR_materials_transmission": {"transmissionFactor": 0.9}, "KHR_materials_volume": {"thicknessFactor": 1.0}}
 
 
@@ -108,6 +109,17 @@ THICK = {"KHR_materials_transmission": {"transmissionFactor": 0.9}, "KHR_materia
         (extension("unlit"), {"ambient": 1.0, "diffuse": 0.0, "reflect": 0.0}),
         ({**pbr(baseColorFactor=[1, 1, 1, 0.25]), "alphaMode": "BLEND"}, {"transmit": 0.75, "thin": True}),
         ({**pbr(baseColorFactor=[1, 1, 1, 0.25]), "alphaMode": "MASK"}, {"transmit": 0.0}),
+        # A metal lets no light through, and a surface that is not there neither reflects nor shines.
+        ({"extensions": CLEAR}, {"transmit": 0.0, "thin": False, "diffuse": 0.3}),
+        ({**pbr(metallicFactor=0.5, roughnessFactor=0.0), "extensions": CLEAR}, {"transmit": 0.5, "reflect": 0.35}),
+        (
+            {**pbr(baseColorFactor=[1, 1, 1, 0], roughnessFactor=0.0), "alphaMode": "BLEND"},
+            {"transmit": 1.0, "reflect": 0.0, "specular": 0.0, "ambient": 0.0, "diffuse": 0.0},
+        ),
+        (
+            {**pbr(baseColorFactor=[1, 0, 0, 0.25]), "alphaMode": "BLEND", "extensions": {"KHR_materials_unlit": {}}},
+            {"color": (1.0, 0.0, 0.0), "ambient": 0.25, "transmit": 0.75},
+        ),
         (
             {
                 "emissiveFactor": [1.0, 0.5, 0.0],
@@ -127,6 +139,8 @@ def test_gltf_field(material: dict[str, Any], wanted: dict[str, Any], tmp_path: 
         ({"emissiveFactor": [1, 0, 0]}, "emit light"),
         ({"alphaMode": "MASK"}, 'alphaMode "MASK"'),
         ({**pbr(baseColorTexture={"index": 0}), "normalTexture": {"index": 1}}, "textures are not shown: 2"),
+        (extension("transmission", transmissionTexture={"index": 0}), "textures are not shown: 1"),
+        (pbr(baseColorFactor=[1.0, 0.7, 0.1, 1.0], roughnessFactor=0.0), "coloured metal mirrors in grey"),
     ],
 )
 def test_gltf_note(material: dict[str, Any], note: str, tmp_path: Path) -> None:

@@ -1,10 +1,12 @@
 """One geometry in all formats, files of another program, and files that are damaged at random."""
 
+import base64
 import json
 import random
 import struct
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 import numpy as np
 import pytest
@@ -97,7 +99,9 @@ def test_stl_statements_may_share_a_line(tmp_path: Path) -> None:
 
 def test_attributes_of_binary_stl_are_noted(tmp_path: Path) -> None:
     solid = trimesh.creation.box()
-    data = bytearray(solid.export(file_type="stl"))
+    exported = solid.export(file_type="stl")
+    assert isinstance(exported, bytes)
+    data = bytearray(exported)
     data[84 + 48 : 84 + 50] = b"\x1f\x80"
     found = load_mesh(write(tmp_path / "a.stl", bytes(data)))
     assert found.notes == ["attributes of triangles, which may be colours, are not shown: 1"]
@@ -108,6 +112,40 @@ def test_nodes_outside_the_scene_are_noted(tmp_path: Path) -> None:
     found = load_mesh(path)
     assert len(found.parts) == 1
     assert found.notes == ["nodes with a mesh that are not in the scene are not shown: 1"]
+
+
+def test_data_uris_in_any_spelling(tmp_path: Path) -> None:
+    """Base64 may be percent-encoded or use the alphabet for URLs, and the bytes may be percent-encoded themselves."""
+    data = glb()
+    length = struct.unpack_from("<I", data, 12)[0]
+    document, buffer = json.loads(data[20 : 20 + length]), data[28 + length :]
+    plain = base64.b64encode(buffer).decode()
+    assert "+" in plain or "/" in plain
+    for uri in (
+        f"data:application/octet-stream;base64,{plain}",
+        f"DATA:application/octet-stream;BASE64,{quote(plain, safe='')}",
+        f"data:;base64,{plain.replace('+', '-').replace('/', '_')}",
+        f"data:application/octet-stream,{quote(buffer)}",
+    ):
+        document["buffers"][0]["uri"] = uri
+        (part,) = load_mesh(write(tmp_path / "a.gltf", json.dumps(document))).parts
+        assert np.array_equal(
+            part.geometry.vertices[part.geometry.faces], np.array(CUBE_V)[np.array(CUBE_F)] + [10, 0, 0]
+        )
+    document["buffers"][0]["uri"] = f"data:;base64,{plain[:8]}*{plain[9:]}"
+    with pytest.raises(tracer.SceneError, match=r"buffers\[0\].uri must be base64"):
+        tracer.load(write(tmp_path / "a.gltf", json.dumps(document)))
+
+
+def test_a_light_without_intensity_is_no_reason_for_other_lights(tmp_path: Path) -> None:
+    lights = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 0}]}}
+    dark = {"extensions": {"KHR_lights_punctual": {"light": 0}}}
+    path = write(tmp_path / "a.glb", glb(nodes=[{"mesh": 0, **dark}], extensions=lights))
+    scene = tracer.load(path)
+    assert scene.lights == ()
+    assert scene.notes == ("a.glb: lights without intensity are left out: 1",)
+    text = 'format = 1\n[[object]]\nshape = "mesh"\nfile = "a.glb"\n'
+    assert tracer.load(write(tmp_path / "a.toml", text)).notes == ()
 
 
 def mutated(data: bytes, dice: random.Random) -> bytes:

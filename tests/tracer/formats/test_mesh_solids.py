@@ -44,9 +44,9 @@ def glass_world(path: Path) -> tracer.World:
     return tracer.prepare(tracer.load(write(path.with_suffix(".toml"), scene)))
 
 
-def indices(world: tracer.World) -> list[tuple[float, float]]:
+def indices(world: tracer.World, size: float = 1.0) -> list[tuple[float, float]]:
     """The indices before and behind each hit of a ray that goes straight through the middle, and is only refracted."""
-    tree = tracer.trace(world, ray=((0.5, 0.4, 9.0), (0.0, 0.0, -1.0)), depth=8)
+    tree = tracer.trace(world, ray=((0.5 * size, 0.4 * size, 9.0 * size), (0.0, 0.0, -1.0)), depth=8)
     row, found = 0, []
     while math.isfinite(tree.nodes["n2"][row]):
         found.append((float(tree.nodes["n1"][row]), float(tree.nodes["n2"][row])))
@@ -194,3 +194,12 @@ def test_one_face_of_the_other_winding_is_named_as_the_cause(tmp_path: Path) -> 
     ]
     holed = glass_world(write_obj(tmp_path / "it.obj", ("it", cube(0.0, 1.0)[1:])))
     assert [note.partition(":")[0] for note in holed.notes] == ['"it" is open']
+
+
+@pytest.mark.parametrize("power", [-400, -340, 340, 480])
+def test_solids_do_not_depend_on_the_unit_of_length(power: int, tmp_path: Path) -> None:
+    size = 2.0**power
+    groups = ("outer", cube(-size, 2.0 * size)), ("inner", cube(0.0, size, flipped=True))
+    world = glass_world(write_obj(tmp_path / "hollow.obj", *groups))
+    assert world.notes == []
+    assert indices(world, size) == [(1.0, 1.5), (1.5, 1.0), (1.0, 1.5), (1.5, 1.0)]

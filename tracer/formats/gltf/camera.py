@@ -13,7 +13,7 @@ from tracer.formats.gltf.document import Item
 from tracer.formats.gltf.nodes import Placed
 from tracer.formats.mesh_part import Part
 from tracer.formats.notes import Notes
-from tracer.formats.source import Fault
+from tracer.formats.source import Fault, printable
 from tracer.formulas.vector import Vector, as_floats
 from tracer.scene import Camera, Image, Light
 from tracer.scene.scene import middle_and_radius
@@ -56,12 +56,12 @@ def perspective(lens: Item, matrix: np.ndarray) -> tuple[Camera | None, Image | 
     return camera, Image(max(1, round(HEIGHT * aspect)), HEIGHT)
 
 
-def lights_of(document: Item, nodes: list[Placed], parts: list[Part], notes: Notes) -> tuple[Light, ...]:
-    """The lights of the scene (KHR_lights_punctual)."""
+def lights_of(document: Item, nodes: list[Placed], parts: list[Part], notes: Notes) -> tuple[Light, ...] | None:
+    """The lights of the scene (KHR_lights_punctual); None if it has none."""
     known = document.item("extensions").item("KHR_lights_punctual").items("lights")
     bounds = [np.stack([part.geometry.vertices.min(axis=0), part.geometry.vertices.max(axis=0)]) for part in parts]
     middle = middle_and_radius(np.array(bounds))[0] if bounds else np.zeros(3)
-    lights, spots = [], 0
+    lights, seen, spots = [], 0, 0
     for placed in nodes:
         own = placed.node.item("extensions").item("KHR_lights_punctual")
         if not own.has("light"):
@@ -70,22 +70,26 @@ def lights_of(document: Item, nodes: list[Placed], parts: list[Part], notes: Not
         if number >= len(known):
             raise Fault(f"{own.place}.light must be from 0 to {len(known) - 1}, got {number}")
         light = known[number]
-        color = [light.number("intensity", 1.0, 0.0) * value for value in light.numbers("color", [1.0, 1.0, 1.0])]
+        seen += 1
+        color = [
+            light.number("intensity", 1.0, 0.0) * value for value in light.numbers("color", [1.0, 1.0, 1.0], least=0.0)
+        ]
         name = placed.node.text("name") or light.text("name") or f"light {number}"
         place = placed.matrix[:3, 3]
         spots += light.text("type") == "spot"
         if light.text("type") == "directional":
             direction = as_floats(-placed.matrix[:3, 2])
             if any(direction) and max(color) > 0.0:
-                lights.append(Light(name, None, direction, rgb(color)))
+                lights.append(Light(printable(name), None, direction, rgb(color)))
             continue
         distance = math.dist(place, middle) or 1.0
         if max(color) > 0.0:
-            lights.append(Light(name, as_floats(place), None, rgb([value / distance**2 for value in color])))
-    if not lights:
-        return ()
+            lights.append(Light(printable(name), as_floats(place), None, rgb([value / distance**2 for value in color])))
+    if seen == 0:
+        return None
     notes.count("spots are shown without their cones", spots)
-    total = max(sum(light.color[k] for light in lights) for k in range(3))
+    notes.count("lights without intensity are left out", seen - len(lights))
+    total = max((sum(light.color[k] for light in lights) for k in range(3)), default=1.0)
     notes.count("lights are scaled to 1 in the middle of the scene, and do not fall off with distance", len(lights))
     return tuple(Light(x.name, x.position, x.direction, rgb([value / total for value in x.color])) for x in lights)
 

@@ -11,14 +11,16 @@ import struct
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, TypeVar
-from urllib.parse import unquote
+from urllib.parse import unquote, unquote_to_bytes
 
 from tracer import fields
-from tracer.formats.source import MOST_TEXT, Fault, decode, read_bytes
+from tracer.formats.notes import Notes
+from tracer.formats.source import MOST_TEXT, Fault, check_regular, decode, read_bytes
 
 T = TypeVar("T")
 
 MAGIC, JSON_CHUNK, BINARY_CHUNK = b"glTF", 0x4E4F534A, 0x004E4942
+TO_BASE64, WHITE_SPACE = bytes.maketrans(b"-_", b"+/"), b" \t\r\n"  # the alphabet for URLs is understood, too
 WORDS = {dict: "an object", list: "a list", str: "a text", int: "a whole number", bool: "true or false"}
 
 
@@ -70,16 +72,19 @@ class Item:
             raise Fault(f"{self.at(key)} must be from {least:g} to {most:g}, got {value:g}")
         return value
 
-    def numbers(self, key: str, default: list[float]) -> list[float]:
-        """As many finite numbers as the default has."""
+    def numbers(self, key: str, default: list[float], least: float = -math.inf) -> list[float]:
+        """As many finite numbers as the default has, none below `least`."""
         values = self.entries(key) if key in self.value else default
         if len(values) != len(default):
             raise Fault(f"{self.at(key)} must have {len(default)} numbers, got {len(values)}")
-        return self._numbers(key, values)
+        numbers = self._numbers(key, values)
+        if min(numbers) < least:
+            raise Fault(f"{self.at(key)} must have numbers of at least {least:g}, got {min(numbers):g}")
+        return numbers
 
     def _numbers(self, key: str, values: list[Any]) -> list[float]:
         for value in values:
-            if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > fields.LARGEST:
+            if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= fields.LARGEST:
                 raise Fault(f"{self.at(key)} must have finite numbers, got {fields.shown(value)}")
         return [float(value) for value in values]
 
@@ -104,22 +109,26 @@ def found(value: Any) -> str:
             return fields.shown(value)
 
 
-def read_document(path: Path) -> tuple[Item, bytes | None]:
-    """(document, binary chunk or None) of a file. Raises Fault."""
-    if path.suffix.lower() == ".gltf":
-        return parsed_json(read_bytes(path, MOST_TEXT)), None
+def read_document(path: Path, notes: Notes) -> tuple[Item, bytes | None]:
+    """(document, binary chunk or None) of a file, whatever its suffix. Raises Fault."""
     data = read_bytes(path)
-    if data[:4] != MAGIC or len(data) < 20:
-        raise Fault('must begin with "glTF" and a JSON chunk')
+    if data[:4] != MAGIC:
+        if path.suffix.lower() == ".glb":
+            raise Fault('must begin with "glTF" and a JSON chunk')
+        check_regular(path, MOST_TEXT)
+        return parsed_json(data), None
+    if len(data) < 20:
+        raise Fault(f"must have a header and a JSON chunk, got {len(data)} bytes")
     _, version, length = struct.unpack_from("<4sII", data)
     if version != 2:
         raise Fault(f"must be glTF 2, got version {version}")
     if length > len(data):
         raise Fault(f"must have {length} bytes, as its header says, got {len(data)}")
-    chunks = dict(reversed(list(chunks_of(data))))  # of two chunks of one kind the first counts
+    notes.count("bytes after the end that the header tells are not read", len(data) - length)
+    chunks = dict(reversed(list(chunks_of(data[:length]))))  # of two chunks of one kind the first counts
     if JSON_CHUNK not in chunks:
         raise Fault("must have a JSON chunk, got none")
-    return parsed_json(chunks[JSON_CHUNK]), chunks.get(BINARY_CHUNK)
+    return parsed_json(chunks[JSON_CHUNK].rstrip(b"\0")), chunks.get(BINARY_CHUNK)
 
 
 def chunks_of(data: bytes) -> Iterator[tuple[int, bytes]]:
@@ -149,13 +158,12 @@ def read_buffer(buffer: Item, folder: Path, binary: bytes | None, files: list[Pa
     uri = buffer.text("uri")
     if not uri:
         data = binary
-    elif uri.startswith("data:"):
-        try:
-            data = base64.b64decode(uri.partition(",")[2], validate=False)
-        except ValueError:
-            raise Fault(f"{buffer.place}.uri must be base64") from None
+    elif uri[:5].lower() == "data:":
+        data = data_of(uri, f"{buffer.place}.uri")
     else:
         path = folder / unquote(uri)
+        if not path.exists() and "\\" in uri:
+            path = folder / unquote(uri).replace("\\", "/")
         files.append(path)
         try:
             data = read_bytes(path)
@@ -163,6 +171,20 @@ def read_buffer(buffer: Item, folder: Path, binary: bytes | None, files: list[Pa
             raise Fault("buffer file not found", file=path) from None
         except OSError as error:
             raise Fault(f"buffer file cannot be read: {error.strerror}", file=path) from None
+        except Fault as fault:
+            raise Fault(f"buffer file {fault}", file=path) from None
     if data is None or len(data) < length:
         raise Fault(f"{buffer.place} must have {length} bytes, got {len(data or b'')}")
     return data
+
+
+def data_of(uri: str, place: str) -> bytes:
+    """The bytes of a data URI (RFC 2397). Raises Fault."""
+    head, _, content = uri.partition(",")
+    data = unquote_to_bytes(content)
+    if not head.lower().endswith(";base64"):
+        return data
+    try:
+        return base64.b64decode(data.translate(TO_BASE64, WHITE_SPACE), validate=True)
+    except ValueError as error:
+        raise Fault(f"{place} must be base64: {error}") from None

@@ -11,12 +11,11 @@ import numpy as np
 from tracer.formats.gltf.accessors import Accessors
 from tracer.formats.gltf.camera import camera_and_image, lights_of
 from tracer.formats.gltf.document import Item, read_document
-from tracer.formats.gltf.materials import material_of
+from tracer.formats.gltf.materials import Materials
 from tracer.formats.gltf.nodes import INSTANCING, Placed, instance_count, instances, placed_nodes
 from tracer.formats.mesh_part import CLAY, MOST_FACES, MeshFile, Part, make_part
 from tracer.formats.notes import Notes
 from tracer.formats.source import Fault
-from tracer.scene import Material
 
 HANDLED = {
     "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_ior", "KHR_materials_emissive_strength",
@@ -29,14 +28,14 @@ POINTS_AND_LINES, TRIANGLES, STRIP, FAN = (0, 1, 2, 3), 4, 5, 6  # modes of a pr
 
 def read_gltf(path: Path, progress: Callable[[float], None]) -> MeshFile:
     """Read a file. Raises Fault."""
-    document, binary = read_document(path)
     notes = Notes()
+    document, binary = read_document(path, notes)
     if not document.item("asset").text("version", "2.0").startswith("2."):
         raise Fault(f"must be glTF 2, got version {document.item('asset').text('version')[:20]}")
-    notes.count("scenes besides the first are not shown", max(0, len(document.entries("scenes")) - 1))
+    notes.count("other scenes of the file are not shown", max(0, len(document.entries("scenes")) - 1))
     check_extensions(document, notes)
     accessors = Accessors(document, path.parent, binary)
-    materials = [material_of(item, k, notes) for k, item in enumerate(document.items("materials"))]
+    materials = Materials(document, notes)
     meshes = document.items("meshes")
     nodes = list(placed_nodes(document, notes))
     with_mesh = [placed for placed in nodes if placed.node.has("mesh")]
@@ -52,9 +51,10 @@ def read_gltf(path: Path, progress: Callable[[float], None]) -> MeshFile:
         for primitive in mesh.items("primitives"):
             parts += primitive_parts(primitive, name, placed, accessors, materials, notes)
     kept = [part for part in parts if part]
-    camera, image = camera_and_image(document, nodes, notes)
-    lights = lights_of(document, nodes, kept, notes)
-    return MeshFile(kept, notes.lines(), tuple(accessors.files), camera, image, lights)
+    scene_notes = Notes()
+    camera, image = camera_and_image(document, nodes, scene_notes)
+    lights = lights_of(document, nodes, kept, scene_notes)
+    return MeshFile(kept, notes.lines(), scene_notes.lines(), tuple(accessors.files), camera, image, lights)
 
 
 def check_extensions(document: Item, notes: Notes) -> None:
@@ -97,7 +97,7 @@ def primitive_parts(
     name: str,
     placed: Placed,
     accessors: Accessors,
-    materials: list[tuple[Material, bool]],
+    materials: Materials,
     notes: Notes,
 ) -> list[Part | None]:
     """The triangles of a primitive, once for each instance of its node."""
@@ -125,10 +125,7 @@ def primitive_parts(
             raise Fault(f"{attributes.place} must have as many normals as positions, got {len(normals)}")
     material, thin = CLAY, False
     if primitive.has("material"):
-        number = primitive.whole("material")
-        if number >= len(materials):
-            raise Fault(f"{primitive.place}.material must be from 0 to {len(materials) - 1}, got {number}")
-        material, thin = materials[number]
+        material, thin = materials.get(primitive.whole("material"), primitive.at("material"))
     found = []
     for matrix in instances(placed, accessors):
         linear = matrix[:3, :3]
@@ -139,7 +136,10 @@ def primitive_parts(
             mirrored = np.linalg.det(linear) < 0.0
         own = faces[:, ::-1] if mirrored else faces
         smooth = None if turned is None else (turned, own)
-        found.append(make_part(name or material.name, moved, own, smooth, material, notes, thin))
+        try:
+            found.append(make_part(name or material.name, moved, own, smooth, material, notes, thin))
+        except Fault as fault:
+            raise Fault(f"{primitive.place}: {fault}") from None
     return found
 
 
