@@ -45,7 +45,8 @@ class Accessors:
         if accessor.flag("normalized") and dtype.kind in "iu":
             largest = np.iinfo(dtype).max
             return np.maximum(values.astype(np.float64) / largest, -1.0)
-        return values.astype(np.float64 if dtype.kind == "f" else np.int64)
+        with np.errstate(invalid="ignore"):  # a signalling NaN is refused later, as any NaN
+            return values.astype(np.float64 if dtype.kind == "f" else np.int64)
 
     def _check_small(self, accessor: Item, count: int) -> None:
         """An accessor without data is all zeros: a small file must not ask for many."""
