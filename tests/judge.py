@@ -128,10 +128,11 @@ def sent(tree: RayTree, i: int, point: Vector, d: Vector, n: Vector) -> tuple[Ve
     if kind == "tir" or kt == 0:
         return mirrored, kr + kt
     c2 = root(1 - (n1 / n2) ** 2 * (1 - c1**2))
-    share = reflectance(c1, c2, n1, n2) if tree.model == "fresnel" else mpf(0)
+    fresnel = tree.model == "fresnel"
+    share = reflectance(c1, c2, n1, n2) if fresnel else mpf(0)
     if kind == "reflection":
-        return mirrored, kr + kt * share
-    return d if item.thin else d * (n1 / n2) + n * (n1 / n2 * c1 - c2), kt * (1 - share)
+        return mirrored, (kr + kt) * share if fresnel else kr
+    return d if item.thin else d * (n1 / n2) + n * (n1 / n2 * c1 - c2), (kr + kt) * (1 - share) if fresnel else kt
 
 
 def reflectance(c1: mpf, c2: mpf, n1: mpf, n2: mpf) -> mpf:

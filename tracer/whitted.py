@@ -63,15 +63,16 @@ def shares(
 ) -> tuple[float, float]:
     """The factors of the reflected and of the refracted ray: Whitted's fixed weights, or Fresnel's equations."""
     kr, kt = material.reflect, material.transmit
+    uses_fresnel = world.scene.tracing.model == MODELS[FRESNEL]
     if kt == 0.0:
         return kr, 0.0
     if n1 == n2 and not is_sheet:
-        return 0.0, kt
+        return 0.0, kr + kt if uses_fresnel else kt
     reflected, transmitted = optics.fresnel(-dot(v, n), n1, n2)
     if transmitted == 0.0 and not is_sheet:  # total internal reflection
         return kr + kt, 0.0
-    if world.scene.tracing.model == MODELS[FRESNEL]:
-        return kr + kt * reflected, kt * transmitted
+    if uses_fresnel:
+        return (kr + kt) * reflected, (kr + kt) * transmitted
     return kr, kt
 
 

@@ -1,6 +1,6 @@
 """The rays that a hit sends out: a reflected one, a refracted one, both or none, each with its factor.
 
-In Whitted's model every surface reflects kr and transmits kt. In Fresnel's model, transparent surfaces divide kt
+In Whitted's model every surface reflects kr and transmits kt. In Fresnel's model, transparent surfaces divide kr + kt
 between the two according to the angle. On total internal reflection one ray gets kr + kt. Where the indices are
 equal, nothing is reflected.
 """
@@ -38,7 +38,7 @@ def scatter(world: Arrays, limits: Limits, row: NodeRow) -> Scattered:
         return Scattered(REFLECTION, kr, 0.0, d)
     thin = world.objects[row.object].sheet
     if row.n1 == row.n2 and not thin:
-        return Scattered(REFLECTION, 0.0, kt, d)
+        return Scattered(REFLECTION, 0.0, kt if limits.model == WHITTED else kr + kt, d)
     if row.radicand <= 0.0 and not thin:
         return Scattered(TIR, kr + kt, 0.0, d)
     reflected, refracted, through = dielectric_shares(world, limits, row, material, thin)
@@ -64,7 +64,7 @@ def dielectric_shares(
     if root <= 0.0:
         return (kr + kt, 0.0, through)
     r, t = fresnel_shares(c1, s1, math.sqrt(root), row.n1, n2)
-    return (kr + kt * r, kt * t, through)
+    return ((kr + kt) * r, (kr + kt) * t, through)
 
 
 @inlined

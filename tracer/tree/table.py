@@ -39,7 +39,7 @@ class TreeTable:
     @cached_property
     def ledger(self) -> Ledger:
         """The camera ray's weight of 1, split into leaves, cut and absorbed."""
-        return make_ledger(self.nodes, self.residual, self.scene)
+        return make_ledger(self.nodes, self.residual, self.scene, self.model)
 
     @property
     def place(self) -> str:

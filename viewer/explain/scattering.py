@@ -23,7 +23,8 @@ def direction_error(tree: RayTree, i: int) -> float:
 def scattering_sections(tree: RayTree, i: int) -> list[Section]:
     """The directions and factors of the rays that hit i sends out."""
     row = tree.nodes[i]
-    material = tree.scene.objects[row["object"]].material
+    item = tree.scene.objects[row["object"]]
+    material = item.material
     sections = []
     tir = row["radicand"] <= 0.0
     if not math.isnan(row["radicand"]):
@@ -32,7 +33,7 @@ def scattering_sections(tree: RayTree, i: int) -> list[Section]:
             sections.append(_critical(tree, i))
         sections.append(_transmission(tree, i))
         if tree.model == MODELS[1] and not tir:
-            sections.append(_fresnel(tree, i, material))
+            sections.append(_fresnel(tree, i, material, item.thin))
     if material.reflect > 0.0 or tir or (tree.model == MODELS[1] and material.transmit > 0.0):
         sections.append(_reflection(tree, i))
     return sections
@@ -95,21 +96,21 @@ def _transmission(tree: RayTree, i: int) -> Section:
     return section
 
 
-def _fresnel(tree: RayTree, i: int, material: Material) -> Section:
+def _fresnel(tree: RayTree, i: int, material: Material, thin: bool) -> Section:
     row = tree.nodes[i]
     v, normal = vector(row["direction"]), vector(row["normal"])
-    thin = row["n1"] == row["n2"]
     n1, n2 = float(row["n1"]), float(material.ior if thin else row["n2"])
     c1 = min(1.0, optics.cosine(v, normal))
     c2 = math.sqrt(max(optics.radicand(optics.sine(v, normal), n1, n2), 0.0))
     r, t = optics.fresnel(c1, n1, n2)
-    section = Section("Fresnel", "reflected kr + kt R,  refracted kt T")
+    section = Section("Fresnel", "reflected (kr + kt) R,  refracted (kr + kt) T")
     section.add("rₛ = (n₁c₁ − n₂c₂) / (n₁c₁ + n₂c₂)", format_number(_amplitude(n1 * c1, n2 * c2)))
     section.add("rₚ = (n₂c₁ − n₁c₂) / (n₂c₁ + n₁c₂)", format_number(_amplitude(n2 * c1, n1 * c2)))
     section.add("R = (rₛ² + rₚ²) / 2", format_number(r))
     section.add("T", format_number(t))
-    section.add("kr + kt R", format_number(material.reflect + material.transmit * r))
-    section.add("kt T", format_number(material.transmit * t))
+    share = material.reflect + material.transmit
+    section.add("(kr + kt) R", format_number(share * r))
+    section.add("(kr + kt) T", format_number(share * t))
     return section
 
 

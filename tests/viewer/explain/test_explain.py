@@ -127,8 +127,8 @@ def test_fresnel_shares_are_those_of_the_children() -> None:
     world = world_of(plane((0, 0, 0), (0, 1, 0), material, "glass"), model="fresnel")
     tree = tracer.trace(world, ray=((0, 1, 0), (1, -1, 0)), depth=1)
     shares = section(explain_ray(tree, world, 0), "Fresnel")
-    assert value(shares["kr + kt R"]) == pytest.approx(tree.nodes["factor"][1][0], rel=1e-4, abs=0.0)
-    assert value(shares["kt T"]) == pytest.approx(tree.nodes["factor"][2][0], rel=1e-4, abs=0.0)
+    assert value(shares["(kr + kt) R"]) == pytest.approx(tree.nodes["factor"][1][0], rel=1e-4, abs=0.0)
+    assert value(shares["(kr + kt) T"]) == pytest.approx(tree.nodes["factor"][2][0], rel=1e-4, abs=0.0)
 
 
 def test_every_ray_of_every_lesson_can_be_explained(world: tracer.World) -> None:

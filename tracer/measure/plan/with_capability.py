@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from tracer.choices import BLOCK, FILTER, FRESNEL, MODELS, SHADOWS
+from tracer.choices import BLOCK, FILTER, FRESNEL, MODELS, SHADOWS, WHITTED
 from tracer.kernel.capabilities import Capability
 from tracer.kernel.world import prepare
 from tracer.measure.plan.variants import Make, Variant, with_geometry, with_materials, with_tracing
@@ -33,17 +33,18 @@ def faint(scene: Scene) -> float:
     return 2.0 ** -(1000 // max(1, depth_of(scene)))
 
 
-def with_glass(scene: Scene, share: float, ior: float = 1.0) -> Scene:
-    """The scene with every opaque object as a thin sheet that transmits `share`."""
-    return replace(
-        scene,
-        objects=tuple(
-            item
-            if item.material.transmit > 0.0
-            else replace(item, thin=True, material=replace(item.material, transmit=share, ior=ior))
-            for item in scene.objects
-        ),
-    )
+def with_glass(scene: Scene, share: float, model: int = WHITTED, ior: float = 1.0) -> Scene:
+    """The scene in a model, with its opaque objects as thin sheets that transmit `share`.
+
+    In Fresnel's model mirrors stay opaque: as glass they would reflect less.
+    """
+
+    def changed(item: Object) -> Object:
+        if item.material.transmit > 0.0 or (model == FRESNEL and item.material.reflect > 0.0):
+            return item
+        return replace(item, thin=True, material=replace(item.material, transmit=share, ior=ior))
+
+    return with_tracing(replace(scene, objects=tuple(map(changed, scene.objects))), model=MODELS[model])
 
 
 def with_reflection(scene: Scene) -> Variant | str:
@@ -61,7 +62,8 @@ def with_refraction(scene: Scene) -> Variant | str:
 
 def with_media(scene: Scene) -> Variant | str:
     def filled(item: Object) -> Object:
-        if item.material.transmit > 0.0 or not item.shape.is_closed():
+        is_mirror = item.material.reflect > 0.0 and scene.tracing.model == MODELS[FRESNEL]  # glass would reflect less
+        if item.material.transmit > 0.0 or is_mirror or not item.shape.is_closed():
             return item
         return replace(item, material=replace(item.material, transmit=UNSEEN, ior=1.5))
 
@@ -78,8 +80,9 @@ def with_media(scene: Scene) -> Variant | str:
 def with_fresnel(scene: Scene) -> Variant | str:
     if any(item.material.transmit > 0.0 for item in scene.objects):
         return Variant("Fresnel's equations: another picture", with_tracing(scene, model=MODELS[FRESNEL]))
-    glass = with_glass(scene, UNSEEN, ior=1.5)
-    other = with_tracing(glass, model=MODELS[FRESNEL], shadows=SHADOWS[BLOCK])
+    if all(item.material.reflect > 0.0 for item in scene.objects):
+        return "no surface but mirrors"
+    other = with_tracing(with_glass(scene, UNSEEN, FRESNEL, ior=1.5), shadows=SHADOWS[BLOCK])
     return Variant("Fresnel's shares at every hit", other, UNFOLLOWED)
 
 
@@ -129,13 +132,15 @@ def everything(scene: Scene, left_out: Sequence[str]) -> Variant:
     If only some surfaces need a kind of ray, the others also send one.
     """
     w = faint(scene)
+    model = WHITTED if any(item.material.reflect > 0.0 for item in scene.objects) else FRESNEL
     for capability in (Capability.SHADOW_RAYS, Capability.CHECKER):
         if capability in left_out and isinstance(variant := WITH[capability](scene), Variant):
             scene = variant.scene
-    scene = with_materials(scene, lambda m: replace(m, reflect=m.reflect or w))
     if Capability.REFRACTION not in left_out:
+        scene = with_materials(scene, lambda m: replace(m, reflect=m.reflect or w))
         return Variant("a reflected ray from every hit", scene)
-    scene = with_tracing(with_glass(scene, w, ior=1.5), model=MODELS[FRESNEL], shadows=SHADOWS[FILTER])
+    scene = with_materials(with_glass(scene, w, ior=1.5), lambda m: replace(m, reflect=m.reflect or w))
+    scene = with_tracing(scene, model=MODELS[model], shadows=SHADOWS[FILTER])
     return Variant("two rays from every hit", scene)
 
 
