@@ -126,6 +126,7 @@ def start_camera_ray(view: View, limits: Limits, direction: Vector, space: Space
     store(row.direction, direction)
     row.start = -1
     row.side = 0.0
+    store(row.approach, direction)
     row.magnitude = abs(view.eye[0]) + abs(view.eye[1]) + abs(view.eye[2])
     for word in range(len(space.eye_solids)):
         space.solids[0, 0, word] = space.eye_solids[word]

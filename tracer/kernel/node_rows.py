@@ -12,6 +12,7 @@ from tracer.kernel.nodes import BLOCKED, FILTERED, LIT, NONE, SHADOW, NodeRow
 from tracer.kernel.shadows import nearest_occluder, transmittance
 from tracer.kernel.workspace import Space
 from tracer.rays import Ray, make_ray
+from tracer.shapes.planar import PLANE_ERROR
 
 
 @inlined
@@ -87,7 +88,8 @@ def record_unlit(
     faces_it = dot(vector(row.face_normal), to_light) > 0.0
     own = 1.0 if faces_it else transmit(world, s)
     side = row.hit_side if faces_it else -row.hit_side
-    ray = make_ray(vector(row.point), to_light, world.surfaces[s].coincident, side, rounding_scale(row))
+    start, size, approach = world.surfaces[s].coincident, rounding_scale(row), approach_of_children(row)
+    ray = make_ray(vector(row.point), to_light, start, side, size, approach)
     if own == 0.0 or (limits.glass_blocks and not faces_it):
         write_shadow(world, limits, space.table, i, parent, light, ray, 0.0, s, BLOCKED, 0.0, nothing)
         return
@@ -122,6 +124,7 @@ def write_shadow(
     store(row.radiance, share)
     row.end = end
     row.start, row.side, row.magnitude, row.surface = ray.start, ray.side, ray.magnitude, met
+    store(row.approach, ray.approach)
     if met >= 0:
         row.object = world.surfaces[met].object
     if t < math.inf:
@@ -136,3 +139,14 @@ def rounding_scale(row: NodeRow) -> float:
     It includes that of the ray's origin: a ray that starts in a corner meets the next wall at distance 0.
     """
     return max(row.magnitude, abs(row.origin[0]) + abs(row.origin[1]) + abs(row.origin[2]) + row.t)
+
+
+@inlined
+def approach_of_children(row: NodeRow) -> Vector:
+    """The direction in which the rays that leave the hit of a row have reached it (`tracer.rays.Ray`).
+
+    A ray shorter than its rounding errors has reached the place of its own origin.
+    """
+    if row.t > PLANE_ERROR * rounding_scale(row):
+        return vector(row.direction)
+    return vector(row.approach)

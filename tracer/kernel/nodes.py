@@ -48,6 +48,7 @@ class NodeRow(PublicRow):
     """All fields: those of readers, and those that only the kernel uses."""
 
     start: Int32  # id of the surface that the ray leaves, -1 for the eye; of coincident surfaces the first
+    approach: Float3  # as in `tracer.rays.Ray`
     magnitude: Float  # scale of the rounding errors in `origin`, as in `tracer.rays.Ray`
     surface: Int32  # id of the surface hit
     side: Float  # +1 or -1: the side of the normal on which the ray leaves its start

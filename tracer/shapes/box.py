@@ -99,30 +99,59 @@ def slab_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
 
 
 @inlined
-def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
-    """The distance at which the ray enters the box or, from inside, leaves it."""
-    enter, leave = slab_interval(surface, ray)
-    if enter > leave:
-        return math.inf
-    if enter > 0.0 and enter >= t_min:
-        return enter
-    if leave > 0.0 and leave >= t_min:
-        return leave
-    return math.inf
+def interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
+    """As `slab_interval`, for a ray that may start on the box or on a surface that touches it."""
+    if ray.start >= 0:
+        if ray.start == surface.coincident:
+            return (-math.inf, exit_distance(surface, ray)) if ray.side < 0.0 else (math.inf, -math.inf)
+        if is_in_contact(surface, ray):
+            return contact_interval(surface, ray)
+    return slab_interval(surface, ray)
 
 
 @inlined
-def next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
-    """A ray that starts on the box and goes inwards meets it once more, where it leaves."""
-    _, leave = slab_interval(surface, ray)
-    return leave if ray.side < 0.0 and leave > 0.0 else math.inf
+def exit_distance(surface: SurfaceRow, ray: Ray) -> float:
+    """The distance at which a ray leaves the box, on which it starts, and into which it goes. On an edge it is 0: the
+    origin may be beside the face by rounding.
+    """
+    leave = math.inf
+    for k in range(3):
+        if ray.direction[k] != 0.0:
+            face = surface.b[k] if ray.direction[k] > 0.0 else surface.a[k]
+            leave = min(leave, (face - ray.origin[k]) / ray.direction[k])
+    return max(leave, 0.0)
 
 
 @inlined
-def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-    """The hit point, exactly on the face whose plane is crossed at t, and that face's normal twice."""
-    enter, _ = slab_interval(surface, ray)
-    entering = enter == t
+def touches(face: float, ray: Ray, k: int) -> bool:
+    """Whether rounding can tell the origin from the plane of a face across axis k."""
+    return abs(face - ray.origin[k]) <= PLANE_ERROR * (abs(face) + ray.magnitude)
+
+
+@inlined
+def is_in_contact(surface: SurfaceRow, ray: Ray) -> bool:
+    """Whether the ray starts in the plane of a face."""
+    found = False
+    for k in range(3):
+        found = found or touches(surface.a[k], ray, k) or touches(surface.b[k], ray, k)
+    return found
+
+
+@compiled
+def contact_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
+    """`slab_interval` for a ray that starts in the plane of a face, on another surface.
+
+    The sign of the distance to that plane is only rounding. On which side of it the ray is, tells the direction in
+    which its origin was reached: it has not crossed the plane yet. A ray that would both enter and leave here leaves.
+    """
+    noinline()
+    enter, leave = -math.inf, math.inf
+    for k in range(3):
+        o, d, came = ray.origin[k], ray.direction[k], ray.approach[k]
+        if d == 0.0:
+            d = 0.0 if came == 0.0 else math.copysign(1.0 / math.inf, came)
+        forwards = ray.direction[k] > 0.0 or (ray.direction[k] == 0.0 and came > 0.0)
+        near, far = (surface.a[k], surface.b[k]) if forwards else (surface.b[k], surface.a[k])
     p = add(ray.origin, scale(t, ray.direction))
     for k in range(3):
         if ray.direction[k] != 0.0:
