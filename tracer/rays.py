@@ -26,11 +26,12 @@ class Ray(NamedTuple):
     magnitude: float  # scale of the origin's rounding errors: |x| + |y| + |z| of what it was computed from
     start: int  # id of the surface it leaves (its `coincident`), -1 for a ray from the eye
     side: float  # +1.0: it leaves on the side that the surface's normal points to; -1.0: on the other
+    settles: bool  # whether it carries a set of solids; shadow rays do not
     approach: Vector  # direction in which its origin was reached: that of the last ray that was longer than rounding
 
 
 @inlined
-def make_ray(origin: Vector, direction: Vector, start: int, side: float, magnitude: float, approach: Vector) -> Ray:
+def make_ray(origin: Vector, direction: Vector, start: int, side: float, magnitude: float, settles: bool, approach: Vector) -> Ray:
     """The ray with all its derived fields; `direction` is a unit vector."""
     x, y, z = abs(direction[0]), abs(direction[1]), abs(direction[2])
     inverse = (1.0 / direction[0], 1.0 / direction[1], 1.0 / direction[2])
@@ -49,7 +50,7 @@ def make_ray(origin: Vector, direction: Vector, start: int, side: float, magnitu
         select_axis(along_x, along_y, (d[1], d[2], d[0])) * most,
         select_axis(along_x, along_y, (d[2], d[0], d[1])) * most,
     )
-    return Ray(origin, direction, inverse, axis, across, up, permuted, shear, magnitude, start, side, approach)
+    return Ray(origin, direction, inverse, axis, across, up, permuted, shear, magnitude, start, side, settles, approach)
 
 
 @inlined

@@ -12,10 +12,12 @@ from typing import ClassVar
 import numpy as np
 
 from tracer import fields
-from tracer.compile.jit import inlined
+from tracer.compile.intrinsics import noinline
+from tracer.compile.jit import compiled, inlined
 from tracer.formulas.vector import Vector, add, scale
 from tracer.rays import Ray
 from tracer.shapes import planar
+from tracer.shapes.planar import PLANE_ERROR
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
@@ -119,7 +121,7 @@ def exit_distance(surface: SurfaceRow, ray: Ray) -> float:
         if ray.direction[k] != 0.0:
             face = surface.b[k] if ray.direction[k] > 0.0 else surface.a[k]
             leave = min(leave, (face - ray.origin[k]) / ray.direction[k])
-    return max(leave, 0.0)
+    return max(leave, 0.0) + 0.0  # not -0
 
 
 @inlined
@@ -141,23 +143,75 @@ def is_in_contact(surface: SurfaceRow, ray: Ray) -> bool:
 def contact_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
     """`slab_interval` for a ray that starts in the plane of a face, on another surface.
 
-    The sign of the distance to that plane is only rounding. On which side of it the ray is, tells the direction in
-    which its origin was reached: it has not crossed the plane yet. A ray that would both enter and leave here leaves.
+    The sign of the distance to that plane is only rounding. The ray crosses it at its start, unless it turns back: the
+    direction in which its origin was reached tells from which side it comes. A ray that would both enter and leave
+    here leaves.
+
+    A ray that is in a set of solids crosses the face of a solid also if it turns back: whatever the set has been, the
+    crossing puts it right.
     """
     noinline()
     enter, leave = -math.inf, math.inf
+    settles = ray.settles and surface.solid >= 0
+    outside = entered_here = left_here = False
     for k in range(3):
         o, d, came = ray.origin[k], ray.direction[k], ray.approach[k]
         if d == 0.0:
-            d = 0.0 if came == 0.0 else math.copysign(1.0 / math.inf, came)
-        forwards = ray.direction[k] > 0.0 or (ray.direction[k] == 0.0 and came > 0.0)
-        near, far = (surface.a[k], surface.b[k]) if forwards else (surface.b[k], surface.a[k])
+            low, high = touches(surface.a[k], ray, k), touches(surface.b[k], ray, k)
+            from_outside = not settles and ((came > 0.0 and low) or (came < 0.0 and high))
+            if from_outside or not (low or high or surface.a[k] <= o <= surface.b[k]):
+                return (math.inf, -math.inf)
+            continue
+        near, far = (surface.a[k], surface.b[k]) if d > 0.0 else (surface.b[k], surface.a[k])
+        turns_back = came * d < 0.0
+        first, last = (near - o) / d, (far - o) / d
+        enters_here, leaves_here = touches(near, ray, k), touches(far, ray, k)
+        if enters_here:
+            first = -math.inf if turns_back and not settles else max(first, 0.0)
+        if leaves_here:
+            outside = outside or (turns_back and not settles)
+            last = max(last, 0.0)
+        if first > enter:
+            enter, entered_here = first, enters_here
+        if last < leave:
+            leave, left_here = last, leaves_here
+    if outside:
+        return (math.inf, -math.inf)
+    if enter == leave or (enter > leave and entered_here and left_here):
+        enter = -math.inf
+    return (enter + 0.0, leave + 0.0)
+
+
+@inlined
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
+    """The distance at which the ray enters the box or, from inside, leaves it."""
+    enter, leave = interval(surface, ray)
+    if enter > leave:
+        return math.inf
+    if enter >= 0.0 and enter >= t_min:
+        return enter
+    if leave >= 0.0 and leave >= t_min:
+        return leave
+    return math.inf
+
+
+@inlined
+def next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
+    """A ray that starts on the box and goes inwards meets it once more, where it leaves."""
+    return interval(surface, ray)[1] if ray.side < 0.0 else math.inf
+
+
+@inlined
+def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
+    """The hit point, exactly on the face whose plane is crossed at t, and that face's normal twice."""
+    enter, leave = interval(surface, ray)
+    entering = enter == t
     p = add(ray.origin, scale(t, ray.direction))
     for k in range(3):
         if ray.direction[k] != 0.0:
             at_low = (ray.direction[k] > 0.0) == entering
             plane = surface.a[k] if at_low else surface.b[k]
-            if (plane - ray.origin[k]) / ray.direction[k] == t:
+            if (plane - ray.origin[k]) / ray.direction[k] == t or (t == 0.0 and touches(plane, ray, k)):
                 n = -1.0 if at_low else 1.0
                 if k == 0:
                     return ((plane, p[1], p[2]), (n, 0.0, 0.0), (n, 0.0, 0.0))

@@ -155,9 +155,13 @@ def contact_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, n_dot_d:
     start = world.surfaces[ray.start]
     t = exact_distance(surface, ray)
     side = side_of(world, start, surface) if start.count > 0 else ON_BOTH_SIDES
-    if side == ON_BOTH_SIDES:  # it has no corners, or crosses the plane: only t itself is left to decide
-        return t if t > 0.0 else math.inf
-    if side == IN_PLANE or side * n_dot_d > 0.0:
+    if side == ON_BOTH_SIDES:  # it has no corners, or crosses the plane
+        came = dot(vector(surface.normal), ray.approach)
+        if came == 0.0:
+            return t if t > 0.0 else math.inf
+        if (came > 0.0) != (n_dot_d > 0.0):  # the ray has turned back from the plane
+            return math.inf
+    elif side == IN_PLANE or side * n_dot_d > 0.0:
         return math.inf
     if surface.count >= 3:
         heading = 1 if dot(vector(start.normal), ray.direction) > 0.0 else -1
