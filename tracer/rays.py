@@ -31,7 +31,15 @@ class Ray(NamedTuple):
 
 
 @inlined
-def make_ray(origin: Vector, direction: Vector, start: int, side: float, magnitude: float, settles: bool, approach: Vector) -> Ray:
+def make_ray(
+    origin: Vector,
+    direction: Vector,
+    start: int,
+    side: float,
+    magnitude: float,
+    approach: Vector = (0.0, 0.0, 0.0),
+    settles: bool = False,
+) -> Ray:
     """The ray with all its derived fields; `direction` is a unit vector."""
     x, y, z = abs(direction[0]), abs(direction[1]), abs(direction[2])
     inverse = (1.0 / direction[0], 1.0 / direction[1], 1.0 / direction[2])

@@ -14,7 +14,7 @@ from tracer.kernel.arrays import Arrays
 from tracer.kernel.closest_hit import closest, closest_within, transmit
 from tracer.kernel.workspace import Space
 from tracer.rays import Ray
-from tracer.shapes.planar import PLANE_ERROR
+from tracer.shapes.planar import IN_PLANE, ON_BOTH_SIDES, PLANE_ERROR, side_of
 
 
 @inlined
@@ -45,10 +45,11 @@ def cross_surfaces(
     """Cross all surfaces at t, solid by solid. Returns (surface shown or -1, t and id of the last surface crossed).
 
     Faces of one mesh whose distances rounding cannot tell apart belong to the same crossing. Entering twice, at the
-    edge between two faces, counts once. Entering and leaving, at an edge on the silhouette, changes nothing.
+    edge between two faces, counts once. A ray that enters and leaves, at an edge on the silhouette, is outside behind a
+    convex edge and inside behind a concave one.
     """
     opaque, sheet = -1, -1
-    solid, enters, leaves = -1, False, False
+    solid, enters, leaves = -1, -1, -1
     first, last_t, last = s, t, s
     here = t
     while s >= 0:
@@ -65,9 +66,11 @@ def cross_surfaces(
             if this != solid:
                 if solid >= 0:
                     change_medium(world, solid, enters, leaves, before, behind)
-                solid, enters, leaves = this, False, False
-            entering = is_entering(world, s, ray, here)
-            enters, leaves = enters or entering, leaves or not entering
+                solid, enters, leaves = this, -1, -1
+            if is_entering(world, s, ray, here):
+                enters = s
+            else:
+                leaves = s
         # Surfaces farther away belong to this crossing only if rounding may have put them there.
         limit = t + (distance_uncertainty(world, last, ray) if solid >= 0 else 0.0)
         if not tied and limit == t:
@@ -81,9 +84,9 @@ def cross_surfaces(
     if old == new:
         return (sheet, last_t, last)
     seen = max(old, new) if min(old, new) < 0 else min(old, new)
-    shown = first
-    while world.surfaces[shown].solid != seen:
-        _, shown, _ = closest(world, ray, t, shown, space)
+    shown, here = first, t
+    while world.surfaces[shown].solid != seen or is_entering(world, shown, ray, here) != contains(behind, seen):
+        here, shown, _ = closest(world, ray, here, shown, space)
     return (shown, last_t, last)
 
 
@@ -106,14 +109,18 @@ def distance_uncertainty(world: Arrays, s: int, ray: Ray) -> float:
 
 
 @inlined
-def change_medium(world: Arrays, solid: int, enters: bool, leaves: bool, before: Numbers, behind: Numbers) -> None:
-    """Add a solid to the set behind the surface, or remove it.
+def change_medium(world: Arrays, solid: int, enters: int, leaves: int, before: Numbers, behind: Numbers) -> None:
+    """Add a solid to the set behind the surface, or remove it. `enters` and `leaves` are surfaces at which the ray
+    enters and leaves it, -1 for none.
 
     If an open solid is left without having been entered, the ray must have been inside all along: then it is added to
     the set before the surface.
     """
-    if enters and leaves:
+    if enters >= 0 and leaves >= 0:
+        edge = side_of(world, world.surfaces[leaves], world.surfaces[enters])
+        if edge != ON_BOTH_SIDES and edge != IN_PLANE:
+            set_inside(behind, solid, edge > 0)
         return
-    if leaves and not world.closed[solid] and not contains(before, solid):
+    if leaves >= 0 and not world.closed[solid] and not contains(before, solid):
         set_inside(before, solid, True)
-    set_inside(behind, solid, enters)
+    set_inside(behind, solid, enters >= 0)

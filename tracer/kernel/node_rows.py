@@ -89,7 +89,7 @@ def record_unlit(
     own = 1.0 if faces_it else transmit(world, s)
     side = row.hit_side if faces_it else -row.hit_side
     start, size, approach = world.surfaces[s].coincident, rounding_scale(row), approach_of_children(row)
-    ray = make_ray(vector(row.point), to_light, start, side, size, False, approach)
+    ray = make_ray(vector(row.point), to_light, start, side, size, approach)
     if own == 0.0 or (limits.glass_blocks and not faces_it):
         write_shadow(world, limits, space.table, i, parent, light, ray, 0.0, s, BLOCKED, 0.0, nothing)
         return

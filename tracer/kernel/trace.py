@@ -88,7 +88,7 @@ def trace_ray(world: Arrays, space: Space, i: int) -> None:
     row = space.table[i]
     solids = space.solids
     d = vector(row.direction)
-    ray = make_ray(vector(row.origin), d, row.start, row.side, row.magnitude, True, vector(row.approach))
+    ray = make_ray(vector(row.origin), d, row.start, row.side, row.magnitude, vector(row.approach), True)
     t, s = next_interface(world, ray, solids[i], space)
     n1 = index_of(world, medium(solids[i, 0]))
     row.n1 = n1
@@ -152,7 +152,7 @@ def direct_light(world: Arrays, limits: Limits, space: Space, i: int, count: int
             light = world.lights[j]
             to_light, distance = light_direction(light, point)
             if is_lit and dot(n, to_light) > 0.0 and dot(face_n, to_light) > 0.0:
-                ray = make_ray(point, to_light, start, row.hit_side, size, False, approach)
+                ray = make_ray(point, to_light, start, row.hit_side, size, approach)
                 visible, glass = transmittance(world, ray, distance, limits.glass_blocks, space)
                 share = (0.0, 0.0, 0.0)
                 if visible > 0.0:

@@ -17,7 +17,7 @@ from tracer.compile.jit import compiled, inlined
 from tracer.formulas.vector import Vector, add, scale
 from tracer.rays import Ray
 from tracer.shapes import planar
-from tracer.shapes.planar import PLANE_ERROR
+from tracer.shapes.planar import LEVEL, PLANE_ERROR
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
@@ -158,12 +158,12 @@ def contact_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
         o, d, came = ray.origin[k], ray.direction[k], ray.approach[k]
         if d == 0.0:
             low, high = touches(surface.a[k], ray, k), touches(surface.b[k], ray, k)
-            from_outside = not settles and ((came > 0.0 and low) or (came < 0.0 and high))
+            from_outside = not settles and ((came > LEVEL and low) or (came < -LEVEL and high))
             if from_outside or not (low or high or surface.a[k] <= o <= surface.b[k]):
                 return (math.inf, -math.inf)
             continue
         near, far = (surface.a[k], surface.b[k]) if d > 0.0 else (surface.b[k], surface.a[k])
-        turns_back = came * d < 0.0
+        turns_back = came * d < 0.0 and abs(came) > LEVEL
         first, last = (near - o) / d, (far - o) / d
         enters_here, leaves_here = touches(near, ray, k), touches(far, ray, k)
         if enters_here:
@@ -184,13 +184,16 @@ def contact_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
 
 @inlined
 def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
-    """The distance at which the ray enters the box or, from inside, leaves it."""
+    """The distance at which the ray enters the box or, from inside, leaves it.
+
+    A ray that only touches an edge hits the box, but enters no solid.
+    """
     enter, leave = interval(surface, ray)
-    if enter > leave:
+    if enter > leave or (enter == leave and surface.solid >= 0):
         return math.inf
-    if enter >= 0.0 and enter >= t_min:
+    if enter >= 0.0 and enter >= t_min and (enter < leave or enter > 0.0):
         return enter
-    if leave >= 0.0 and leave >= t_min:
+    if leave >= t_min and (leave > 0.0 or ray.start >= 0):
         return leave
     return math.inf
 
@@ -204,7 +207,7 @@ def next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
 @inlined
 def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
     """The hit point, exactly on the face whose plane is crossed at t, and that face's normal twice."""
-    enter, leave = interval(surface, ray)
+    enter, _ = interval(surface, ray)
     entering = enter == t
     p = add(ray.origin, scale(t, ray.direction))
     for k in range(3):

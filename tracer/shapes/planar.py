@@ -33,6 +33,9 @@ from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
 # two sums, and as many again in the point of the surface that the ray leaves; each at most 2^-53.
 PLANE_ERROR = 16 * U
 
+# A ray whose direction has no larger component along a normal may have been in the plane all its way, up to rounding.
+LEVEL = 16.0 * PLANE_ERROR
+
 FAR_ANCHOR = 4.0  # times the distance to the hit: where the plane's point is farther, it has fewer digits than the hit
 
 SPHERE_COUNT = 1  # `count` of a sphere, which is a corner with a radius
@@ -154,10 +157,12 @@ def contact_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, n_dot_d:
         return math.inf
     start = world.surfaces[ray.start]
     t = exact_distance(surface, ray)
+    if ray.settles and surface.solid >= 0 and surface.solid != start.solid:
+        return max(t, 0.0) + 0.0  # whether it crosses the face or turns back, the set of solids is put right
     side = side_of(world, start, surface) if start.count > 0 else ON_BOTH_SIDES
     if side == ON_BOTH_SIDES:  # it has no corners, or crosses the plane
         came = dot(vector(surface.normal), ray.approach)
-        if came == 0.0:
+        if abs(came) <= LEVEL:
             return t if t > 0.0 else math.inf
         if (came > 0.0) != (n_dot_d > 0.0):  # the ray has turned back from the plane
             return math.inf
@@ -168,7 +173,7 @@ def contact_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, n_dot_d:
         beyond = side_of(world, surface, start) if start.count >= 3 else ON_BOTH_SIDES
         if beyond != ON_BOTH_SIDES and beyond != heading:
             return math.inf
-    return max(t, 0.0)
+    return max(t, 0.0) + 0.0  # not -0
 
 
 @inlined

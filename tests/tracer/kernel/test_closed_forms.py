@@ -134,8 +134,8 @@ def test_mirror_of_weight_one_has_one_child() -> None:
 
 @pytest.mark.parametrize("n", [1.0, 1.5])
 def test_equal_indices_send_one_ray_straight_on(n: float) -> None:
-    """If the medium changes but not the index of refraction, the ray goes straight on and nothing is reflected: with kt in
-    Whitted's model, with all of kr + kt in Fresnel's, where R tends to 0.
+    """If the medium changes but not the index of refraction, the ray goes straight on and nothing is reflected: with kt
+    in Whitted's model, with all of kr + kt in Fresnel's, where R tends to 0.
     """
     same = Material("same", reflect=0.3, transmit=0.7, ior=n)
     outer = box((-2, -2, -2), (2, 2, 2), same, "outer")
