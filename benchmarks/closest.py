@@ -28,7 +28,7 @@ class Searcher:
 
     def __init__(self, world: tracer.World) -> None:
         self.world = world
-        self.workspace = Workspace(world.solids_around((0.0, 0.0, 0.0)))
+        self.workspace = Workspace(world.eye((0.0, 0.0, 0.0)))
 
     def hits(self, rays: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
         """The surfaces that were hit. The first call may compile."""

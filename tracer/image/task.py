@@ -20,7 +20,7 @@ from tracer.image.tiles import Tile, pixel_list
 from tracer.kernel.arrays import Arrays
 from tracer.kernel.entry import trace_list
 from tracer.kernel.limits import Limits
-from tracer.kernel.workspace import Workspace
+from tracer.kernel.workspace import Eye, Workspace
 from tracer.kernel.world import World
 
 Cancelled = Callable[[], bool]
@@ -52,22 +52,22 @@ class Task:
     view: View
     limits: Limits
     sampler: Sampler
-    eye_solids: np.ndarray
+    eye: Eye
     made_by: dict[str, str] = field(default_factory=versions)
     workspaces: SimpleQueue[Workspace] = field(default_factory=SimpleQueue)  # unused workspaces, for the next call
 
     @staticmethod
     def of(world: World, view: View, limits: Limits, sampler: Sampler) -> "Task":
         """The task of a world's image."""
-        return Task(world.arrays, view, limits, sampler, world.solids_around(view.eye))
+        return Task(world.arrays, view, limits, sampler, world.eye(view.eye))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_received, (self.arrays, self.view, self.limits, self.sampler, self.eye_solids, self.made_by))
+        return (_received, (self.arrays, self.view, self.limits, self.sampler, self.eye, self.made_by))
 
 
-def _received(arrays: Arrays, view: View, limits: Limits, sampler: Sampler, eye_solids: np.ndarray, by: Any) -> Task:
+def _received(arrays: Arrays, view: View, limits: Limits, sampler: Sampler, eye: Eye, by: Any) -> Task:
     """Rebuild a task. Its arrays are copied: received ones may be read-only, which would compile other kernels."""
-    return Task(arrays, view, limits, sampler, np.array(eye_solids), by)
+    return Task(arrays, view, limits, sampler, Eye(*map(np.array, eye)), by)
 
 
 class Work(NamedTuple):
@@ -107,7 +107,7 @@ def trace_works(
     try:
         workspace = task.workspaces.get_nowait()
     except Empty:
-        workspace = Workspace(task.eye_solids)
+        workspace = Workspace(task.eye)
     done = []
     for work in works:
         traced = None if cancelled() else _trace(task, work, image, workspace, cancelled)

@@ -14,7 +14,7 @@ from tracer.kernel.arrays import Arrays
 from tracer.kernel.closest_hit import closest, closest_within, transmit
 from tracer.kernel.workspace import Space
 from tracer.rays import Ray
-from tracer.shapes.planar import IN_PLANE, ON_BOTH_SIDES, PLANE_ERROR, side_of
+from tracer.shapes.planar import PLANE_ERROR, side_of
 
 
 @inlined
@@ -117,10 +117,17 @@ def change_medium(world: Arrays, solid: int, enters: int, leaves: int, before: N
     the set before the surface.
     """
     if enters >= 0 and leaves >= 0:
-        edge = side_of(world, world.surfaces[leaves], world.surfaces[enters])
-        if edge != ON_BOTH_SIDES and edge != IN_PLANE:
-            set_inside(behind, solid, edge > 0)
+        if is_concave(world, enters, leaves):
+            set_inside(behind, solid, True)
+        elif side_of(world, world.surfaces[leaves], world.surfaces[enters]) == -1:
+            set_inside(behind, solid, False)
         return
     if leaves >= 0 and not world.closed[solid] and not contains(before, solid):
         set_inside(before, solid, True)
     set_inside(behind, solid, enters >= 0)
+
+
+@inlined
+def is_concave(world: Arrays, enters: int, leaves: int) -> bool:
+    """Whether the edge at which a ray enters a face and leaves another is concave: the second lies before the first."""
+    return side_of(world, world.surfaces[leaves], world.surfaces[enters]) == 1

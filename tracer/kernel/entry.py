@@ -10,19 +10,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracer.compile.jit import inlined, kernel
+from tracer.compile.intrinsics import noinline
+from tracer.compile.jit import compiled, inlined, kernel
 from tracer.compile.rows import Int32, Numbers, Row, Rows, as_rows, dtype_of
 from tracer.formulas.camera import BATCH, View, center_directions
 from tracer.formulas.double_double import dd_add
 from tracer.formulas.sampler import CENTER, Sampler, sample_offset
-from tracer.formulas.vector import Vector, add, store, vector
+from tracer.formulas.vector import Vector, add, scale, store, vector
 from tracer.kernel.arrays import Arrays
 from tracer.kernel.best_first import trace_best_first
+from tracer.kernel.closest_hit import transmit
+from tracer.kernel.coincident_surfaces import change_medium, is_concave, is_entering
 from tracer.kernel.limits import Limits
 from tracer.kernel.node_rows import start_row
 from tracer.kernel.nodes import CAMERA, KINDS, SHADOW
 from tracer.kernel.trace import trace_tree
 from tracer.kernel.workspace import Space, Workspace
+from tracer.rays import make_ray
 
 # After so many rays of one kind, some tenths of a second, a call returns before its list is done, so that it can be
 # cancelled.
@@ -76,7 +80,7 @@ def trace_pixels(
         total, residual = vector(before[k]), before[k, 3]
         for sample in range(pixels[k].first, pixels[k].end):
             direction = camera_direction(world, view, sampler, pixels, k, sample, space)
-            start_camera_ray(view, limits, direction, space)
+            start_camera_ray(world, view, limits, direction, space)
             is_best_first = limits.tolerance >= 0.0
             count = trace_best_first(world, limits, space) if is_best_first else trace_tree(world, limits, space)
             if count < 0:
@@ -119,7 +123,7 @@ def camera_direction(
 
 
 @inlined
-def start_camera_ray(view: View, limits: Limits, direction: Vector, space: Space) -> None:
+def start_camera_ray(world: Arrays, view: View, limits: Limits, direction: Vector, space: Space) -> None:
     """Write row 0 of the table: the camera ray, before it is traced."""
     row = start_row(limits, space.table, 0, -1, CAMERA, 0, (1.0, 1.0, 1.0), (1.0, 1.0, 1.0))
     store(row.origin, view.eye)
@@ -131,6 +135,46 @@ def start_camera_ray(view: View, limits: Limits, direction: Vector, space: Space
     for word in range(len(space.eye_solids)):
         space.solids[0, 0, word] = space.eye_solids[word]
         space.solids[0, 1, word] = space.eye_solids[word]
+    if len(space.eye_surfaces) > 0:
+        start_on_surfaces(world, space)
+
+
+@compiled
+def start_on_surfaces(world: Arrays, space: Space) -> None:
+    """Start the camera ray of an eye that lies exactly on surfaces.
+
+    If it points into a transparent solid, it starts inside; if it points out, outside. Neither makes a row. If it
+    points into an opaque one, it hits it at distance 0.
+    """
+    noinline()
+    row, touched = space.table[0], space.eye_surfaces
+    ray = make_ray(vector(row.origin), vector(row.direction), -1, 0.0, row.magnitude)
+    for k in range(len(touched)):
+        group = eye_group(world, touched[k])
+        enters, leaves = -1, -1
+        for s in touched:
+            if eye_group(world, s) == group and is_entering(world, s, ray, 0.0):
+                enters = s
+            elif eye_group(world, s) == group:
+                leaves = s
+        if world.surfaces[touched[k]].solid >= 0:
+            change_medium(world, group, enters, leaves, space.solids[0, 0], space.solids[0, 1])
+        elif transmit(world, touched[k]) == 0.0 and enters >= 0 and (leaves < 0 or is_concave(world, enters, leaves)):
+            row.surface = enters
+    for word in range(len(space.eye_solids)):
+        space.solids[0, 0, word] = space.solids[0, 1, word]
+    if row.surface >= 0:
+        return
+    row.start = world.surfaces[touched[0]].coincident
+    row.side = -1.0 if is_entering(world, touched[0], ray, 0.0) else 1.0
+    store(row.approach, scale(-1.0, vector(row.direction)))  # so that it turns back from all other surfaces there
+
+
+@inlined
+def eye_group(world: Arrays, s: int) -> int:
+    """A number that the surfaces of one solid have in common, or those of one object that bounds none."""
+    surface = world.surfaces[s]
+    return surface.solid if surface.solid >= 0 else -1 - surface.object
 
 
 @inlined

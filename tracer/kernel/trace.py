@@ -89,7 +89,9 @@ def trace_ray(world: Arrays, space: Space, i: int) -> None:
     solids = space.solids
     d = vector(row.direction)
     ray = make_ray(vector(row.origin), d, row.start, row.side, row.magnitude, vector(row.approach), True)
-    t, s = next_interface(world, ray, solids[i], space)
+    t, s = 0.0, row.surface  # an opaque one that the eye lies on
+    if s < 0:
+        t, s = next_interface(world, ray, solids[i], space)
     n1 = index_of(world, medium(solids[i, 0]))
     row.n1 = n1
     if s < 0:

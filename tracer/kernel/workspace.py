@@ -15,6 +15,13 @@ from tracer.kernel.nodes import KINDS, NODE, NodeRow
 MAX_CROSSINGS = 32  # transparent surfaces on the way to a light, before the slower search is used
 
 
+class Eye(NamedTuple):
+    """What a point lies in and on."""
+
+    solids: np.ndarray  # the transparent solids around it, a bit mask of int64 words (`tracer.formulas.media`)
+    surfaces: np.ndarray  # ids of the surfaces that it lies exactly on
+
+
 class OpenRow(Row):
     """A ray that a best-first search has not traced yet."""
 
@@ -40,6 +47,7 @@ class Space(NamedTuple):
     table: Rows[NodeRow]  # of the tree in progress
     solids: Numbers  # (rows, 2, words): the solids around each ray before its hit, and behind it
     eye_solids: Numbers  # (words,): the solids around the eye
+    eye_surfaces: Numbers  # (n,): ids of the surfaces that the eye lies exactly on
     open: Rows[OpenRow]  # heap of a best-first search
     stack: Rows[StackRow]  # of a traversal
     near: Numbers  # distances at which the ray enters the boxes of one node
@@ -53,12 +61,13 @@ class Space(NamedTuple):
 class Workspace:
     """The memory of one thread. It grows when a tree needs more."""
 
-    def __init__(self, eye_solids: np.ndarray, rows: int = 256) -> None:
-        words = len(eye_solids)
+    def __init__(self, eye: Eye, rows: int = 256) -> None:
+        words = len(eye.solids)
         self.arrays = Space(
             table=zero_rows(rows, NODE, NodeRow),
             solids=np.zeros((rows, 2, words), np.int64),
-            eye_solids=eye_solids,
+            eye_solids=eye.solids,
+            eye_surfaces=eye.surfaces,
             open=zero_rows(2 * rows, OPEN, OpenRow),
             stack=zero_rows(MAX_STACK, STACK, StackRow),
             near=np.zeros(WIDTH),

@@ -15,16 +15,18 @@ from tracer.kernel.arrays import Arrays
 from tracer.kernel.capabilities import Need, needs
 from tracer.kernel.formulas import STABLE, Formulas
 from tracer.kernel.packing import pack_lights, pack_materials, pack_objects, pack_surfaces
+from tracer.kernel.workspace import Eye
 from tracer.scene import Material, Scene, SceneError
 from tracer.scene.cameras import scene_view
 from tracer.scene.garbage import no_garbage_collection
 from tracer.scene.notes import hidden_notes, open_notes, turned_notes
 from tracer.scene.scene import middle_and_radius
 from tracer.scene.solids import Solid, find_solids
+from tracer.shapes.exact import exact
 from tracer.shapes.planar import PLANE_ERROR
 from tracer.shapes.surface_row import BlockRow
 
-MAX_EYES = 64  # points whose solids are cached
+MAX_EYES = 64  # points whose surroundings are cached
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -33,12 +35,13 @@ class World:
 
     scene: Scene
     arrays: Arrays  # as a Bundle
+    boxes: np.ndarray  # (n, 2, 3): boxes about all surfaces, infinite ones included
     bounds: np.ndarray  # (n, 2, 3): boxes about the bounded surfaces
     extent: tuple[Vector, float]  # centre and radius of these, for a scene without a camera position or target
     needs: tuple[Need, ...]
     solids: tuple[Solid, ...]  # by rank
     turned: tuple[int, ...]  # objects whose faces were wound inside out
-    _solids_around: dict[Vector, np.ndarray] = field(default_factory=dict)  # cache: the eye seldom moves
+    _eyes: dict[Vector, Eye] = field(default_factory=dict)  # cache: the eye seldom moves
 
     @property
     def left_out(self) -> list[str]:
@@ -61,18 +64,30 @@ class World:
         """The view of the scene's camera, for an image of this size (width, height), by default the scene's own."""
         return scene_view(self.scene, self.extent, size)
 
-    def solids_around(self, point: Vector) -> np.ndarray:
-        """The set of transparent solids that contain a point, a bit mask of int64 words (`tracer.formulas.media`)."""
-        if point not in self._solids_around:
-            if len(self._solids_around) >= MAX_EYES:
-                self._solids_around.clear()
-            mask = np.zeros(-(-len(self.solids) // WORD), np.int64)
-            p = np.array(point)
-            for rank, solid in enumerate(self.solids):
-                if solid.contains(p):
-                    mask[rank // WORD] |= 1 << (rank % WORD)
-            self._solids_around[point] = mask
-        return self._solids_around[point]
+    def eye(self, point: Vector) -> Eye:
+        """What a point lies in, and what it lies exactly on."""
+        if point not in self._eyes:
+            if len(self._eyes) >= MAX_EYES:
+                self._eyes.clear()
+            self._eyes[point] = self._eye(point)
+        return self._eyes[point]
+
+    def _eye(self, point: Vector) -> Eye:
+        mask = np.zeros(-(-len(self.solids) // WORD), np.int64)
+        p = np.array(point)
+        for rank, solid in enumerate(self.solids):
+            if solid.contains(p):
+                mask[rank // WORD] |= 1 << (rank % WORD)
+        owners = self.arrays.surfaces["object"]
+        near = np.flatnonzero((self.boxes[:, 0] <= p).all(axis=1) & (self.boxes[:, 1] >= p).all(axis=1))
+        rows = near - np.searchsorted(owners, owners[near])
+        place = exact(point)
+        touched = [
+            s
+            for s, row in zip(near.tolist(), rows.tolist(), strict=True)
+            if self.scene.objects[owners[s]].shape.touches(place, row)
+        ]
+        return Eye(mask, np.array(touched, np.int64))
 
 
 @no_garbage_collection()
@@ -96,7 +111,8 @@ def prepare(scene: Scene, hierarchy: bool | None = None, formulas: Formulas = ST
     surfaces = pack_surfaces(scene.objects, solids.of_faces)
     finite = np.asarray(np.isfinite(surfaces.bounds).all(axis=(1, 2)))
     boxed = finite & (np.count_nonzero(finite) > MAX_UNBOXED if hierarchy is None else hierarchy)
-    nodes, blocks, unit = build(_padded(surfaces.bounds), surfaces.triangles(), boxed)
+    boxes = _padded(surfaces.bounds)
+    nodes, blocks, unit = build(boxes, surfaces.triangles(), boxed)
     arrays = Arrays(
         surfaces=surfaces.rows,
         corners=surfaces.corners,
@@ -116,7 +132,7 @@ def prepare(scene: Scene, hierarchy: bool | None = None, formulas: Formulas = ST
     )
     bounds = surfaces.bounds[finite]
     found = needs(scene, len(surfaces.rows), len(nodes), len(blocks))
-    return World(scene, bundle(arrays), bounds, _extent(scene, bounds), found, solids.ranked, solids.turned)
+    return World(scene, bundle(arrays), boxes, bounds, _extent(scene, bounds), found, solids.ranked, solids.turned)
 
 
 def _extent(scene: Scene, bounds: np.ndarray) -> tuple[Vector, float]:

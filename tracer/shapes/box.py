@@ -17,6 +17,7 @@ from tracer.compile.jit import compiled, inlined
 from tracer.formulas.vector import Vector, add, scale
 from tracer.rays import Ray
 from tracer.shapes import planar
+from tracer.shapes.exact import Exact, exact
 from tracer.shapes.planar import LEVEL, PLANE_ERROR
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.shape import Shape
@@ -48,6 +49,11 @@ class Box(Shape):
 
     def contains(self, p: np.ndarray) -> bool:
         return bool(np.all(np.less(self.min, p)) and np.all(np.less(p, self.max)))
+
+    def touches(self, p: Exact, row: int) -> bool:
+        low, high = exact(self.min), exact(self.max)
+        between = all(low[k] <= p[k] <= high[k] for k in range(3))
+        return between and any(p[k] in (low[k], high[k]) for k in range(3))
 
     def faults(self) -> list[str]:
         if all(low < high for low, high in zip(self.min, self.max, strict=True)):
@@ -207,8 +213,8 @@ def next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
 @inlined
 def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
     """The hit point, exactly on the face whose plane is crossed at t, and that face's normal twice."""
-    enter, _ = interval(surface, ray)
-    entering = enter == t
+    enter, leave = interval(surface, ray)
+    entering = enter == t and not t == leave == 0.0
     p = add(ray.origin, scale(t, ray.direction))
     for k in range(3):
         if ray.direction[k] != 0.0:

@@ -17,6 +17,7 @@ cosine:
 
 import math
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import ClassVar
 
 import numpy as np
@@ -27,6 +28,7 @@ from tracer.compile.jit import compiled, inlined
 from tracer.formulas.vector import Vector, add, cross, dot, length, negate, rescale, scale, subtract, unit, vector
 from tracer.rays import Ray
 from tracer.shapes.disc import Disc
+from tracer.shapes.exact import Exact, dot as exact_dot, exact, minus
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
 from tracer.shapes.tessellation import unit_circle
@@ -69,6 +71,14 @@ class Cone(Shape):
         rims = [Disc(self.base, axis, self.base_radius).bounds(), Disc(self.apex, axis, self.apex_radius).bounds()]
         both = np.concatenate(rims)
         return np.stack([both[:, 0].min(axis=0), both[:, 1].max(axis=0)])[None]
+
+    def touches(self, p: Exact, row: int) -> bool:
+        """All in terms of the base: |arm|^2 - along^2 / L^2 = (r + (r1 - r) along / L^2)^2 with along = arm.axis."""
+        arm, axis = minus(p, exact(self.base)), minus(exact(self.apex), exact(self.base))
+        along, square = exact_dot(arm, axis), exact_dot(axis, axis)
+        base, apex = Fraction(self.base_radius), Fraction(self.apex_radius)
+        radius = base + (apex - base) * along / square
+        return 0 <= along <= square and exact_dot(arm, arm) - along**2 / square == radius**2
 
     def faults(self) -> list[str]:
         found = []

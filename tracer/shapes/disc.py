@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import ClassVar
 
 import numpy as np
@@ -13,6 +14,7 @@ from tracer.formulas.double_double import dd_vector
 from tracer.formulas.vector import Vector, add, length, rescale, scale, subtract, unit, vector
 from tracer.rays import Ray
 from tracer.shapes import planar
+from tracer.shapes.exact import Exact, dot, exact, minus
 from tracer.shapes.planar import may_cross, outline_slack, pack_normal
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
@@ -44,6 +46,10 @@ class Disc(Shape):
         x, y, z = unit(rescale(self.normal))
         reach = self.radius * np.array([math.hypot(y, z), math.hypot(z, x), math.hypot(x, y)])
         return np.stack([self.center - reach, self.center + reach])[None]
+
+    def touches(self, p: Exact, row: int) -> bool:
+        arm = minus(p, exact(self.center))
+        return dot(arm, exact(self.normal)) == 0 and dot(arm, arm) <= Fraction(self.radius) ** 2
 
     def plane(self) -> tuple[Vector, Vector]:
         return self.center, unit(rescale(self.normal))

@@ -11,6 +11,7 @@ import numpy as np
 
 from tracer import fields
 from tracer.formulas.vector import Vector
+from tracer.shapes.exact import Exact, exact, is_in_outline
 from tracer.shapes.shape import Shape
 from tracer.shapes.shells import OPEN, find_shells, welded, winding_number
 from tracer.shapes.tessellation import flat, normals_of
@@ -115,6 +116,9 @@ class Mesh(Shape):
         corners = self.placed()
         outside = (p < corners.min(axis=(0, 1))).any() or (p > corners.max(axis=(0, 1))).any()
         return not outside and self.is_closed() and abs(winding_number(corners, p)) > 0.5
+
+    def touches(self, p: Exact, row: int) -> bool:
+        return is_in_outline(p, [exact(corner) for corner in self.placed()[row].tolist()])
 
     def triangles(self, middle: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
         corners, normals = self.placed(), self.smooth()

@@ -5,6 +5,7 @@ Packed as in `planar`.
 
 import math
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import ClassVar
 
 import numpy as np
@@ -15,6 +16,7 @@ from tracer.formulas.double_double import dd_vector
 from tracer.formulas.vector import Vector, rescale, unit
 from tracer.rays import Ray
 from tracer.shapes import planar
+from tracer.shapes.exact import Exact, dot, exact, minus
 from tracer.shapes.planar import may_cross, pack_normal
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
@@ -52,7 +54,13 @@ class Plane(Shape):
         return True
 
     def contains(self, p: np.ndarray) -> bool:
-        return bool(np.dot(np.subtract(p, self.point), self.normal) < 0.0)
+        return self._height(exact(p)) < 0
+
+    def touches(self, p: Exact, row: int) -> bool:
+        return self._height(p) == 0
+
+    def _height(self, p: Exact) -> Fraction:
+        return dot(minus(p, exact(self.point)), exact(self.normal))
 
     def triangles(self, middle: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
         """A square about the foot of the perpendicular from the scene's middle."""

@@ -17,6 +17,7 @@ from tracer.compile.jit import inlined
 from tracer.formulas.vector import Vector, unit
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
+from tracer.shapes.exact import Exact, exact, is_in_outline
 from tracer.shapes.planar import is_near_edge, may_cross, newell_normal, outline_slack, pack_normal, unit_normal
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import SURFACE, ShapeArrays, SurfaceRow
@@ -47,6 +48,9 @@ class Polygon(Shape):
 
     def bounds(self) -> np.ndarray:
         return np.stack([np.min(self.vertices, axis=0), np.max(self.vertices, axis=0)])[None]
+
+    def touches(self, p: Exact, row: int) -> bool:
+        return is_in_outline(p, [exact(corner) for corner in self.vertices])
 
     def outline(self) -> np.ndarray:
         return np.array(self.vertices, float)

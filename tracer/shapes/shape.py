@@ -7,6 +7,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from tracer.formulas.vector import Vector
+from tracer.shapes.exact import Exact
 
 
 class Shape(ABC):
@@ -59,8 +60,12 @@ class Shape(ABC):
         return False
 
     def contains(self, p: np.ndarray) -> bool:
-        """Whether the point lies inside."""
+        """Whether the point lies inside. On the surface, either answer will do."""
         return False
+
+    @abstractmethod
+    def touches(self, p: Exact, row: int) -> bool:
+        """Whether the point lies exactly on the surface with this number among its rows."""
 
     def plane(self) -> tuple[Vector, Vector] | None:
         """(point, unit normal) of the plane that a flat shape lies in; None for other shapes."""

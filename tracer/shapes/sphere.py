@@ -10,6 +10,7 @@ first form cannot decide, the whole quadratic is solved in double-double.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import ClassVar
 
 import numpy as np
@@ -37,6 +38,7 @@ from tracer.formulas.double_double import (
 )
 from tracer.formulas.vector import Vector, add, dot, scale, subtract, unit, vector
 from tracer.rays import Ray
+from tracer.shapes.exact import Exact, dot as exact_dot, exact, minus
 from tracer.shapes.planar import SPHERE_COUNT
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
@@ -87,7 +89,17 @@ class Sphere(Shape):
         return True
 
     def contains(self, p: np.ndarray) -> bool:
-        return math.dist(p, self.center) < self.radius
+        distance = math.dist(p, self.center)
+        if abs(distance - self.radius) > 8 * U * (distance + self.radius):
+            return distance < self.radius
+        return self._power(exact(p)) < 0
+
+    def touches(self, p: Exact, row: int) -> bool:
+        return self._power(p) == 0
+
+    def _power(self, p: Exact) -> Fraction:
+        arm = minus(p, exact(self.center))
+        return exact_dot(arm, arm) - Fraction(self.radius) ** 2
 
     def triangles(self, middle: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
         corners, faces = unit_ball()

@@ -18,6 +18,7 @@ from tracer.formulas.double_double import dd_cross, exact_difference
 from tracer.formulas.vector import Vector, add, cross, dot, length, scale, subtract, unit, vector
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
+from tracer.shapes.exact import Exact, exact, is_in_outline
 from tracer.shapes.planar import PLANE_ERROR, is_near_edge, may_cross, outline_slack, pack_normal, unit_normal
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import BlockRow, ShapeArrays, SurfaceRow
@@ -40,6 +41,9 @@ class Triangle(Shape):
 
     def bounds(self) -> np.ndarray:
         return np.stack([np.min(self.vertices, axis=0), np.max(self.vertices, axis=0)])[None]
+
+    def touches(self, p: Exact, row: int) -> bool:
+        return is_in_outline(p, [exact(corner) for corner in self.vertices])
 
     def plane(self) -> tuple[Vector, Vector]:
         x, y, z = unit_normal(np.array(self.vertices, float)).tolist()

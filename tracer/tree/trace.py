@@ -59,7 +59,7 @@ def trace(
         view = _ray_view(*ray)
     points = PIXEL_CENTER.sampler if sample is None else make_sampler(sampler, samples or sample + 1)
     first = sample or 0
-    workspace = Workspace(world.solids_around(view.eye))
+    workspace = Workspace(world.eye(view.eye))
     trace_list(world.arrays, view, limits, points, one_pixel(x, y, first, first + 1), workspace)
     space = workspace.arrays
     count = int(space.tree[0])

@@ -108,7 +108,7 @@ def test_what_came_over_a_wire_is_traced_as_it_is(world: tracer.World) -> None:
     head = pickle.dumps(task, protocol=5, buffer_callback=sent.append)
     came = [memoryview(b"?" + buffer.raw().tobytes())[1:] for buffer in sent]
     task = pickle.loads(head, buffers=came)
-    assert len(came) == 9
+    assert len(came) == 10
     (traced,) = trace_works(task, [Work(Tile(150, 100, 170, 120))])
     assert traced.colors is not None
     assert (traced.colors == tracer.render(world).pixels[100:120, 150:170]).all()

@@ -48,7 +48,7 @@ def test_mirrors_face_to_face_take_no_room_but_where_they_are_recorded() -> None
     assert tree.radiance.tolist() == [0.3, 0.5, 0.7]
     assert tree.depth == 200_000
     assert 90_000 < (tree.nodes["kind"] == 1).sum() < 110_000
-    workspace = Workspace(world.solids_around(ray[0]))
+    workspace = Workspace(world.eye(ray[0]))
     limits = make_limits(world, depth=200_000, max_nodes=10**7, records=False)
     view = ray_view(ray[0], unit(ray[1]))
     traced = trace_list(world.arrays, view, limits, PIXEL_CENTER.sampler, one_pixel(0, 0), workspace)

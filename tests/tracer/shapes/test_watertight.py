@@ -18,7 +18,7 @@ RAYS = 100_000  # at the corners, and as many at the edges, of each mesh
 
 def misses(world: tracer.World, origins: np.ndarray, targets: np.ndarray) -> int:
     """The number of rays that miss a luminous mesh and see black: each ray is the one pixel of an image."""
-    workspace, pixel = Workspace(world.solids_around((0.0, 0.0, 0.0))), one_pixel(0, 0)
+    workspace, pixel = Workspace(world.eye((0.0, 0.0, 0.0))), one_pixel(0, 0)
     limits = make_limits(world, 0, records=False)
     ways = targets - origins
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
