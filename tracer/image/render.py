@@ -42,6 +42,7 @@ class Image:
     depth: int | None  # None: limited by the tolerance only
     tolerance: float | None
     bound: float  # no component of a pixel lacks more than this because rays were cut; inf where there is no bound
+    unbounded: str  # the material because of which there is no bound; empty if there is one
     left_out: list[str]  # capabilities that the scene does not need
     counts: np.ndarray | None = None  # (height, width) samples of each pixel, of an image that converged
     stats: RoundStats | None = None  # statistics of the last round, of an image that converged
@@ -148,6 +149,7 @@ def render(
 
             trace_passes(shared(task, pool), [works], pool, threads, finished, film.pixels, cancelled)
             totals, pixels, residual = film.totals, film.pixels, film.residual()
+    bound = radiance_bound(world.scene)
     return Image(
         pixels=pixels,
         seconds={"compile": compiling, "trace": time.perf_counter() - began},
@@ -159,7 +161,8 @@ def render(
         samples=stats.most if stats else points.count,
         depth=limits.depth if depth is not None or tolerance is None else None,
         tolerance=tolerance,
-        bound=residual["max"] * radiance_bound(world.scene) if residual["max"] > 0.0 else 0.0,
+        bound=max(bound.missing(residual["max"])),
+        unbounded=bound.reason,
         left_out=world.left_out,
         counts=counts,
         stats=stats,

@@ -1,37 +1,58 @@
-"""An upper bound on the radiance of any ray of a scene.
+"""An upper bound on the radiance of any ray of a scene, and on the light that a tree lacks.
 
-Let every hit's local term be at most L, and let the factors of the rays that it sends out add up to at most s < 1.
-Then the radiance of every ray is at most B = max(background, L / (1 - s)), since L + s B <= B. So a tree lacks at
-most residual * B: the weights that were cut, each times the most light that its ray could have brought. If s >= 1
-and L > 0, or s > 1 and the background emits light, radiance may grow without limit, and there is no bound. (Hall &
-Greenberg, IEEE CG&A 3(8), 1983, cut rays by weight. The weight of one ray is no bound, the sum is.)
+Let L be the largest local term of a material, and s the largest sum of the factors of the rays that it sends out. Then
+no ray is brighter than B, the largest of the background and of L / (1 - s) over all materials: a surface that gets at
+most B returns L + s B <= B. So a tree lacks at most the sum of the weights that were cut, times B.
+
+B is infinite only if one material has s >= 1 and L > 0, or s > 1 while anything shines. (Hall & Greenberg, IEEE CG&A
+3(8), 1983, cut rays by weight. The weight of one ray is no bound, the sum is.)
 """
 
 import math
+from typing import NamedTuple
 
+from tracer.formulas.vector import Vector
 from tracer.scene.scene import Material, Scene
 
 
-def radiance_bound(scene: Scene) -> float:
-    """B in its largest component, linear RGB; inf where there is no bound."""
-    materials = {item.material for item in scene.objects}
-    brightest = max((local_bound(scene, material) for material in materials), default=0.0)
-    passed_on = max((material.reflect + material.transmit for material in materials), default=0.0)
-    background = max(scene.background.color)
-    if passed_on < 1.0:
-        return max(background, brightest / (1.0 - passed_on))
-    if brightest > 0.0 or (passed_on > 1.0 and background > 0.0):
-        return math.inf
-    return background
+class RadianceBound(NamedTuple):
+    """B for each channel, linear RGB; inf where there is no bound."""
+
+    rgb: Vector
+    reason: str  # the material because of which a channel has no bound; empty if all have one
+
+    @property
+    def largest(self) -> float:
+        return max(self.rgb)
+
+    def missing(self, residual: float) -> Vector:
+        """The most light that rays of this weight can bring."""
+        r, g, b = (residual * most if residual > 0.0 else 0.0 for most in self.rgb)
+        return (r, g, b)
 
 
-def local_bound(scene: Scene, material: Material) -> float:
+def radiance_bound(scene: Scene) -> RadianceBound:
+    names = {item.material: item.material.name or item.name or item.shape.name for item in reversed(scene.objects)}
+    most, reason = list(scene.background.color), ""
+    local = {material: local_bound(scene, material) for material in names}
+    for k in range(3):
+        shines = most[k] > 0.0 or any(own[k] > 0.0 for own in local.values())
+        for material, name in names.items():
+            passed_on = material.reflect + material.transmit
+            if passed_on < 1.0:
+                most[k] = max(most[k], local[material][k] / (1.0 - passed_on))
+            elif local[material][k] > 0.0 or (passed_on > 1.0 and shines):
+                most[k], reason = math.inf, reason or name
+    return RadianceBound((most[0], most[1], most[2]), reason)
+
+
+def local_bound(scene: Scene, material: Material) -> Vector:
     """The largest local term of a material: facing every light, and with every highlight at its maximum."""
     colors = [material.color] + ([material.checker.color] if material.checker else [])
-    most = 0.0
+    terms = []
     for k in range(3):
         color = max(color[k] for color in colors)
         light = sum(light.color[k] for light in scene.lights)
         ambient = scene.tracing.ambient[k] * material.ambient * color
-        most = max(most, ambient + light * (material.diffuse * color + material.specular))
-    return most
+        terms.append(ambient + light * (material.diffuse * color + material.specular))
+    return (terms[0], terms[1], terms[2])

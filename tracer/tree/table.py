@@ -6,9 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
+from tracer.formulas.vector import Vector
 from tracer.kernel.nodes import BLOCKED, ENDS, KINDS, SHADOW, SURFACE
 from tracer.scene import Scene
-from tracer.scene.radiance_bound import radiance_bound
+from tracer.scene.radiance_bound import RadianceBound, radiance_bound
 from tracer.tree.digits import significant_digits
 from tracer.tree.ledger import Ledger, make_ledger
 
@@ -32,9 +33,19 @@ class TreeTable:
         return self.nodes["radiance"][0]
 
     @cached_property
+    def radiance_bound(self) -> RadianceBound:
+        """The most that a ray of the scene can bring."""
+        return radiance_bound(self.scene)
+
+    @property
+    def missing(self) -> Vector:
+        """`radiance` lacks at most this, linear RGB; inf where there is no bound."""
+        return self.radiance_bound.missing(self.residual)
+
+    @property
     def bound(self) -> float:
-        """`radiance` lacks at most this in each component; inf where there is no bound."""
-        return self.residual * radiance_bound(self.scene) if self.residual > 0.0 else 0.0
+        """The largest component of `missing`."""
+        return max(self.missing)
 
     @cached_property
     def ledger(self) -> Ledger:

@@ -89,14 +89,19 @@ def cut_summary(tree: TreeTable) -> str:
         carry = f"stopped at the limit of rays: {carry}"
     elif tree.tolerance is not None and tree.residual > tree.tolerance:
         carry = f"stopped by depth or weight, before the tolerance was reached: {carry}"
-    return f"{carry}{missing_light(tree.bound)}"
+    most = tree.missing
+    channel = max(range(3), key=lambda k: most[k])
+    return f"{carry}{missing_light(most[channel], tree.radiance_bound.reason, float(tree.radiance[channel]))}"
 
 
-def missing_light(bound: float) -> str:
-    """The end of a sentence about rays that were cut: the bound on the missing light."""
+def missing_light(bound: float, reason: str, radiance: float | None = None) -> str:
+    """The end of a sentence about rays that were cut: the bound on the missing light, relative to the pixel's, in the
+    channel that may lack most. `reason` is the material that has no bound.
+    """
     if math.isinf(bound):
-        return ", and no upper bound is known for the missing light"
-    return f": at most {number_text(bound)} of light is missing"
+        return f', and no upper bound is known for the missing light, because of the material "{reason}"'
+    of = "the light" if radiance is None else f"this pixel's {number_text(radiance)}"
+    return f": at most {number_text(bound)} of {of} is missing"
 
 
 def _stems(tree: TreeTable, shown: set[int]) -> dict[int, str]:

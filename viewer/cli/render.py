@@ -131,7 +131,8 @@ def render_one(
         progress.put(name + summary(image, image.stats, options), sys.stdout)
     if options.tolerance is not None or (image.stats and image.residual["max"] > 0.0):
         most = number_text(image.residual["max"])
-        missing = f"a pixel's rays that were cut carry at most {most} of the weight{missing_light(image.bound)}"
+        lacks = missing_light(image.bound, image.unbounded)
+        missing = f"a pixel's rays that were cut carry at most {most} of the weight{lacks}"
         progress.put(name + missing, sys.stdout)
     return {
         "scene": str(job.scene),

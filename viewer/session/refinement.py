@@ -125,7 +125,7 @@ class Refinement:
             self.renderer.picture = run.picture
             self.is_running = False
         elif run.image and run.picture:
-            bound = radiance_bound(world.scene)
+            bound = radiance_bound(world.scene).largest
 
             def noted(stats: RoundStats | None) -> None:
                 if stats:

@@ -186,7 +186,7 @@ def test_the_most_a_ray_can_bring_counts_every_light_and_the_brighter_square() -
     lights = [Light("two", position=(0.0, 9.0, 0.0), color=(0.0, 2.0, 0.0)), Light("one", direction=(0.0, -1.0, 0.0))]
     for sky, most in ((2.0, (0.125 + 3.0 * (0.125 + 0.25)) / 0.5), (3.0, 3.0)):
         world = world_of(ball(material=tiles), lights=lights, ambient=(0.0, 0.5, 0.0), background=(0.0, 0.0, sky))
-        assert radiance_bound(world.scene) == most
+        assert radiance_bound(world.scene).largest == most
 
 
 def test_furnace_lacks_exactly_what_the_bound_says() -> None:
@@ -253,3 +253,22 @@ def test_absurd_limits_are_refused() -> None:
     ):
         with pytest.raises(ValueError, match="must be"):
             down(world, **limits)
+
+
+def test_clear_glass_takes_no_bound_from_the_matte_walls_around_it() -> None:
+    """The bound is that of the brightest material alone: of the wall with what it returns, not with what glass does."""
+    wall = Material("wall", ambient=0.5, reflect=0.5)
+    clear = Material("clear", transmit=1.0, ior=1.5)
+    world = world_of(ball(material=clear), plane((0, -2, 0), (0, 1, 0), wall), background=(0.25, 0.0, 0.0))
+    assert radiance_bound(world.scene) == ((1.0, 1.0, 1.0), "")
+    shiny = Material("shiny", specular=0.1, transmit=1.0, ior=1.5)
+    lamp = Light("lamp", position=(0.0, 9.0, 0.0), color=(1.0, 0.0, 0.0))
+    other = world_of(ball(material=shiny), plane((0, -2, 0), (0, 1, 0), wall), lights=[lamp])
+    assert radiance_bound(other.scene) == ((math.inf, 1.0, 1.0), "shiny")
+    tree = tracer.trace(other, ray=((0.1, 0.2, 5), (0, 0, -1)), depth=1)
+    assert tree.missing[0] == math.inf > tree.missing[1]
+    assert (
+        tree.to_text()
+        .splitlines()[1]
+        .endswith('no upper bound is known for the missing light, because of the material "shiny"')
+    )
