@@ -10,10 +10,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tracer.compile.jit import inlined
+from tracer.compile.intrinsics import noinline
+from tracer.compile.jit import compiled, inlined
 from tracer.compile.rows import Numbers
 
 Vector = tuple[float, float, float]
+# Squares of lengths between these neither underflow nor overflow.
+SHORTEST, LONGEST = 1e-140, 1e140
+
 VectorLike = Sequence[float] | np.ndarray  # three numbers, as users pass them
 
 
@@ -82,6 +86,17 @@ def unit(a: Vector) -> Vector:
     """The unit vector in the direction of `a`, which must not be 0."""
     size = math.sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
     return (a[0] / size, a[1] / size, a[2] / size)
+
+
+@compiled
+def near_one(a: Vector) -> tuple[Vector, int]:
+    """(vector, exponent): a is the vector times 2^exponent, and its largest component is about 1.
+
+    No square of it overflows or underflows, and no digit changes. 0 stays 0.
+    """
+    noinline()
+    _, exponent = math.frexp(max(abs(a[0]), max(abs(a[1]), abs(a[2]))))
+    return ((math.ldexp(a[0], -exponent), math.ldexp(a[1], -exponent), math.ldexp(a[2], -exponent)), exponent)
 
 
 @inlined

@@ -25,6 +25,7 @@ class Scattered(NamedTuple):
     kind: int  # of the reflected ray: REFLECTION or TIR
     reflected: float  # factor of the reflected ray
     refracted: float  # factor of the refracted ray
+    mirror: Vector  # direction of the reflected ray
     through: Vector  # direction of the refracted ray
 
 
@@ -34,15 +35,16 @@ def scatter(world: Arrays, limits: Limits, row: NodeRow) -> Scattered:
     material = world.materials[world.objects[row.object].material]
     kr, kt = material.reflect, material.transmit
     d = vector(row.direction)
+    mirror = world.formulas.mirrored(d, vector(row.normal))
     if kt == 0.0:
-        return Scattered(REFLECTION, kr, 0.0, d)
+        return Scattered(REFLECTION, kr, 0.0, mirror, d)
     thin = world.objects[row.object].sheet
     if row.n1 == row.n2 and not thin:
-        return Scattered(REFLECTION, 0.0, kt if limits.model == WHITTED else kr + kt, d)
+        return Scattered(REFLECTION, 0.0, kt if limits.model == WHITTED else kr + kt, mirror, d)
     if row.radicand <= 0.0 and not thin:
-        return Scattered(TIR, kr + kt, 0.0, d)
+        return Scattered(TIR, kr + kt, 0.0, mirror, d)
     reflected, refracted, through = dielectric_shares(world, limits, row, material, thin)
-    return Scattered(REFLECTION, reflected, refracted, through)
+    return Scattered(REFLECTION, reflected, refracted, mirror, through)
 
 
 @inlined
@@ -108,8 +110,8 @@ def append_child(
 @inlined
 def cut_reason(limits: Limits, parent: NodeRow, rays: Scattered, refracted: bool, heaviest: float) -> int:
     """The reason to cut a ray that does not depend on other rays; NONE if it may be followed."""
-    through = rays.through
-    if refracted and not math.isfinite(through[0] + through[1] + through[2]):
+    direction = rays.through if refracted else rays.mirror
+    if not math.isfinite(direction[0] + direction[1] + direction[2]):
         return INVALID
     if parent.depth >= limits.depth:
         return DEPTH
@@ -125,13 +127,12 @@ def start_child(
     """Write row `count`, one of the rays that row i sends out, as it is before it is traced."""
     table, solids = space.table, space.solids
     parent = table[i]
-    d, n = vector(parent.direction), vector(parent.normal)
     k = rays.refracted if refracted else rays.reflected
     factor = (k, k, k)
     kind = REFRACTION if refracted else rays.kind
     row = start_row(limits, table, count, i, kind, parent.depth + 1, factor, multiply(vector(parent.weight), factor))
     store(row.origin, vector(parent.point))
-    store(row.direction, rays.through if refracted else world.formulas.mirrored(d, n))
+    store(row.direction, rays.through if refracted else rays.mirror)
     row.start = world.surfaces[parent.surface].coincident
     row.side = -parent.hit_side if refracted else parent.hit_side
     row.magnitude = rounding_scale(parent)

@@ -14,14 +14,11 @@ from tracer.compile.intrinsics import noinline
 from tracer.compile.jit import compiled, inlined
 from tracer.compile.rows import Rows
 from tracer.formulas.double_double import SMALLEST
-from tracer.formulas.vector import Vector, length, scale, subtract, unit, vector
+from tracer.formulas.vector import LONGEST, SHORTEST, Vector, length, near_one, scale, subtract, vector
 from tracer.kernel.arrays import Arrays, LightRow
 from tracer.kernel.closest_hit import closest, hit_distance, transmit
 from tracer.kernel.workspace import CrossingRow, Space
 from tracer.rays import Ray
-
-# Squares of lengths between these neither underflow nor overflow.
-SHORTEST, LONGEST = 1e-140, 1e140
 
 OPAQUE, OVERFLOW = -1, -2  # instead of a number of crossings
 
@@ -34,19 +31,12 @@ def light_direction(light: LightRow, point: Vector) -> tuple[Vector, float]:
     to_light = subtract(vector(light.position), point)
     distance = length(to_light)
     if distance < SHORTEST or distance > LONGEST:
-        return scaled_direction(to_light)
+        scaled, exponent = near_one(to_light)
+        distance = length(scaled)
+        if distance == 0.0:
+            return (to_light, 0.0)
+        return (scale(1.0 / distance, scaled), math.ldexp(distance, exponent))
     return (scale(1.0 / distance, to_light), distance)
-
-
-@compiled
-def scaled_direction(v: Vector) -> tuple[Vector, float]:
-    """(unit direction, length) of a vector whose squares underflow or overflow; (0, 0) for the zero vector."""
-    noinline()
-    size = max(abs(v[0]), max(abs(v[1]), abs(v[2])))
-    if size == 0.0:
-        return (v, 0.0)
-    v = (v[0] / size, v[1] / size, v[2] / size)
-    return (unit(v), size * length(v))
 
 
 @inlined

@@ -113,7 +113,7 @@ def trace_ray(world: Arrays, space: Space, i: int) -> None:
         if shading_n != n and not is_usable(world, d, n, shading_n, n1, row.n2):
             shading_n = n
         row.radicand = radicand(world.formulas.sine(d, shading_n), n1, row.n2)
-    elif shading_n != n and dot(world.formulas.mirrored(d, shading_n), n) <= 0.0:
+    elif shading_n != n and not dot(world.formulas.mirrored(d, shading_n), n) > 0.0:
         shading_n = n
     store(row.face_normal, n)
     store(row.normal, shading_n)

@@ -112,6 +112,17 @@ class Mesh(Shape):
         """Whether all its shells are closed."""
         return bool((find_shells(self.all_faces()).solid != OPEN).all())
 
+    def faults(self) -> list[str]:
+        """Only of the placement: the vertices themselves are checked by readers."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            vertices = self.vertices()
+        beyond = ~(np.abs(vertices) <= fields.LARGEST).all(axis=1)
+        if not beyond.any():
+            return []
+        k = int(beyond.argmax())
+        place = " ".join(f"{x:g}" for x in vertices[k])
+        return [f"{self.file}: vertex {k} must be placed within {fields.LARGEST:g}, got {place}"]
+
     def contains(self, p: np.ndarray) -> bool:
         corners = self.placed()
         outside = (p < corners.min(axis=(0, 1))).any() or (p > corners.max(axis=(0, 1))).any()

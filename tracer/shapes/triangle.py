@@ -15,7 +15,20 @@ from tracer import fields
 from tracer.compile.jit import inlined
 from tracer.compile.simd import broadcast, lanes_max, lanes_min, load_lanes, mask_less
 from tracer.formulas.double_double import dd_cross, exact_difference
-from tracer.formulas.vector import Vector, add, cross, dot, length, scale, subtract, unit, vector
+from tracer.formulas.vector import (
+    LONGEST,
+    SHORTEST,
+    Vector,
+    add,
+    cross,
+    dot,
+    length,
+    near_one,
+    scale,
+    subtract,
+    unit,
+    vector,
+)
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
 from tracer.shapes.exact import Exact, exact, is_in_outline
@@ -129,16 +142,31 @@ def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> 
     if surface.smooth < 0:
         return (p, n, n)
     mixed = interpolated_normal(world, surface, p)
-    if dot(mixed, n) > 0.0:
+    if not dot(mixed, n) > 0.0:
+        return (p, n, n)
+    if SHORTEST < length(mixed) < LONGEST:
         return (p, n, unit(mixed))
-    return (p, n, n)
+    return (p, n, unit(near_one(mixed)[0]))
+
+
+@inlined
+def length_scale(surface: SurfaceRow) -> float:
+    """The power of two by which lengths are multiplied, so that products of them neither overflow nor underflow."""
+    a, b, c = vector(surface.a), vector(surface.b), vector(surface.c)
+    ab, ac = subtract(b, a), subtract(c, a)
+    size = max(max(abs(ab[0]), abs(ab[1])), max(abs(ab[2]), max(abs(ac[0]), max(abs(ac[1]), abs(ac[2])))))
+    if 1e-70 < size < 1e70:
+        return 1.0
+    _, exponent = math.frexp(size)
+    return math.ldexp(1.0, -exponent)
 
 
 @inlined
 def interpolated_normal(world: ShapeArrays, surface: SurfaceRow, p: Vector) -> Vector:
     """The vertex normals weighted by p's barycentric coordinates; of any length."""
     n, a, b, c = vector(surface.normal), vector(surface.a), vector(surface.b), vector(surface.c)
-    pa, pb, pc = subtract(a, p), subtract(b, p), subtract(c, p)
+    f = length_scale(surface)
+    pa, pb, pc = scale(f, subtract(a, p)), scale(f, subtract(b, p)), scale(f, subtract(c, p))
     u, v, w = dot(cross(pb, pc), n), dot(cross(pc, pa), n), dot(cross(pa, pb), n)
     corners = world.smooth[surface.smooth]
     return add(add(scale(u, vector(corners[0])), scale(v, vector(corners[1]))), scale(w, vector(corners[2])))
@@ -153,8 +181,9 @@ def normal_derivative(world: ShapeArrays, surface: SurfaceRow, p: Vector, v: Vec
     size = length(mixed)
     if size == 0.0:
         return (0.0, 0.0, 0.0)
-    a, b, c = vector(surface.a), vector(surface.b), vector(surface.c)
-    n, corners = vector(surface.normal), world.smooth[surface.smooth]
+    f = length_scale(surface)
+    a, b, c = scale(f, vector(surface.a)), scale(f, vector(surface.b)), scale(f, vector(surface.c))
+    n, corners, v = vector(surface.normal), world.smooth[surface.smooth], scale(f, v)
     u, w = dot(cross(subtract(c, b), v), n), dot(cross(subtract(b, a), v), n)
     change = scale(u, vector(corners[0]))
     change = add(change, scale(dot(cross(subtract(a, c), v), n), vector(corners[1])))

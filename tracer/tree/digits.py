@@ -7,10 +7,12 @@ import numpy as np
 
 
 def significant_digits(size: float, error: float) -> int:
-    """The number of correct digits of a number with this size and this error, 0 to 17."""
+    """The number of correct digits of a number with this size and this error, 0 to 17; 0 for an infinite number."""
     if not error > 0.0:
         return 17
-    return max(0, math.floor(math.log10(size / error))) if error < size else 0
+    if not error < size < math.inf:
+        return 0
+    return min(17, math.floor(math.log10(size) - math.log10(error)))
 
 
 def degree_decimals(error: float) -> int:

@@ -5,6 +5,8 @@ Each number comes from the node table, or is computed from it by the formulas of
 
 import math
 
+import numpy as np
+
 from tracer.choices import MODELS
 from tracer.formulas import optics
 from tracer.formulas.double_double import U
@@ -92,7 +94,9 @@ def _transmission(tree: RayTree, i: int) -> Section:
     if n1 == n2:
         section.add("t = v", "equal indices: straight on")
     else:
-        section.add("t", format_point(optics.transmission(v, normal, n1, n2, c1, c2), turn))
+        with np.errstate(invalid="ignore"):
+            t = optics.transmission(v, normal, n1, n2, c1, c2)
+        section.add("t", format_point(t, turn) if math.isfinite(sum(t)) else "rounding leaves no direction")
     return section
 
 
