@@ -36,6 +36,12 @@ PLANE_ERROR = 16 * U
 # A ray whose direction has no larger component along a normal may have been in the plane all its way, up to rounding.
 LEVEL = 16.0 * PLANE_ERROR
 
+# A face is seen edge-on where |n.d| is below this: the ray's distance to its edges then has less than 12 digits.
+EDGE_ON = 2.0**-40
+
+# Rounding error of a hit point in units of `tracer.kernel.node_rows.rounding_scale`, divided by |n.d|.
+HIT = 2.0
+
 FAR_ANCHOR = 4.0  # times the distance to the hit: where the plane's point is farther, it has fewer digits than the hit
 
 SPHERE_COUNT = 1  # `count` of a sphere, which is a corner with a radius
@@ -116,6 +122,8 @@ def plane_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: flo
     error = plane_rounding(surface, ray)
     if ray.start >= 0 and abs(height) <= error:
         t = contact_distance(world, surface, ray, n_dot_d)
+    elif abs(n_dot_d) < EDGE_ON and surface.count >= 3:
+        t = edge_on_distance(world, surface, ray)
     elif is_axis_aligned(surface) or (
         not exact
         and (abs(n_dot_d) + PLANE_ERROR) * t_min + error < abs(height) < (abs(n_dot_d) - PLANE_ERROR) * t_max - error
@@ -147,6 +155,37 @@ def exact_distance(surface: SurfaceRow, ray: Ray) -> float:
     height = dd_dot(normal, exact_difference(vector(surface.a), ray.origin))
     n_dot_d = dd_dot(normal, dd_vector(ray.direction))
     return dd_divide(height, n_dot_d) if n_dot_d[0] != 0.0 else math.inf
+
+
+@compiled
+def edge_on_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
+    """`exact_distance` to a face that the ray sees edge-on; inf if the hit is outside the face by more than its error.
+
+    Seen so, the outline is a line, and rounding decides whether the ray is inside. Here the hit itself is compared
+    with the outline, along the axis closest to the normal.
+    """
+    noinline()
+    t = exact_distance(surface, ray)
+    if not 0.0 <= t < math.inf:
+        return math.inf
+    p = add(ray.origin, scale(t, ray.direction))
+    o, n = ray.origin, vector(surface.normal)
+    size = max(ray.magnitude, abs(o[0]) + abs(o[1]) + abs(o[2]) + t)
+    slack = HIT * U * size / abs(dot(n, ray.direction))
+    x, y, z = abs(n[0]), abs(n[1]), abs(n[2])
+    i, j = (1, 2) if x >= y and x >= z else ((2, 0) if y >= z else (0, 1))
+    inside = False
+    last = subtract(corner(world, surface, surface.count - 1), p)
+    ax, ay = last[i], last[j]
+    for k in range(surface.count):
+        here = subtract(corner(world, surface, k), p)
+        bx, by = here[i], here[j]
+        if is_near_edge(ax, ay, bx, by, slack):
+            return t
+        if (ay > 0.0) != (by > 0.0) and (ax * by - bx * ay > 0.0) == (by > ay):
+            inside = not inside
+        ax, ay = bx, by
+    return t if inside else math.inf
 
 
 @compiled

@@ -26,10 +26,10 @@ from tracer.kernel.nodes import BLOCKED, REFRACTION, SHADOW, NodeRow
 from tracer.kernel.shadows import light_direction
 from tracer.rays import make_ray
 from tracer.shapes import interaction, normal_derivative
+from tracer.shapes.planar import HIT
 
-# Rounding errors of one step, in u. Of a hit point, relative to `rounding_scale`; of the incoming direction as the
-# surface takes it, and of the outgoing direction.
-HIT, INCOMING, OUTGOING = 2.0, 1.0, 2.0
+# Rounding errors of one step, in u: of the incoming direction as the surface takes it, and of the outgoing direction.
+INCOMING, OUTGOING = 1.0, 2.0
 
 
 class PropagationSpace(NamedTuple):
@@ -133,7 +133,10 @@ def propagate_row(
     n_dot_d = abs(dot(step.end_normal, step.direction))
     if row.t < math.inf:
         # At grazing incidence, a small shift of the ray is a large one along the surface.
-        add_rounding(c, HIT * U * rounding_scale(row) / length / (n_dot_d if n_dot_d > 0.0 else 1.0), 0.0)
+        own = HIT * U * rounding_scale(row) / length
+        if step.end_normal != (0.0, 0.0, 0.0):  # not the end of a shadow ray at its light
+            own = own / n_dot_d if n_dot_d > 0.0 else math.inf
+        add_rounding(c, own, 0.0)
     for a in range(6):
         for b in range(6):
             here[a, b] = c[a, b]
