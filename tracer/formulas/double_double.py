@@ -67,6 +67,15 @@ def dd_divide(a: DD, b: DD) -> float:
 
 
 @inlined
+def dd_quotient(a: DD, b: DD) -> DD:
+    """a / b."""
+    quotient = a[0] / b[0]
+    high, low = two_product(quotient, b[0])
+    rest = ((a[0] - high) - low + (a[1] - quotient * b[1])) / b[0]
+    return quick_two_sum(quotient, rest)
+
+
+@inlined
 def dd_sqrt(a: DD) -> DD:
     """The square root of a >= 0."""
     if a[0] <= 0.0:

@@ -23,7 +23,7 @@ from tracer.kernel.closest_hit import transmit
 from tracer.kernel.coincident_surfaces import change_medium, is_concave, is_entering
 from tracer.kernel.limits import Limits
 from tracer.kernel.node_rows import start_row
-from tracer.kernel.nodes import CAMERA, KINDS, SHADOW
+from tracer.kernel.nodes import CAMERA, KINDS, SHADOW, NodeRow
 from tracer.kernel.trace import trace_tree
 from tracer.kernel.workspace import Space, Workspace
 from tracer.rays import make_ray
@@ -43,6 +43,14 @@ class PixelRow(Row):
 
 
 PIXEL = dtype_of(PixelRow)
+
+
+class Batch(NamedTuple):
+    """What `trace_rays_in_turn` notes about n rays."""
+
+    starts: np.ndarray  # (n + 1,) the first row of each tree, and the end of the last
+    residuals: np.ndarray  # (n,)
+    done: np.ndarray  # (1,) number of rays that are traced
 
 
 class Counts(NamedTuple):
@@ -80,20 +88,58 @@ def trace_pixels(
         total, residual = vector(before[k]), before[k, 3]
         for sample in range(pixels[k].first, pixels[k].end):
             direction = camera_direction(world, view, sampler, pixels, k, sample, space)
-            start_camera_ray(world, view, limits, direction, space)
-            is_best_first = limits.tolerance >= 0.0
-            count = trace_best_first(world, limits, space) if is_best_first else trace_tree(world, limits, space)
-            if count < 0:
-                space.tree[0] = -1
+            start_camera_ray(world, view.eye, limits, direction, space)
+            if not trace_one(world, limits, space):
                 return -1
-            cut = count_rays(space, count)
-            space.tree[0] = count
-            space.tree[1] = cut
             total = add(total, vector(space.table[0].radiance))
-            residual += cut
+            residual += space.tree[1]
         store(sums[k], total)
         sums[k, 3] = residual
     return len(pixels)
+
+
+@inlined
+def trace_one(world: Arrays, limits: Limits, space: Space) -> bool:
+    """Trace the tree whose camera ray is row 0, and note its size in `space.tree`. False if the table is too short."""
+    is_best_first = limits.tolerance >= 0.0
+    count = trace_best_first(world, limits, space) if is_best_first else trace_tree(world, limits, space)
+    space.tree[0] = count
+    if count < 0:
+        return False
+    space.tree[1] = count_rays(space, count)
+    return True
+
+
+@kernel
+def trace_rays_in_turn(
+    world: Arrays, limits: Limits, rays: Numbers, solids: Numbers, into: Rows[NodeRow], batch: Batch, space: Space
+) -> int:
+    """Trace the trees of given rays (n, 6), origins and unit directions, with the solids (n, words) around the origins.
+
+    Their rows go to `into`, one tree after another, beginning with ray number `batch.done[0]`. Returns 0 when all are
+    done, 1 if `into` is too short for the next tree, -1 if the workspace is. Then the call must be repeated with more.
+    """
+    for k in range(batch.done[0], len(rays)):
+        for word in range(len(space.eye_solids)):
+            space.eye_solids[word] = solids[k, word]
+        origin, nowhere = (rays[k, 0], rays[k, 1], rays[k, 2]), (0.0, 0.0, 0.0)
+        view = View(origin, (rays[k, 3], rays[k, 4], rays[k, 5]), nowhere, nowhere, 1, 1)
+        direction = world.formulas.pixel_direction(view, 0.5, 0.5)
+        start_camera_ray(world, origin, limits, direction, space)
+        if not trace_one(world, limits, space):
+            return -1
+        first, count = batch.starts[k], int(space.tree[0])
+        if first + count > len(into):
+            return 1
+        for i in range(count):
+            into[first + i] = space.table[i]
+            row = into[first + i]
+            row.id += first
+            row.parent = row.parent + first if row.parent >= 0 else row.parent
+        batch.starts[k + 1] = first + count
+        batch.residuals[k] = space.tree[1]
+        batch.done[0] = k + 1
+    return 0
 
 
 @inlined
@@ -123,15 +169,15 @@ def camera_direction(
 
 
 @inlined
-def start_camera_ray(world: Arrays, view: View, limits: Limits, direction: Vector, space: Space) -> None:
+def start_camera_ray(world: Arrays, eye: Vector, limits: Limits, direction: Vector, space: Space) -> None:
     """Write row 0 of the table: the camera ray, before it is traced."""
     row = start_row(limits, space.table, 0, -1, CAMERA, 0, (1.0, 1.0, 1.0), (1.0, 1.0, 1.0))
-    store(row.origin, view.eye)
+    store(row.origin, eye)
     store(row.direction, direction)
     row.start = -1
     row.side = 0.0
     store(row.approach, direction)
-    row.magnitude = abs(view.eye[0]) + abs(view.eye[1]) + abs(view.eye[2])
+    row.magnitude = abs(eye[0]) + abs(eye[1]) + abs(eye[2])
     for word in range(len(space.eye_solids)):
         space.solids[0, 0, word] = space.eye_solids[word]
         space.solids[0, 1, word] = space.eye_solids[word]

@@ -72,6 +72,21 @@ class World:
             self._eyes[point] = self._eye(point)
         return self._eyes[point]
 
+    def eyes(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(sets of solids (n, words), whether each lies on a surface (n,)) for many points (n, 3)."""
+        masks = np.zeros((len(points), -(-len(self.solids) // WORD)), np.int64)
+        for rank, solid in enumerate(self.solids):
+            masks[solid.contains_each(points), rank // WORD] |= 1 << (rank % WORD)
+        owners = self.arrays.surfaces["object"]
+        on_surface = np.zeros(len(points), bool)
+        for s, (low, high) in enumerate(self.boxes):
+            near = np.flatnonzero(~on_surface & (points >= low).all(axis=1) & (points <= high).all(axis=1))
+            if len(near):
+                shape, row = self.scene.objects[owners[s]].shape, s - int(np.searchsorted(owners, owners[s]))
+                doubtful = near[shape.may_touch(points[near], row)]
+                on_surface[doubtful] = [shape.touches(exact(points[k].tolist()), row) for k in doubtful]
+        return masks, on_surface
+
     def _eye(self, point: Vector) -> Eye:
         mask = np.zeros(-(-len(self.solids) // WORD), np.int64)
         p = np.array(point)

@@ -10,11 +10,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tracer.scene.crossings import Surface, cross, overlap
 from tracer.scene.scene import Object, SceneError, place
-from tracer.shapes.crossings import Surface, cross, overlap
 from tracer.shapes.mesh import Body, Mesh
 from tracer.shapes.shape import Shape
-from tracer.shapes.shells import OPEN, bounds_of, find_shells, grouped, has_holes, signed_volumes, winding_number
+from tracer.shapes.shells import (
+    OPEN,
+    bounds_of,
+    find_shells,
+    grouped,
+    has_holes,
+    signed_volumes,
+    winding_number,
+    winding_numbers,
+)
 
 MOST_SHELLS = 500  # of a solid whose cavities are checked
 
@@ -35,6 +44,19 @@ class Solid:
             return np.stack([self.corners.min(axis=(0, 1)), self.corners.max(axis=(0, 1))])
         boxes = self.shape.bounds() if self.shape else None
         return None if boxes is None else np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+
+    def contains_each(self, points: np.ndarray) -> np.ndarray:
+        """Whether each of the points (n, 3) lies inside."""
+        box = self.bounds() if self.closed else None
+        near = np.ones(len(points), bool)
+        if box is not None:
+            near = (points >= box[0]).all(axis=1) & (points <= box[1]).all(axis=1)
+        inside = np.zeros(len(points), bool)
+        if self.corners is not None:
+            inside[near] = winding_numbers(self.corners, points[near]) > 0.5
+        elif self.closed and self.shape is not None:
+            inside[near] = self.shape.contains_each(points[near])
+        return inside
 
     def contains(self, p: np.ndarray) -> bool:
         """Whether the point lies inside."""

@@ -50,6 +50,12 @@ class Box(Shape):
     def contains(self, p: np.ndarray) -> bool:
         return bool(np.all(np.less(self.min, p)) and np.all(np.less(p, self.max)))
 
+    def contains_each(self, points: np.ndarray) -> np.ndarray:
+        return (points > self.min).all(axis=1) & (points < self.max).all(axis=1)
+
+    def may_touch(self, points: np.ndarray, row: int) -> np.ndarray:
+        return ((points == self.min) | (points == self.max)).any(axis=1)
+
     def touches(self, p: Exact, row: int) -> bool:
         low, high = exact(self.min), exact(self.max)
         between = all(low[k] <= p[k] <= high[k] for k in range(3))

@@ -1,18 +1,13 @@
-"""Cone: the side of a cone, of a frustum or, with equal radii, of a cylinder. Open at both ends, as in E. Haines' NFF.
+"""Cone: the side of a cone, of a frustum or, with equal radii, of a cylinder. Open at both ends, as in E. Haines' NFF;
+with `closed = true` its end discs belong to it, and it is one solid.
 
-Packed as a = centre of the narrow end, b = unit axis from there to the wide end, r = radius at a, c = (cosine and
-sine of the angle between axis and side, height). Heights count from the narrow end, where short distances need their
-digits.
+Packed as a = centre of the narrow end, normal + normal_low = the axis from there to the wide end, b = the same as a
+unit vector, r = radius at a, c = (cosine and sine of the angle between axis and side, radius of the wide end), and
+count = CLOSED for a closed cone. Heights count from the narrow end, where short distances need their digits.
 
-|across|^2 = radius(height)^2 is a quadratic A t^2 + 2 B t + C in t. Times cosine^2, no coefficient grows without
-bound however flat the cone is, and a cylinder is no special case. Let f and d be the parts of the ray's origin and
-direction across the axis, rho the radius at the origin's height and rise its change along the ray, all times the
-cosine:
-
-    A = d.d - rise^2    B = f.d - rise rho    C = f.f - rho^2    B^2 - A C = |rho d - rise f|^2 - |f x d|^2
-
-(the last by Lagrange's identity). Differences of squares are computed as products. The root that would cancel is C/q
-(as in `sphere`).
+A quick test finds most rays that miss: with f and d the parts of the ray's origin and direction across the axis, rho
+the radius at the origin's height and rise its change along the ray, all times the cosine, a ray misses the double
+cone if |rho d - rise f| < |f x d|. Other rays are solved in double-double (`cone_roots`).
 """
 
 import math
@@ -25,13 +20,27 @@ import numpy as np
 from tracer import fields
 from tracer.compile.intrinsics import noinline
 from tracer.compile.jit import compiled, inlined
+from tracer.formulas.double_double import U, dd_dot, dd_multiply, dd_quotient, dd_subtract, exact_difference
 from tracer.formulas.vector import Vector, add, cross, dot, length, negate, rescale, scale, subtract, unit, vector
 from tracer.rays import Ray
+from tracer.shapes.cone_roots import (
+    SIDE,
+    WIDE,
+    height_above_side,
+    inside,
+    is_between_ends,
+    line_of,
+    precedes,
+    side_roots,
+)
 from tracer.shapes.disc import Disc
 from tracer.shapes.exact import Exact, dot as exact_dot, exact, minus
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
 from tracer.shapes.tessellation import unit_circle
+
+CLOSED = -1  # `count` of a closed cone
+ROUGH = 64 * U  # rounding error of the quick test, relative to the distance of the origin and the radius
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +51,7 @@ class Cone(Shape):
     base_radius: float = field(metadata=fields.number(least=0))
     apex: Vector = field(metadata=fields.point())
     apex_radius: float = field(metadata=fields.number(least=0))
+    closed: bool = field(default=False, metadata=fields.flag())
 
     @classmethod
     def example(cls) -> "Cone":
@@ -63,7 +73,11 @@ class Cone(Shape):
         rows["a"] = self.ends()[0]
         rows["b"] = unit(rescale(self.axis()))
         rows["r"] = min(self.base_radius, self.apex_radius)
-        rows["c"] = (height / side, growth / side, height)
+        rows["c"] = (height / side, growth / side, max(self.base_radius, self.apex_radius))
+        narrow, wide = self.ends()
+        for k, (high, low) in enumerate(exact_difference(wide, narrow)):
+            rows["normal"][..., k], rows["normal_low"][..., k] = high, low
+        rows["count"] = CLOSED if self.closed else 0
 
     def bounds(self) -> np.ndarray:
         """The box about its two end discs: the side between them is straight."""
@@ -72,13 +86,27 @@ class Cone(Shape):
         both = np.concatenate(rims)
         return np.stack([both[:, 0].min(axis=0), both[:, 1].max(axis=0)])[None]
 
+    def is_closed(self) -> bool:
+        return self.closed
+
+    def contains(self, p: np.ndarray) -> bool:
+        along, across = self._place(exact(p))
+        return self.closed and 0 < along < 1 and across < 0
+
     def touches(self, p: Exact, row: int) -> bool:
-        """All in terms of the base: |arm|^2 - along^2 / L^2 = (r + (r1 - r) along / L^2)^2 with along = arm.axis."""
+        along, across = self._place(p)
+        on_end = self.closed and along in (0, 1) and across <= 0
+        return on_end or (0 <= along <= 1 and across == 0)
+
+    def _place(self, p: Exact) -> tuple[Fraction, Fraction]:
+        """(height above the base as a share of the cone's, square of the distance from the axis minus that of the
+        radius there).
+        """
         arm, axis = minus(p, exact(self.base)), minus(exact(self.apex), exact(self.base))
         along, square = exact_dot(arm, axis), exact_dot(axis, axis)
         base, apex = Fraction(self.base_radius), Fraction(self.apex_radius)
-        radius = base + (apex - base) * along / square
-        return 0 <= along <= square and exact_dot(arm, arm) - along**2 / square == radius**2
+        share = along / square
+        return share, exact_dot(arm, arm) - along * share - (base + (apex - base) * share) ** 2
 
     def faults(self) -> list[str]:
         found = []
@@ -102,7 +130,19 @@ class Cone(Shape):
         if r > 0.0:
             corners = np.concatenate([corners, np.stack([low[:-1], low[1:], high[1:]], axis=1)])
             normals = np.concatenate([normals, np.stack([n[:-1], n[1:], n[1:]], axis=1)])
+        for disc in self._ends():
+            cap, up = disc.triangles(middle, radius)
+            corners, normals = np.concatenate([corners, cap]), np.concatenate([normals, up])
         return corners, normals
+
+    def faces(self) -> list[tuple[Shape, ...]]:
+        return [(self,), *((disc,) for disc in self._ends())]
+
+    def _ends(self) -> list[Disc]:
+        """The end discs of a closed cone, facing outwards."""
+        axis = self.axis() if self.base_radius <= self.apex_radius else negate(self.axis())
+        ends = [(self.base, negate(axis), self.base_radius), (self.apex, axis, self.apex_radius)]
+        return [Disc(*end) for end in ends if self.closed and end[2] > 0.0]
 
 
 @inlined
@@ -124,82 +164,109 @@ def quadratic_terms(surface: SurfaceRow, ray: Ray) -> tuple[float, float, Vector
 
 
 @inlined
-def difference_of_squares(a: float, b: float) -> float:
-    """a^2 - b^2."""
-    return (a - b) * (a + b)
+def misses(surface: SurfaceRow, ray: Ray) -> bool:
+    """Whether the ray certainly misses the side and all that it encloses."""
+    _, _, f, d, rho, rise = quadratic_terms(surface, ray)
+    bend = length(subtract(scale(rho, d), scale(rise, f)))
+    beside = abs(dot(vector(surface.b), cross(f, d)))  # f and d are across the axis, so f x d is along it
+    reach = length(subtract(ray.origin, vector(surface.a))) + abs(rho)
+    goes_along = surface.count == CLOSED and length(d) <= abs(rise)  # steeper than the side: it may stay inside
+    return bend + ROUGH * reach < beside and not goes_along
 
 
 @inlined
-def is_within_height(surface: SurfaceRow, height: float) -> bool:
-    """Whether the height is between the two ends, and so on the right half of the double cone."""
-    return 0.0 <= height <= surface.c[2]
+def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
+    """The first crossing of the side between the two ends, or of the surface of a closed cone."""
+    return math.inf if misses(surface, ray) else first_crossing(surface, ray, t_min)
 
 
 @compiled
-def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t_max: float, exact: bool) -> float:
-    """The first root of the quadratic that is between the two ends."""
+def first_crossing(surface: SurfaceRow, ray: Ray, t_min: float) -> float:
+    """`intersect` of a ray that may hit."""
     noinline()
-    height, climb, f, d, rho, rise = quadratic_terms(surface, ray)
-    bend = length(subtract(scale(rho, d), scale(rise, f)))
-    beside = dot(vector(surface.b), cross(f, d))  # f and d are across the axis, so f x d is along it
-    discriminant = difference_of_squares(bend, beside)
-    if discriminant < 0.0:
-        return math.inf
-    b = dot(f, d) - rise * rho
-    q = -(b + math.copysign(math.sqrt(discriminant), b))
-    if q == 0.0:  # the ray runs along the side, or starts where it touches it
-        return math.inf
-    a = difference_of_squares(length(d), rise)
-    one = difference_of_squares(length(f), rho) / q
-    other = q / a if a != 0.0 else math.inf  # one root only: the ray is parallel to a line of the side
-    near, far = min(one, other), max(one, other)
-    if near > 0.0 and near >= t_min and is_within_height(surface, height + near * climb):
-        return near
-    if 0.0 < far < math.inf and far >= t_min and is_within_height(surface, height + far * climb):
-        return far
+    line = line_of(surface, ray)
+    if surface.count == CLOSED:
+        part = inside(line)
+        if precedes(part.leave, part.enter):
+            return math.inf
+        if part.enter[0] > 0.0 and part.enter[0] >= t_min:
+            return part.enter[0]
+        return part.leave[0] if part.leave[0] > 0.0 and part.leave[0] >= t_min else math.inf
+    near, far, _, crosses = side_roots(line)
+    if crosses and near[0] > 0.0 and near[0] >= t_min and is_between_ends(line, near):
+        return near[0]
+    if crosses and 0.0 < far[0] < math.inf and far[0] >= t_min and is_between_ends(line, far):
+        return far[0]
     return math.inf
 
 
-@inlined
+@compiled
 def next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
-    """The distance at which a ray that starts on the side and goes inwards meets it again: C is 0, so t = -2 B / A.
+    """The distance at which a ray that starts on the cone and goes inwards meets it again.
 
-    Inwards, B < 0. Where A <= 0, the ray is steeper than the side and meets the double cone only behind its origin.
+    On the side of an open one C is 0, so t = -2 B / A. Inwards, B < 0. Where A <= 0, the ray is steeper than the side
+    and meets the double cone only behind its origin.
     """
-    height, climb, f, d, rho, rise = quadratic_terms(surface, ray)
-    a, b = difference_of_squares(length(d), rise), dot(f, d) - rise * rho
-    if ray.side > 0.0 or a <= 0.0 or b >= 0.0:
+    if ray.side > 0.0:
         return math.inf
-    t = -2.0 * b / a
-    return t if t < math.inf and is_within_height(surface, height + t * climb) else math.inf
+    line = line_of(surface, ray)
+    if surface.count == CLOSED:
+        return max(inside(line).leave[0], 0.0) + 0.0
+    a = dd_subtract(dd_dot(line.f1, line.f1), dd_multiply(line.p1, line.p1))
+    b = dd_subtract(dd_dot(line.f0, line.f1), dd_multiply(line.p0, line.p1))
+    if a[0] <= 0.0 or b[0] >= 0.0:
+        return math.inf
+    t = dd_quotient((-2.0 * b[0], -2.0 * b[1]), a)
+    return t[0] if t[0] < math.inf and is_between_ends(line, t) else math.inf
 
 
-@inlined
+@compiled
 def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
-    """The hit point, moved along the normal onto the side, and the normal twice. At the tip it is the axis, outwards.
+    """The hit point, moved along the normal onto the surface, and the normal twice: at the tip the axis, outwards.
 
     Rounding of the height leaves a part along the axis in f, which is removed. If that was most of f, then f is only
     rounding error, and the hit is on the axis.
     """
     axis = vector(surface.b)
-    cosine, sine = surface.c[0], surface.c[1]
     p = add(ray.origin, scale(t, ray.direction))
-    height, f = split_along(axis, subtract(p, vector(surface.a)))
+    if surface.count == CLOSED:
+        part = inside(line_of(surface, ray))
+        leaves_here = ray.start == surface.coincident or part.enter[0] != t
+        face = part.leave_face if leaves_here else part.enter_face
+        if face != SIDE:
+            return end_interaction(surface, p, face)
+    cosine, sine = surface.c[0], surface.c[1]
+    _, f = split_along(axis, subtract(p, vector(surface.a)))
     _, across = split_along(axis, f)
     size = length(across)
     if size <= 0.5 * length(f):
         return (p, negate(axis), negate(axis))
     n = subtract(scale(cosine / size, across), scale(sine, axis))
-    off = cosine * (size - surface.r) - sine * height
-    return (subtract(p, scale(off, n)), n, n)
+    return (subtract(p, scale(height_above_side(surface, ray, t), n)), n, n)
+
+
+@inlined
+def end_interaction(surface: SurfaceRow, p: Vector, face: int) -> tuple[Vector, Vector, Vector]:
+    """`interaction` at an end disc: the point is moved into its plane."""
+    axis = vector(surface.b)
+    center = vector(surface.a)
+    if face == WIDE:
+        center = add(center, vector(surface.normal))
+        return (subtract(p, scale(dot(axis, subtract(p, center)), axis)), axis, axis)
+    n = negate(axis)
+    return (subtract(p, scale(dot(axis, subtract(p, center)), axis)), n, n)
 
 
 @inlined
 def normal_derivative(world: ShapeArrays, surface: SurfaceRow, p: Vector, v: Vector) -> Vector:
-    """The normal turns only about the axis; along a line of the side it is constant."""
+    """The normal turns only about the axis; along a line of the side, and on an end, it is constant."""
     axis = vector(surface.b)
-    _, across = split_along(axis, subtract(p, vector(surface.a)))
+    height, across = split_along(axis, subtract(p, vector(surface.a)))
     size = length(across)
+    if surface.count == CLOSED:
+        from_end = min(abs(height), abs(height - length(vector(surface.normal))))
+        if from_end < abs(surface.c[0] * (size - surface.r) - surface.c[1] * height):
+            return (0.0, 0.0, 0.0)
     if size == 0.0:
         return (math.inf, math.inf, math.inf)  # at the tip the normal is undefined
     around = scale(1.0 / size, cross(axis, across))

@@ -10,12 +10,12 @@ import numpy as np
 from tracer import fields
 from tracer.compile.intrinsics import noinline
 from tracer.compile.jit import compiled
-from tracer.formulas.double_double import dd_vector
-from tracer.formulas.vector import Vector, add, length, rescale, scale, subtract, unit, vector
+from tracer.formulas.double_double import dd_dot, dd_multiply, dd_subtract, dd_vector, exact_difference
+from tracer.formulas.vector import Vector, add, dot, length, rescale, scale, subtract, unit, vector
 from tracer.rays import Ray
 from tracer.shapes import planar
-from tracer.shapes.exact import Exact, dot, exact, minus
-from tracer.shapes.planar import may_cross, outline_slack, pack_normal
+from tracer.shapes.exact import Exact, dot as exact_dot, exact, minus
+from tracer.shapes.planar import PLANE_ERROR, dd_normal, may_cross, outline_slack, pack_normal
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
 from tracer.shapes.tessellation import flat, unit_circle
@@ -47,9 +47,12 @@ class Disc(Shape):
         reach = self.radius * np.array([math.hypot(y, z), math.hypot(z, x), math.hypot(x, y)])
         return np.stack([self.center - reach, self.center + reach])[None]
 
+    def may_touch(self, points: np.ndarray, row: int) -> np.ndarray:
+        return planar.may_lie_in_plane(points, self.center, self.normal)
+
     def touches(self, p: Exact, row: int) -> bool:
         arm = minus(p, exact(self.center))
-        return dot(arm, exact(self.normal)) == 0 and dot(arm, arm) <= Fraction(self.radius) ** 2
+        return exact_dot(arm, exact(self.normal)) == 0 and exact_dot(arm, arm) <= Fraction(self.radius) ** 2
 
     def plane(self) -> tuple[Vector, Vector]:
         return self.center, unit(rescale(self.normal))
@@ -69,8 +72,30 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t
     t = world.formulas.plane_distance(world, surface, ray, t_min, t_max, True)
     if t == math.inf:
         return math.inf
-    from_center = add(subtract(ray.origin, vector(surface.a)), scale(t, ray.direction))
-    return t if length(from_center) <= surface.b[0] + outline_slack(surface, ray) else math.inf
+    slack = outline_slack(world, surface, ray)
+    beyond = length(add(subtract(ray.origin, vector(surface.a)), scale(t, ray.direction))) - surface.b[0]
+    error = PLANE_ERROR * (surface.r + surface.b[0] + ray.magnitude + t)
+    error /= abs(dot(vector(surface.normal), ray.direction))
+    if slack > 0.0 or abs(beyond) > error:
+        return t if beyond <= slack else math.inf
+    return t if is_within_rim(surface, ray) else math.inf
+
+
+@compiled
+def is_within_rim(surface: SurfaceRow, ray: Ray) -> bool:
+    """Whether the ray crosses the plane within the rim, decided in double-double: |q|^2 <= r^2 with q = o - a + t d."""
+    noinline()
+    normal = dd_normal(surface)
+    arm, d = exact_difference(ray.origin, vector(surface.a)), dd_vector(ray.direction)
+    height, speed = dd_dot(normal, arm), dd_dot(normal, d)
+    # All times the speed, so that no division is needed.
+    q = (
+        dd_subtract(dd_multiply(arm[0], speed), dd_multiply(d[0], height)),
+        dd_subtract(dd_multiply(arm[1], speed), dd_multiply(d[1], height)),
+        dd_subtract(dd_multiply(arm[2], speed), dd_multiply(d[2], height)),
+    )
+    radius = dd_multiply((surface.b[0], 0.0), speed)
+    return dd_subtract(dd_dot(q, q), dd_multiply(radius, radius))[0] <= 0.0
 
 
 next_hit = planar.no_next_hit

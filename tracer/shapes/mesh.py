@@ -10,10 +10,11 @@ from typing import ClassVar
 import numpy as np
 
 from tracer import fields
-from tracer.formulas.vector import Vector
+from tracer.formulas.vector import Vector, as_floats
 from tracer.shapes.exact import Exact, exact, is_in_outline
+from tracer.shapes.planar import may_lie_in_plane, unit_normal
 from tracer.shapes.shape import Shape
-from tracer.shapes.shells import OPEN, find_shells, welded, winding_number
+from tracer.shapes.shells import OPEN, find_shells, welded, winding_number, winding_numbers
 from tracer.shapes.tessellation import flat, normals_of
 from tracer.shapes.triangle import Triangle, pack_triangles
 
@@ -127,6 +128,13 @@ class Mesh(Shape):
         corners = self.placed()
         outside = (p < corners.min(axis=(0, 1))).any() or (p > corners.max(axis=(0, 1))).any()
         return not outside and self.is_closed() and abs(winding_number(corners, p)) > 0.5
+
+    def contains_each(self, points: np.ndarray) -> np.ndarray:
+        return self.is_closed() & (np.abs(winding_numbers(self.placed(), points)) > 0.5)
+
+    def may_touch(self, points: np.ndarray, row: int) -> np.ndarray:
+        corners = self.vertices()[self.geometry.faces[row]]
+        return may_lie_in_plane(points, as_floats(corners[0]), as_floats(unit_normal(corners)))
 
     def touches(self, p: Exact, row: int) -> bool:
         return is_in_outline(p, [exact(corner) for corner in self.placed()[row].tolist()])

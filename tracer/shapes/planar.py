@@ -25,7 +25,7 @@ from tracer.formulas.double_double import (
     exact_difference,
     two_product,
 )
-from tracer.formulas.vector import Vector, add, as_floats, dot, scale, subtract, vector
+from tracer.formulas.vector import Vector, add, as_floats, dot, rescale, scale, subtract, vector
 from tracer.rays import Ray
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
 
@@ -38,6 +38,10 @@ LEVEL = 16.0 * PLANE_ERROR
 
 # A face is seen edge-on where |n.d| is below this: the ray's distance to its edges then has less than 12 digits.
 EDGE_ON = 2.0**-40
+
+# At a slant, |n.d| below this, the distance of a ray from the edges of a face, with its rounding error, is a longer way
+# on the face: a hit may lie outside.
+OBLIQUE = 0.125
 
 # Rounding error of a hit point in units of `tracer.kernel.node_rows.rounding_scale`, divided by |n.d|.
 HIT = 2.0
@@ -104,15 +108,22 @@ def may_cross(surface: SurfaceRow, ray: Ray, t_max: float) -> bool:
 
 
 @inlined
-def outline_slack(surface: SurfaceRow, ray: Ray) -> float:
-    """Bound on the distance by which rounding may put the origin of a ray that starts on the face's edge outside the
+def outline_slack(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
+    """Bound on the distance by which rounding may put the crossing of a ray that leaves a neighbouring face outside the
     face.
 
-    Such a ray leaves a neighbouring face. The slack is 0 for a ray that starts away from the plane.
+    Such a ray crosses the plane where it starts, or so near the plane of the face that it leaves that rounding cannot
+    tell. The slack is 0 for other rays.
     """
-    height, _ = height_and_n_dot_d(surface, ray)
+    if ray.start < 0:
+        return 0.0
+    height, n_dot_d = height_and_n_dot_d(surface, ray)
     error = plane_rounding(surface, ray)
-    return 2.0 * error if ray.start >= 0 and abs(height) <= error else 0.0
+    if abs(height) <= error:
+        return 2.0 * error
+    start = world.surfaces[ray.start]
+    climb = dot(vector(start.normal), ray.direction)
+    return 2.0 * error if start.count >= 3 and abs(climb * height) <= error * abs(n_dot_d) else 0.0
 
 
 @inlined
@@ -172,8 +183,7 @@ def edge_on_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float
     o, n = ray.origin, vector(surface.normal)
     size = max(ray.magnitude, abs(o[0]) + abs(o[1]) + abs(o[2]) + t)
     slack = HIT * U * size / abs(dot(n, ray.direction))
-    x, y, z = abs(n[0]), abs(n[1]), abs(n[2])
-    i, j = (1, 2) if x >= y and x >= z else ((2, 0) if y >= z else (0, 1))
+    i, j = axes_across(n)
     inside = False
     last = subtract(corner(world, surface, surface.count - 1), p)
     ax, ay = last[i], last[j]
@@ -233,7 +243,39 @@ def plane_interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: floa
         height = exact_height(surface, p)
     else:
         height = dot(n, subtract(p, vector(surface.a)))
-    return (subtract(p, scale(height, n)), n, n)
+    p = subtract(p, scale(height, n))
+    if surface.count >= 3 and abs(dot(n, ray.direction)) < OBLIQUE:
+        p = into_outline(world, surface, p)
+    return (p, n, n)
+
+
+@compiled
+def into_outline(world: ShapeArrays, surface: SurfaceRow, p: Vector) -> Vector:
+    """A point in the plane of a face, moved to the nearest point of its outline if it is outside."""
+    noinline()
+    nearest, least = p, math.inf
+    inside = False
+    i, j = axes_across(vector(surface.normal))
+    a = corner(world, surface, surface.count - 1)
+    for k in range(surface.count):
+        b = corner(world, surface, k)
+        from_a, edge = subtract(p, a), subtract(b, a)
+        if (a[j] > p[j]) != (b[j] > p[j]) and (from_a[j] * edge[i] - from_a[i] * edge[j] > 0.0) == (edge[j] > 0.0):
+            inside = not inside
+        share = dot(from_a, edge) / dot(edge, edge)
+        foot = add(a, scale(min(max(share, 0.0), 1.0), edge))
+        away = subtract(p, foot)
+        if dot(away, away) < least:
+            nearest, least = foot, dot(away, away)
+        a = b
+    return p if inside else nearest
+
+
+@inlined
+def axes_across(n: Vector) -> tuple[int, int]:
+    """The two axes that are farthest from a normal."""
+    x, y, z = abs(n[0]), abs(n[1]), abs(n[2])
+    return (1, 2) if x >= y and x >= z else ((2, 0) if y >= z else (0, 1))
 
 
 @inlined
@@ -290,3 +332,14 @@ def pack_normal(rows: np.ndarray, area: DDVector) -> None:
         rows["normal"][..., k] = n = high / size
         product, error = two_product(n, size)
         rows["normal_low"][..., k] = ((high - product) - error + low) / size
+
+
+def heights(points: np.ndarray, point: Vector, normal: Vector) -> np.ndarray:
+    """The heights of points (n, 3) above a plane, in units of the length of its normal."""
+    return (points - point) @ np.array(rescale(normal))
+
+
+def may_lie_in_plane(points: np.ndarray, point: Vector, normal: Vector) -> np.ndarray:
+    """Whether rounding can tell each point (n, 3) from the points of a plane."""
+    error = 2.0 * PLANE_ERROR * (np.abs(points).sum(axis=1) + np.abs(point).sum())
+    return np.abs(heights(points, point, normal)) <= 2.0 * error

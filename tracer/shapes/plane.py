@@ -56,6 +56,15 @@ class Plane(Shape):
     def contains(self, p: np.ndarray) -> bool:
         return self._height(exact(p)) < 0
 
+    def contains_each(self, points: np.ndarray) -> np.ndarray:
+        inside = planar.heights(points, self.point, self.normal) < 0.0
+        for k in np.flatnonzero(self.may_touch(points, 0)).tolist():
+            inside[k] = self.contains(points[k])
+        return inside
+
+    def may_touch(self, points: np.ndarray, row: int) -> np.ndarray:
+        return planar.may_lie_in_plane(points, self.point, self.normal)
+
     def touches(self, p: Exact, row: int) -> bool:
         return self._height(p) == 0
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from tracer import fields
 from tracer.compile.jit import inlined
-from tracer.formulas.vector import Vector, unit
+from tracer.formulas.vector import Vector, as_floats, unit
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
 from tracer.shapes.exact import Exact, exact, is_in_outline
@@ -48,6 +48,9 @@ class Polygon(Shape):
 
     def bounds(self) -> np.ndarray:
         return np.stack([np.min(self.vertices, axis=0), np.max(self.vertices, axis=0)])[None]
+
+    def may_touch(self, points: np.ndarray, row: int) -> np.ndarray:
+        return planar.may_lie_in_plane(points, self.vertices[0], as_floats(unit_normal(self.outline())))
 
     def touches(self, p: Exact, row: int) -> bool:
         return is_in_outline(p, [exact(corner) for corner in self.vertices])
@@ -100,7 +103,7 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t
     """The distance to the plane if the ray crosses it inside the outline, else inf."""
     if not may_cross(surface, ray, t_max):
         return math.inf
-    slack = outline_slack(surface, ray)
+    slack = outline_slack(world, surface, ray)
     inside = False
     x0, y0 = sheared(ray, world.corners[surface.first + surface.count - 1])
     for k in range(surface.count):

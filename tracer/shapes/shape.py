@@ -63,6 +63,14 @@ class Shape(ABC):
         """Whether the point lies inside. On the surface, either answer will do."""
         return False
 
+    def contains_each(self, points: np.ndarray) -> np.ndarray:
+        """`contains` for many points (n, 3)."""
+        return np.array([self.contains(p) for p in points], bool)
+
+    def may_touch(self, points: np.ndarray, row: int) -> np.ndarray:
+        """Whether each point (n, 3) might lie on the surface `row`: true wherever `touches` is."""
+        return np.ones(len(points), bool)
+
     @abstractmethod
     def touches(self, p: Exact, row: int) -> bool:
         """Whether the point lies exactly on the surface with this number among its rows."""

@@ -197,7 +197,9 @@ def winding_numbers(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
     size = unit_scale(corners, points)
     corners, points = corners * size, points * size
     step = max(1, 1_000_000 // max(1, len(corners)))
-    return np.concatenate([_winding(corners, points[k : k + step]) for k in range(0, len(points), step)])
+    return np.concatenate(
+        [np.zeros(0), *(_winding(corners, points[k : k + step]) for k in range(0, len(points), step))]
+    )
 
 
 def _winding(corners: np.ndarray, points: np.ndarray) -> np.ndarray:

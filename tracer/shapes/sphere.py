@@ -94,6 +94,16 @@ class Sphere(Shape):
             return distance < self.radius
         return self._power(exact(p)) < 0
 
+    def contains_each(self, points: np.ndarray) -> np.ndarray:
+        inside = np.linalg.norm(points - self.center, axis=1) < self.radius
+        for k in np.flatnonzero(self.may_touch(points, 0)).tolist():
+            inside[k] = self.contains(points[k])
+        return inside
+
+    def may_touch(self, points: np.ndarray, row: int) -> np.ndarray:
+        distance = np.linalg.norm(points - self.center, axis=1)
+        return np.abs(distance - self.radius) <= 8 * U * (np.abs(points).sum(axis=1) + distance + self.radius)
+
     def touches(self, p: Exact, row: int) -> bool:
         return self._power(p) == 0
 

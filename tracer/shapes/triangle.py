@@ -20,6 +20,7 @@ from tracer.formulas.vector import (
     SHORTEST,
     Vector,
     add,
+    as_floats,
     cross,
     dot,
     length,
@@ -54,6 +55,9 @@ class Triangle(Shape):
 
     def bounds(self) -> np.ndarray:
         return np.stack([np.min(self.vertices, axis=0), np.max(self.vertices, axis=0)])[None]
+
+    def may_touch(self, points: np.ndarray, row: int) -> np.ndarray:
+        return planar.may_lie_in_plane(points, self.vertices[0], as_floats(unit_normal(np.array(self.vertices, float))))
 
     def touches(self, p: Exact, row: int) -> bool:
         return is_in_outline(p, [exact(corner) for corner in self.vertices])
@@ -92,7 +96,7 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t
     v = ax * cy - ay * cx
     w = bx * ay - by * ax
     if (u < 0.0 or v < 0.0 or w < 0.0) and (u > 0.0 or v > 0.0 or w > 0.0):
-        slack = outline_slack(surface, ray)
+        slack = outline_slack(world, surface, ray)
         beside = slack > 0.0 and (
             is_near_edge(ax, ay, bx, by, slack)
             or is_near_edge(bx, by, cx, cy, slack)

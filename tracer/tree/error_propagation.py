@@ -61,13 +61,15 @@ class Step(NamedTuple):
 
 
 def propagate_errors(world: Arrays, table: Rows[NodeRow], count: int) -> None:
-    """Fill in `error` and `turn` of the first `count` rows of a node table."""
-    parent = table["parent"].view(np.ndarray)[1:count]
+    """Fill in `error` and `turn` of the first `count` rows of a node table, which may have several trees."""
+    parent = table["parent"].view(np.ndarray)[:count]
+    below = np.flatnonzero(parent >= 0)
+    parent = parent[below]
     waiting = np.bincount(parent, minlength=count).astype(np.int64)
     # Rays come after their parent, so counting along the rows gives the largest number of slots in use.
     opened = np.cumsum(waiting > 0)
     last = np.zeros(count, np.int64)
-    np.maximum.at(last, parent, np.arange(1, count))
+    np.maximum.at(last, parent, below)
     closed = np.cumsum(np.bincount(last[waiting > 0], minlength=count))
     slots = int((opened - closed).max(initial=0)) + 2
     space = PropagationSpace(

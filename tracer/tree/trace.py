@@ -67,7 +67,7 @@ def trace(
     nodes = np.zeros(count, PUBLIC)
     for name in PUBLIC.names or ():
         nodes[name] = space.table[name][:count]
-    _fill_angles(nodes)
+    fill_angles(nodes)
     nodes.flags.writeable = False
     residual = float(space.tree[1])
     reached = limits.depth if depth is not None or tolerance is None else int(nodes["depth"].max())
@@ -84,7 +84,7 @@ def _ray_view(origin: Sequence[float], direction: Sequence[float]) -> View:
     return ray_view((numbers[0], numbers[1], numbers[2]), unit(rescale(numbers[3:])))
 
 
-def _fill_angles(nodes: np.ndarray) -> None:
+def fill_angles(nodes: np.ndarray) -> None:
     """Compute theta1 and theta2 from the recorded vectors. Readers need them, images do not."""
     hit = np.flatnonzero(np.isfinite(nodes["normal"][:, 0]))
     d, n = nodes["direction"][hit], nodes["normal"][hit]

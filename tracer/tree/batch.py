@@ -1,0 +1,130 @@
+"""Many rays at once: their trees in one table, without a Python loop over the rays."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracer.choices import MODELS
+from tracer.compile.rows import as_rows
+from tracer.formulas.vector import VectorLike
+from tracer.kernel.entry import Batch, trace_rays_in_turn
+from tracer.kernel.limits import MAX_NODES, make_limits
+from tracer.kernel.nodes import NODE, PUBLIC, NodeRow
+from tracer.kernel.workspace import Eye, Workspace
+from tracer.kernel.world import World
+from tracer.tree.error_propagation import propagate_errors
+from tracer.tree.raytree import RayTree
+from tracer.tree.trace import fill_angles, trace
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class RayTrees:
+    """The trees of n rays.
+
+    trees = tracer.trace_rays(world, origins, directions)
+    trees.hits["t"], trees.hits["object"], trees.tree(7).to_text()
+    """
+
+    world: World
+    nodes: np.ndarray  # the rows of all trees, one tree after another; `id` and `parent` count from the first row
+    starts: np.ndarray  # (n + 1,) the first row of each tree, and the end of the last one
+    residuals: np.ndarray  # (n,) of each tree, as `RayTree.residual`
+    depth: int
+    model: str
+
+    def __len__(self) -> int:
+        return len(self.residuals)
+
+    def __repr__(self) -> str:
+        return f"<RayTrees of {len(self)} rays: depth {self.depth}, {len(self.nodes)} rows>"
+
+    @property
+    def hits(self) -> np.ndarray:
+        """The first row of each tree (n,): what each ray hits."""
+        return self.nodes[self.starts[:-1]]
+
+    def tree(self, k: int) -> RayTree:
+        """The tree of ray k, as `tracer.trace` gives it."""
+        first, end = (int(row) for row in self.starts[k : k + 2])
+        nodes = self.nodes[first:end].copy()
+        nodes["id"] -= first
+        nodes["parent"][1:] -= first
+        nodes.flags.writeable = False
+        size = self.world.view().width, self.world.view().height
+        return RayTree(nodes, float(self.residuals[k]), self.world.scene, self.depth, self.model, None, size)
+
+
+def trace_rays(
+    world: World,
+    origins: VectorLike | np.ndarray,
+    directions: VectorLike | np.ndarray,
+    *,
+    depth: int = 0,
+    min_weight: float = 0.0,
+    max_nodes: int = MAX_NODES,
+    model: str | None = None,
+) -> RayTrees:
+    """The trees of rays with these origins (n, 3) and directions (n, 3) of any length above 0; one of the two may be a
+    single vector. By default of depth 0: the first hits and their shadow rays.
+
+    Each tree equals that of `tracer.trace`, to the last bit. ValueError for a ray without a direction, numbers that are
+    not finite, or another shape.
+    """
+    starts, ways = np.broadcast_arrays(np.asarray(origins, np.float64), np.asarray(directions, np.float64))
+    if starts.ndim != 2 or starts.shape[1] != 3:
+        raise ValueError(f"origins and directions must have the shape (n, 3), got {starts.shape}")
+    if not np.isfinite(starts).all():
+        raise ValueError("origins must be finite")
+    rays = np.concatenate([starts, unit_directions(ways)], axis=1)
+    limits = make_limits(world, depth, min_weight, None, max_nodes, model, records=True)
+    solids, on_surface = world.eyes(starts)
+    batch = Batch(np.zeros(len(rays) + 1, np.int64), np.zeros(len(rays)), np.zeros(1, np.int64))
+    workspace = Workspace(Eye(np.zeros(solids.shape[1], np.int64), np.zeros(0, np.int64)))
+    table = np.zeros(2 * len(rays) + 64, NODE)
+    while True:
+        into = as_rows(table, NodeRow)
+        ended = trace_rays_in_turn(world.arrays, limits, rays, solids, into, batch, workspace.space)
+        if ended == 0:
+            break
+        if ended < 0:
+            workspace.grow()
+        else:
+            table = np.concatenate([table, np.zeros(len(table), NODE)])
+    count = int(batch.starts[-1])
+    propagate_errors(world.arrays, as_rows(table, NodeRow), count)
+    nodes = np.zeros(count, PUBLIC)
+    for name in PUBLIC.names or ():
+        nodes[name] = table[name][:count]
+    fill_angles(nodes)
+    trees = RayTrees(world, nodes, batch.starts, batch.residuals, limits.depth, MODELS[limits.model])
+    if on_surface.any():
+        options = {"depth": depth, "min_weight": min_weight, "max_nodes": max_nodes, "model": model}
+        trees = _with_single_trees(trees, rays, np.flatnonzero(on_surface), options)
+    trees.nodes.flags.writeable = False
+    return trees
+
+
+def unit_directions(ways: np.ndarray) -> np.ndarray:
+    """Directions (n, 3) with length 1, as `unit(rescale(v))` gives them."""
+    size = np.abs(ways).max(axis=1, initial=0.0)
+    if not (np.isfinite(size) & (size > 0.0)).all():
+        raise ValueError("directions must be finite, and none 0,0,0")
+    _, exponent = np.frexp(size)
+    x, y, z = np.ldexp(ways, -exponent[:, None]).T
+    length = np.sqrt(x * x + y * y + z * z)
+    return np.stack([x / length, y / length, z / length], axis=1)
+
+
+def _with_single_trees(trees: RayTrees, rays: np.ndarray, which: np.ndarray, options: dict) -> RayTrees:
+    """The same with some trees traced one by one: those whose eye lies exactly on a surface."""
+    single = {int(k): trace(trees.world, ray=(rays[k, :3], rays[k, 3:]), **options) for k in which}
+    pieces, starts, residuals, first = [], trees.starts.copy(), trees.residuals.copy(), 0
+    for k in range(len(trees)):
+        tree = single.get(k) or trees.tree(k)
+        nodes = tree.nodes.copy()
+        nodes["id"] += first
+        nodes["parent"][1:] += first
+        pieces.append(nodes)
+        first += len(nodes)
+        starts[k + 1], residuals[k] = first, tree.residual
+    return RayTrees(trees.world, np.concatenate(pieces), starts, residuals, trees.depth, trees.model)
