@@ -262,8 +262,9 @@ def into_outline(world: ShapeArrays, surface: SurfaceRow, p: Vector) -> Vector:
         from_a, edge = subtract(p, a), subtract(b, a)
         if (a[j] > p[j]) != (b[j] > p[j]) and (from_a[j] * edge[i] - from_a[i] * edge[j] > 0.0) == (edge[j] > 0.0):
             inside = not inside
-        share = dot(from_a, edge) / dot(edge, edge)
-        foot = add(a, scale(min(max(share, 0.0), 1.0), edge))
+        # From the nearer end, since the foot has the rounding error of the way to it.
+        share, other = dot(from_a, edge) / dot(edge, edge), dot(subtract(b, p), edge) / dot(edge, edge)
+        foot = add(a, scale(max(share, 0.0), edge)) if share < other else subtract(b, scale(max(other, 0.0), edge))
         away = subtract(p, foot)
         if dot(away, away) < least:
             nearest, least = foot, dot(away, away)
