@@ -27,7 +27,8 @@ class Ray(NamedTuple):
     start: int  # id of the surface it leaves (its `coincident`), -1 for a ray from the eye
     side: float  # +1.0: it leaves on the side that the surface's normal points to; -1.0: on the other
     settles: bool  # whether it carries a set of solids; shadow rays do not
-    approach: Vector  # direction in which its origin was reached: that of the last ray that was longer than rounding
+    approach: Vector  # the way by which its origin was reached: the last ray before it that was longer than rounding
+    before: Vector  # the way before that
 
 
 @inlined
@@ -38,6 +39,7 @@ def make_ray(
     side: float,
     magnitude: float,
     approach: Vector = (0.0, 0.0, 0.0),
+    before: Vector = (0.0, 0.0, 0.0),
     settles: bool = False,
 ) -> Ray:
     """The ray with all its derived fields; `direction` is a unit vector."""
@@ -58,7 +60,9 @@ def make_ray(
         select_axis(along_x, along_y, (d[1], d[2], d[0])) * most,
         select_axis(along_x, along_y, (d[2], d[0], d[1])) * most,
     )
-    return Ray(origin, direction, inverse, axis, across, up, permuted, shear, magnitude, start, side, settles, approach)
+    return Ray(
+        origin, direction, inverse, axis, across, up, permuted, shear, magnitude, start, side, settles, approach, before
+    )
 
 
 @inlined

@@ -116,4 +116,4 @@ def ray_of(origin: Vector, direction: Vector) -> Ray:
     """The ray as intersection tests take it. numpy's numbers have 1/0 = inf, Python's raise an error."""
     x, y, z = (np.float64(part) for part in direction)
     with np.errstate(divide="ignore"):
-        return make_ray(origin, (x, y, z), -1, 0.0, 0.0, direction)
+        return make_ray(origin, (x, y, z), -1, 0.0, 0.0)

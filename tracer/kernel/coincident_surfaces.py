@@ -14,7 +14,7 @@ from tracer.kernel.arrays import Arrays
 from tracer.kernel.closest_hit import closest, closest_within, transmit
 from tracer.kernel.workspace import Space
 from tracer.rays import Ray
-from tracer.shapes.planar import PLANE_ERROR, side_of
+from tracer.shapes.outline import PLANE_ERROR, side_of
 
 
 @inlined

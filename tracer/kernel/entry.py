@@ -176,7 +176,8 @@ def start_camera_ray(world: Arrays, eye: Vector, limits: Limits, direction: Vect
     store(row.direction, direction)
     row.start = -1
     row.side = 0.0
-    store(row.approach, direction)
+    store(row.approach, (0.0, 0.0, 0.0))
+    store(row.before, (0.0, 0.0, 0.0))
     row.magnitude = abs(eye[0]) + abs(eye[1]) + abs(eye[2])
     for word in range(len(space.eye_solids)):
         space.solids[0, 0, word] = space.eye_solids[word]
@@ -213,7 +214,8 @@ def start_on_surfaces(world: Arrays, space: Space) -> None:
         return
     row.start = world.surfaces[touched[0]].coincident
     row.side = -1.0 if is_entering(world, touched[0], ray, 0.0) else 1.0
-    store(row.approach, scale(-1.0, vector(row.direction)))  # so that it turns back from all other surfaces there
+    # As if it had come from ahead, so that it turns back from all other surfaces there.
+    store(row.approach, scale(-1.0 - row.magnitude, vector(row.direction)))
 
 
 @inlined

@@ -12,7 +12,7 @@ from tracer.kernel.nodes import BLOCKED, FILTERED, LIT, NONE, SHADOW, NodeRow
 from tracer.kernel.shadows import nearest_occluder, transmittance
 from tracer.kernel.workspace import Space
 from tracer.rays import Ray, make_ray
-from tracer.shapes.planar import PLANE_ERROR
+from tracer.shapes.outline import PLANE_ERROR
 
 
 @inlined
@@ -88,8 +88,9 @@ def record_unlit(
     faces_it = dot(vector(row.face_normal), to_light) > 0.0
     own = 1.0 if faces_it else transmit(world, s)
     side = row.hit_side if faces_it else -row.hit_side
-    start, size, approach = world.surfaces[s].coincident, rounding_scale(row), approach_of_children(row)
-    ray = make_ray(vector(row.point), to_light, start, side, size, approach)
+    start, size = world.surfaces[s].coincident, rounding_scale(row)
+    approach, earlier = ways_to_hit(row)
+    ray = make_ray(vector(row.point), to_light, start, side, size, approach, earlier)
     if own == 0.0 or (limits.glass_blocks and not faces_it):
         write_shadow(world, limits, space.table, i, parent, light, ray, 0.0, s, BLOCKED, 0.0, nothing)
         return
@@ -125,6 +126,7 @@ def write_shadow(
     row.end = end
     row.start, row.side, row.magnitude, row.surface = ray.start, ray.side, ray.magnitude, met
     store(row.approach, ray.approach)
+    store(row.before, ray.before)
     if met >= 0:
         row.object = world.surfaces[met].object
     if t < math.inf:
@@ -142,11 +144,11 @@ def rounding_scale(row: NodeRow) -> float:
 
 
 @inlined
-def approach_of_children(row: NodeRow) -> Vector:
-    """The direction in which the rays that leave the hit of a row have reached it (`tracer.rays.Ray`).
+def ways_to_hit(row: NodeRow) -> tuple[Vector, Vector]:
+    """`approach` and `before` (`tracer.rays.Ray`) of the rays that leave the hit of a row.
 
     A ray shorter than its rounding errors has reached the place of its own origin.
     """
     if row.t > PLANE_ERROR * rounding_scale(row):
-        return vector(row.direction)
-    return vector(row.approach)
+        return (scale(row.t, vector(row.direction)), vector(row.approach))
+    return (vector(row.approach), vector(row.before))

@@ -49,6 +49,7 @@ class NodeRow(PublicRow):
 
     start: Int32  # id of the surface that the ray leaves, -1 for the eye; of coincident surfaces the first
     approach: Float3  # as in `tracer.rays.Ray`
+    before: Float3  # as in `tracer.rays.Ray`
     magnitude: Float  # scale of the rounding errors in `origin`, as in `tracer.rays.Ray`
     surface: Int32  # id of the surface hit
     side: Float  # +1 or -1: the side of the normal on which the ray leaves its start

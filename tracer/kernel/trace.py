@@ -18,7 +18,7 @@ from tracer.formulas.vector import Vector, add, dot, multiply, scale, store, vec
 from tracer.kernel.arrays import Arrays
 from tracer.kernel.coincident_surfaces import next_interface
 from tracer.kernel.limits import Limits
-from tracer.kernel.node_rows import approach_of_children, record_shadow, record_unlit, rounding_scale
+from tracer.kernel.node_rows import record_shadow, record_unlit, rounding_scale, ways_to_hit
 from tracer.kernel.nodes import BACKGROUND, SHADOW, NodeRow
 from tracer.kernel.scatter import append_children
 from tracer.kernel.shadows import light_direction, transmittance
@@ -88,7 +88,8 @@ def trace_ray(world: Arrays, space: Space, i: int) -> None:
     row = space.table[i]
     solids = space.solids
     d = vector(row.direction)
-    ray = make_ray(vector(row.origin), d, row.start, row.side, row.magnitude, vector(row.approach), True)
+    approach, earlier = vector(row.approach), vector(row.before)
+    ray = make_ray(vector(row.origin), d, row.start, row.side, row.magnitude, approach, earlier, True)
     t, s = 0.0, row.surface  # an opaque one that the eye lies on
     if s < 0:
         t, s = next_interface(world, ray, solids[i], space)
@@ -149,12 +150,13 @@ def direct_light(world: Arrays, limits: Limits, space: Space, i: int, count: int
     is_lit = material.diffuse > 0.0 or material.specular > 0.0
     if is_lit or limits.records:
         face_n = vector(row.face_normal)
-        start, size, approach = world.surfaces[s].coincident, rounding_scale(row), approach_of_children(row)
+        start, size = world.surfaces[s].coincident, rounding_scale(row)
+        approach, earlier = ways_to_hit(row)
         for j in range(len(world.lights)):
             light = world.lights[j]
             to_light, distance = light_direction(light, point)
             if is_lit and dot(n, to_light) > 0.0 and dot(face_n, to_light) > 0.0:
-                ray = make_ray(point, to_light, start, row.hit_side, size, approach)
+                ray = make_ray(point, to_light, start, row.hit_side, size, approach, earlier)
                 visible, glass = transmittance(world, ray, distance, limits.glass_blocks, space)
                 share = (0.0, 0.0, 0.0)
                 if visible > 0.0:

@@ -9,6 +9,7 @@ from tracer.accel.rows import NodeRow
 from tracer.compile.bundle import bundle
 from tracer.compile.rows import as_rows
 from tracer.formulas.camera import View
+from tracer.formulas.exact import exact
 from tracer.formulas.media import WORD
 from tracer.formulas.vector import Vector, as_floats
 from tracer.kernel.arrays import Arrays
@@ -22,8 +23,7 @@ from tracer.scene.garbage import no_garbage_collection
 from tracer.scene.notes import hidden_notes, open_notes, turned_notes
 from tracer.scene.scene import middle_and_radius
 from tracer.scene.solids import Solid, find_solids
-from tracer.shapes.exact import exact
-from tracer.shapes.planar import PLANE_ERROR
+from tracer.shapes.outline import PLANE_ERROR
 from tracer.shapes.surface_row import BlockRow
 
 MAX_EYES = 64  # points whose surroundings are cached

@@ -14,11 +14,11 @@ import numpy as np
 from tracer import fields
 from tracer.compile.intrinsics import noinline
 from tracer.compile.jit import compiled, inlined
+from tracer.formulas.exact import Exact, exact
 from tracer.formulas.vector import Vector, add, scale
 from tracer.rays import Ray
 from tracer.shapes import planar
-from tracer.shapes.exact import Exact, exact
-from tracer.shapes.planar import LEVEL, PLANE_ERROR
+from tracer.shapes.outline import PLANE_ERROR
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
@@ -54,7 +54,7 @@ class Box(Shape):
         return (points > self.min).all(axis=1) & (points < self.max).all(axis=1)
 
     def may_touch(self, points: np.ndarray, row: int) -> np.ndarray:
-        return ((points == self.min) | (points == self.max)).any(axis=1)
+        return np.asarray((points == self.min) | (points == self.max)).any(axis=1)
 
     def touches(self, p: Exact, row: int) -> bool:
         low, high = exact(self.min), exact(self.max)
@@ -151,6 +151,15 @@ def is_in_contact(surface: SurfaceRow, ray: Ray) -> bool:
     return found
 
 
+@inlined
+def way_along(surface: SurfaceRow, ray: Ray, k: int) -> float:
+    """The last way along axis k by which the ray's origin was reached; 0 if rounding cannot tell."""
+    error = PLANE_ERROR * (max(abs(surface.a[k]), abs(surface.b[k])) + ray.magnitude)
+    if abs(ray.approach[k]) > error:
+        return ray.approach[k]
+    return ray.before[k] if abs(ray.before[k]) > error else 0.0
+
+
 @compiled
 def contact_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
     """`slab_interval` for a ray that starts in the plane of a face, on another surface.
@@ -167,15 +176,15 @@ def contact_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
     settles = ray.settles and surface.solid >= 0
     outside = entered_here = left_here = False
     for k in range(3):
-        o, d, came = ray.origin[k], ray.direction[k], ray.approach[k]
+        o, d, came = ray.origin[k], ray.direction[k], way_along(surface, ray, k)
         if d == 0.0:
             low, high = touches(surface.a[k], ray, k), touches(surface.b[k], ray, k)
-            from_outside = not settles and ((came > LEVEL and low) or (came < -LEVEL and high))
+            from_outside = not settles and ((came > 0.0 and low) or (came < 0.0 and high))
             if from_outside or not (low or high or surface.a[k] <= o <= surface.b[k]):
                 return (math.inf, -math.inf)
             continue
         near, far = (surface.a[k], surface.b[k]) if d > 0.0 else (surface.b[k], surface.a[k])
-        turns_back = came * d < 0.0 and abs(came) > LEVEL
+        turns_back = (came > 0.0 and d < 0.0) or (came < 0.0 and d > 0.0)
         first, last = (near - o) / d, (far - o) / d
         enters_here, leaves_here = touches(near, ray, k), touches(far, ray, k)
         if enters_here:

@@ -21,6 +21,7 @@ from tracer import fields
 from tracer.compile.intrinsics import noinline
 from tracer.compile.jit import compiled, inlined
 from tracer.formulas.double_double import U, dd_dot, dd_multiply, dd_quotient, dd_subtract, exact_difference
+from tracer.formulas.exact import Exact, dot as exact_dot, exact, minus
 from tracer.formulas.vector import Vector, add, cross, dot, length, negate, rescale, scale, subtract, unit, vector
 from tracer.rays import Ray
 from tracer.shapes.cone_roots import (
@@ -34,7 +35,6 @@ from tracer.shapes.cone_roots import (
     side_roots,
 )
 from tracer.shapes.disc import Disc
-from tracer.shapes.exact import Exact, dot as exact_dot, exact, minus
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
 from tracer.shapes.tessellation import unit_circle

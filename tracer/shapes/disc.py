@@ -11,11 +11,12 @@ from tracer import fields
 from tracer.compile.intrinsics import noinline
 from tracer.compile.jit import compiled
 from tracer.formulas.double_double import dd_dot, dd_multiply, dd_subtract, dd_vector, exact_difference
+from tracer.formulas.exact import Exact, dot as exact_dot, exact, minus
 from tracer.formulas.vector import Vector, add, dot, length, rescale, scale, subtract, unit, vector
 from tracer.rays import Ray
 from tracer.shapes import planar
-from tracer.shapes.exact import Exact, dot as exact_dot, exact, minus
-from tracer.shapes.planar import PLANE_ERROR, dd_normal, may_cross, outline_slack, pack_normal
+from tracer.shapes.outline import PLANE_ERROR
+from tracer.shapes.planar import dd_normal, may_cross, outline_slack, pack_normal
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
 from tracer.shapes.tessellation import flat, unit_circle

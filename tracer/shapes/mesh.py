@@ -10,8 +10,8 @@ from typing import ClassVar
 import numpy as np
 
 from tracer import fields
+from tracer.formulas.exact import Exact, exact, is_in_outline
 from tracer.formulas.vector import Vector, as_floats
-from tracer.shapes.exact import Exact, exact, is_in_outline
 from tracer.shapes.planar import may_lie_in_plane, unit_normal
 from tracer.shapes.shape import Shape
 from tracer.shapes.shells import OPEN, find_shells, welded, winding_number, winding_numbers

@@ -27,14 +27,15 @@ from tracer.formulas.double_double import (
 )
 from tracer.formulas.vector import Vector, add, as_floats, dot, rescale, scale, subtract, vector
 from tracer.rays import Ray
+from tracer.shapes.outline import (
+    IN_PLANE,
+    ON_BOTH_SIDES,
+    PLANE_ERROR,
+    into_outline,
+    is_in_outline,
+    side_of,
+)
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
-
-# Bound on the rounding error of n.(a - o), relative to |a| + |o| in the 1-norm: three products, three differences and
-# two sums, and as many again in the point of the surface that the ray leaves; each at most 2^-53.
-PLANE_ERROR = 16 * U
-
-# A ray whose direction has no larger component along a normal may have been in the plane all its way, up to rounding.
-LEVEL = 16.0 * PLANE_ERROR
 
 # A face is seen edge-on where |n.d| is below this: the ray's distance to its edges then has less than 12 digits.
 EDGE_ON = 2.0**-40
@@ -47,39 +48,6 @@ OBLIQUE = 0.125
 HIT = 2.0
 
 FAR_ANCHOR = 4.0  # times the distance to the hit: where the plane's point is farther, it has fewer digits than the hit
-
-SPHERE_COUNT = 1  # `count` of a sphere, which is a corner with a radius
-
-IN_PLANE, ON_BOTH_SIDES = 0, 2  # besides +1 and -1: where a face lies relative to a plane
-
-
-@inlined
-def corner(world: ShapeArrays, surface: SurfaceRow, k: int) -> Vector:
-    """Corner k of a face with `surface.count` corners. A plane has none."""
-    if surface.first >= 0:
-        return vector(world.corners[surface.first + k])
-    if k == 0:
-        return vector(surface.a)
-    if k == 1:
-        return vector(surface.b)
-    return vector(surface.c)
-
-
-@compiled
-def side_of(world: ShapeArrays, face: SurfaceRow, plane: SurfaceRow) -> int:
-    """The side of the plane on which all of a face or sphere lies: +1, -1, IN_PLANE or ON_BOTH_SIDES."""
-    above = below = False
-    normal, a = vector(plane.normal), vector(plane.a)
-    radius = face.r if face.count == SPHERE_COUNT else 0.0
-    for k in range(face.count):
-        p = corner(world, face, k)
-        height = dot(normal, subtract(p, a))
-        error = PLANE_ERROR * (plane.r + radius + abs(p[0]) + abs(p[1]) + abs(p[2]))
-        above = above or height + radius > error
-        below = below or height - radius < -error
-    if above:
-        return ON_BOTH_SIDES if below else 1
-    return -1 if below else IN_PLANE
 
 
 @inlined
@@ -173,29 +141,16 @@ def edge_on_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float
     """`exact_distance` to a face that the ray sees edge-on; inf if the hit is outside the face by more than its error.
 
     Seen so, the outline is a line, and rounding decides whether the ray is inside. Here the hit itself is compared
-    with the outline, along the axis closest to the normal.
+    with the outline.
     """
     noinline()
     t = exact_distance(surface, ray)
     if not 0.0 <= t < math.inf:
         return math.inf
-    p = add(ray.origin, scale(t, ray.direction))
-    o, n = ray.origin, vector(surface.normal)
+    o = ray.origin
     size = max(ray.magnitude, abs(o[0]) + abs(o[1]) + abs(o[2]) + t)
-    slack = HIT * U * size / abs(dot(n, ray.direction))
-    i, j = axes_across(n)
-    inside = False
-    last = subtract(corner(world, surface, surface.count - 1), p)
-    ax, ay = last[i], last[j]
-    for k in range(surface.count):
-        here = subtract(corner(world, surface, k), p)
-        bx, by = here[i], here[j]
-        if is_near_edge(ax, ay, bx, by, slack):
-            return t
-        if (ay > 0.0) != (by > 0.0) and (ax * by - bx * ay > 0.0) == (by > ay):
-            inside = not inside
-        ax, ay = bx, by
-    return t if inside else math.inf
+    slack = HIT * U * size / abs(dot(vector(surface.normal), ray.direction))
+    return t if is_in_outline(world, surface, add(o, scale(t, ray.direction)), slack) else math.inf
 
 
 @compiled
@@ -210,8 +165,11 @@ def contact_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, n_dot_d:
         return max(t, 0.0) + 0.0  # whether it crosses the face or turns back, the set of solids is put right
     side = side_of(world, start, surface) if start.count > 0 else ON_BOTH_SIDES
     if side == ON_BOTH_SIDES:  # it has no corners, or crosses the plane
+        error = plane_rounding(surface, ray)
         came = dot(vector(surface.normal), ray.approach)
-        if abs(came) <= LEVEL:
+        if abs(came) <= error:
+            came = dot(vector(surface.normal), ray.before)
+        if abs(came) <= error:
             return t if t > 0.0 else math.inf
         if (came > 0.0) != (n_dot_d > 0.0):  # the ray has turned back from the plane
             return math.inf
@@ -223,15 +181,6 @@ def contact_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, n_dot_d:
         if beyond != ON_BOTH_SIDES and beyond != heading:
             return math.inf
     return max(t, 0.0) + 0.0  # not -0
-
-
-@inlined
-def is_near_edge(ax: float, ay: float, bx: float, by: float, slack: float) -> bool:
-    """Whether the edge from a to b passes the ray, which is at (0, 0), no farther than `slack`."""
-    ex, ey = bx - ax, by - ay
-    size = math.sqrt(ex * ex + ey * ey)
-    along = -(ax * ex + ay * ey)
-    return abs(ax * by - ay * bx) <= slack * size and -slack * size <= along <= size * (size + slack)
 
 
 @inlined
@@ -247,36 +196,6 @@ def plane_interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: floa
     if surface.count >= 3 and abs(dot(n, ray.direction)) < OBLIQUE:
         p = into_outline(world, surface, p)
     return (p, n, n)
-
-
-@compiled
-def into_outline(world: ShapeArrays, surface: SurfaceRow, p: Vector) -> Vector:
-    """A point in the plane of a face, moved to the nearest point of its outline if it is outside."""
-    noinline()
-    nearest, least = p, math.inf
-    inside = False
-    i, j = axes_across(vector(surface.normal))
-    a = corner(world, surface, surface.count - 1)
-    for k in range(surface.count):
-        b = corner(world, surface, k)
-        from_a, edge = subtract(p, a), subtract(b, a)
-        if (a[j] > p[j]) != (b[j] > p[j]) and (from_a[j] * edge[i] - from_a[i] * edge[j] > 0.0) == (edge[j] > 0.0):
-            inside = not inside
-        # From the nearer end, since the foot has the rounding error of the way to it.
-        share, other = dot(from_a, edge) / dot(edge, edge), dot(subtract(b, p), edge) / dot(edge, edge)
-        foot = add(a, scale(max(share, 0.0), edge)) if share < other else subtract(b, scale(max(other, 0.0), edge))
-        away = subtract(p, foot)
-        if dot(away, away) < least:
-            nearest, least = foot, dot(away, away)
-        a = b
-    return p if inside else nearest
-
-
-@inlined
-def axes_across(n: Vector) -> tuple[int, int]:
-    """The two axes that are farthest from a normal."""
-    x, y, z = abs(n[0]), abs(n[1]), abs(n[2])
-    return (1, 2) if x >= y and x >= z else ((2, 0) if y >= z else (0, 1))
 
 
 @inlined

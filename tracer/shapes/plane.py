@@ -13,10 +13,10 @@ import numpy as np
 from tracer import fields
 from tracer.compile.jit import inlined
 from tracer.formulas.double_double import dd_vector
+from tracer.formulas.exact import Exact, dot, exact, minus
 from tracer.formulas.vector import Vector, rescale, unit
 from tracer.rays import Ray
 from tracer.shapes import planar
-from tracer.shapes.exact import Exact, dot, exact, minus
 from tracer.shapes.planar import may_cross, pack_normal
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow

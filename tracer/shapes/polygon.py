@@ -14,11 +14,12 @@ import numpy as np
 
 from tracer import fields
 from tracer.compile.jit import inlined
+from tracer.formulas.exact import Exact, exact, is_in_outline
 from tracer.formulas.vector import Vector, as_floats, unit
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.exact import Exact, exact, is_in_outline
-from tracer.shapes.planar import is_near_edge, may_cross, newell_normal, outline_slack, pack_normal, unit_normal
+from tracer.shapes.outline import is_near_edge
+from tracer.shapes.planar import may_cross, newell_normal, outline_slack, pack_normal, unit_normal
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import SURFACE, ShapeArrays, SurfaceRow
 from tracer.shapes.tessellation import flat

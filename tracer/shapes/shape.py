@@ -6,8 +6,8 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from tracer.formulas.exact import Exact
 from tracer.formulas.vector import Vector
-from tracer.shapes.exact import Exact
 
 
 class Shape(ABC):

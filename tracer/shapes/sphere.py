@@ -36,10 +36,10 @@ from tracer.formulas.double_double import (
     two_product,
     two_sum,
 )
+from tracer.formulas.exact import Exact, dot as exact_dot, exact, minus
 from tracer.formulas.vector import Vector, add, dot, scale, subtract, unit, vector
 from tracer.rays import Ray
-from tracer.shapes.exact import Exact, dot as exact_dot, exact, minus
-from tracer.shapes.planar import SPHERE_COUNT
+from tracer.shapes.outline import SPHERE_COUNT
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
 from tracer.shapes.tessellation import unit_ball

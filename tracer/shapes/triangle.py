@@ -15,6 +15,7 @@ from tracer import fields
 from tracer.compile.jit import inlined
 from tracer.compile.simd import broadcast, lanes_max, lanes_min, load_lanes, mask_less
 from tracer.formulas.double_double import dd_cross, exact_difference
+from tracer.formulas.exact import Exact, exact, is_in_outline
 from tracer.formulas.vector import (
     LONGEST,
     SHORTEST,
@@ -32,8 +33,8 @@ from tracer.formulas.vector import (
 )
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.exact import Exact, exact, is_in_outline
-from tracer.shapes.planar import PLANE_ERROR, is_near_edge, may_cross, outline_slack, pack_normal, unit_normal
+from tracer.shapes.outline import PLANE_ERROR, is_near_edge
+from tracer.shapes.planar import may_cross, outline_slack, pack_normal, unit_normal
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import BlockRow, ShapeArrays, SurfaceRow
 from tracer.shapes.tessellation import flat

@@ -117,7 +117,7 @@ def unit_directions(ways: np.ndarray) -> np.ndarray:
 
 def _with_single_trees(trees: RayTrees, rays: np.ndarray, which: np.ndarray, options: dict) -> RayTrees:
     """The same with some trees traced one by one: those whose eye lies exactly on a surface."""
-    single = {int(k): trace(trees.world, ray=(rays[k, :3], rays[k, 3:]), **options) for k in which}
+    single = {int(k): trace(trees.world, ray=(rays[k, :3].tolist(), rays[k, 3:].tolist()), **options) for k in which}
     pieces, starts, residuals, first = [], trees.starts.copy(), trees.residuals.copy(), 0
     for k in range(len(trees)):
         tree = single.get(k) or trees.tree(k)

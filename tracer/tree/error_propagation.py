@@ -185,7 +185,8 @@ def make_step(world: Arrays, table: Rows[NodeRow], i: int) -> Step:
     end_normal = nowhere
     if row.kind == SHADOW:
         if row.end == BLOCKED and row.t > 0.0:
-            ray = make_ray(vector(row.origin), direction, row.start, row.side, row.magnitude, vector(row.approach))
+            approach, earlier = vector(row.approach), vector(row.before)
+            ray = make_ray(vector(row.origin), direction, row.start, row.side, row.magnitude, approach, earlier)
             _, end_normal, _ = interaction(world, world.surfaces[row.surface], ray, row.t)
     elif row.surface >= 0:
         end_normal = vector(row.face_normal)

@@ -7,6 +7,7 @@ import pytest
 
 import tracer
 from tests.scenes import MIRROR, ball, box, ends, kinds, plane, polygon, world_of
+from tracer.formulas.vector import as_floats
 from tracer.scene import Material, Object
 from tracer.shapes.box import Box
 from tracer.shapes.mesh import Geometry, Mesh
@@ -65,7 +66,7 @@ def test_medium_of_every_ray_is_that_of_the_solids_it_runs_in(shape: str) -> Non
         objects = []
         for k, (low, high, n, priority) in enumerate(blocks):
             is_box = shape == "boxes" or (shape == "both" and k % 2)
-            form = Box(tuple(map(float, low)), tuple(map(float, high))) if is_box else cube_mesh(low, high)
+            form = Box(as_floats(low), as_floats(high)) if is_box else cube_mesh(low, high)
             objects.append(Object(form, Material(f"glass {k}", transmit=1.0, ior=n), f"block {k}", priority=priority))
         world = world_of(*objects, model=("whitted", "fresnel")[scene % 2])
         ranked = sorted(blocks, key=lambda block: -block[3])

@@ -153,7 +153,7 @@ def test_told_error_of_a_large_cone_is_above_the_true_one(size: float) -> None:
             s = (f * w).sum()
             return (f * f).sum() - s * s / square - (mpf(shape.base_radius) + growth * s / square) ** 2
 
-        t = mp.findroot(off, mpf(float(row["t"])), tol=1e-30)
+        t = mp.findroot(off, mpf(float(row["t"])), tol=1e-30)  # type: ignore[attr-defined]
         true = mp.norm(exact(row["origin"]) + d * t - exact(row["point"]))
         assert true <= row["error"]
     assert found > 20

@@ -69,8 +69,8 @@ def rooms(random: np.random.Generator, rays: int, count: int) -> list[tuple[trac
     """Rooms of mirrors (boxes, turned meshes, closed cylinders) with eyes inside, and targets on edges and corners."""
     found = []
     for k in range(count):
-        low = random.uniform(-2, 0, 3) * 10.0 ** random.uniform(-2, 2, 3)
-        high = low + random.uniform(0.5, 3, 3) * 10.0 ** random.uniform(-2, 2, 3)
+        low = random.uniform(-2, 0, 3) * 10.0 ** random.uniform(-1.5, 1.5, 3)
+        high = low + random.uniform(0.5, 3, 3) * 10.0 ** random.uniform(-1.5, 1.5, 3)
         targets = np.where(random.random((rays, 3)) < 0.5, low, high)
         on_edge = random.random(rays) < 0.7
         axis = random.integers(3, size=rays)
