@@ -51,10 +51,10 @@ class Box(Shape):
         return bool(np.all(np.less(self.min, p)) and np.all(np.less(p, self.max)))
 
     def contains_each(self, points: np.ndarray) -> np.ndarray:
-        return (points > self.min).all(axis=1) & (points < self.max).all(axis=1)
+        return np.logical_and((points > self.min).all(axis=1), (points < self.max).all(axis=1))
 
     def may_touch(self, points: np.ndarray, row: int) -> np.ndarray:
-        return np.asarray((points == self.min) | (points == self.max)).any(axis=1)
+        return np.any((points == self.min) | (points == self.max), axis=1, keepdims=True)[:, 0]
 
     def touches(self, p: Exact, row: int) -> bool:
         low, high = exact(self.min), exact(self.max)
