@@ -86,3 +86,12 @@ def test_an_image_from_a_surface_is_the_sum_of_its_trees() -> None:
         for x, y in ((0, 0), (7, 5), (15, 11)):
             tree = tracer.trace(other, pixel=(x, y), size=(16, 12), depth=3)
             assert image.pixels[y, x].tolist() == tree.radiance.tolist()
+
+
+def test_source_exactly_on_a_lens() -> None:
+    """From a public bug report: the ray starts inside and leaves at 2 / sqrt(1.04), or does not hit at all."""
+    world = world_of(Object(Sphere((0, 0, 0), 1.0), GLASS, "b"))
+    into = tracer.trace(world, ray=((1, 0, 0), (-1, 0.2, 0)), depth=0).nodes[0]
+    assert (into["n1"], into["n2"]) == (1.5, 1.0)
+    assert into["t"] == pytest.approx(2.0 / 1.04**0.5, rel=4 * 2.0**-53, abs=0.0)
+    assert tracer.trace(world, ray=((1, 0, 0), (1, 0.2, 0)), depth=0).end(0) == "background"
