@@ -37,11 +37,11 @@ class MeshFile:
 
     parts: list[Part]
     notes: list[str]  # what the file has and the parts have not
-    scene_notes: list[str]  # the same of camera and lights
     files: tuple[Path, ...] = ()  # the other files that it names, also those that were not found
     camera: Camera | None = None
     image: Image | None = None
     lights: tuple[Light, ...] | None = None  # None: the file has none
+    scene_notes: tuple[str, ...] = ()  # what camera and lights of the file have and ours have not
 
 
 def make_part(

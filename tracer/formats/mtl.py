@@ -136,7 +136,6 @@ class Entry:
     """The statements of one material, by keyword in lower case."""
 
     name: str
-    file: Path
     colors: dict[str, Vector] = field(default_factory=dict)
     numbers: dict[str, float] = field(default_factory=dict)
 
@@ -149,7 +148,7 @@ def entries_of(text: str, path: Path, notes: Notes) -> list[Entry]:
     for line, content in enumerate(lines_of(text), 1):
         keyword, *words = uncommented(content).split() or [""]
         if keyword.lower() == "newmtl":
-            entries.append(Entry(spaced(content).partition(" ")[2], path))
+            entries.append(Entry(spaced(content).partition(" ")[2]))
         elif keyword and not (entries and read_statement(entries[-1], keyword, words, notes, Place(path, line))):
             notes.name(f"{path.name}: {UNREADABLE}", f"line {line}: {' '.join([keyword, *words])[:60]}")
     return entries

@@ -123,7 +123,7 @@ class Reader:
             own = self.library.find(material)
             smooth = (normals, normal_faces[which])
             parts.append(make_part(name or named(material), vertices, faces[which], smooth, own, self.notes))
-        return MeshFile([part for part in parts if part], self.notes.lines(), [], tuple(self.library.files))
+        return MeshFile([part for part in parts if part], self.notes.lines(), tuple(self.library.files))
 
     def _spans(self) -> dict[tuple[str, str], list[tuple[int, int]]]:
         """The first face and the end of each run of faces, by name and material."""

@@ -13,7 +13,7 @@ import numpy as np
 from tracer.fields import LARGEST
 from tracer.formats.numbers import parsed
 from tracer.formats.polygons import MOST_CORNERS
-from tracer.formats.source import Fault, decode
+from tracer.formats.source import Fault, decode, utf8
 
 BLOCK = 1 << 22  # bytes that are parsed at a time
 BLANKS = bytes.maketrans(b"\t\v\f\0", b"    ")
@@ -26,9 +26,7 @@ def normalised(data: bytes) -> bytes:
     """The bytes with line ends as in Unix and blanks as white space. A line that ends with a backslash is joined with
     the next one, followed by an empty line, so that line numbers stay right.
     """
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        data = decode(data).encode("utf-8")
-    data = data.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x1a\0 \r\n") + b"\n"
+    data = utf8(data).rstrip(b"\x1a\0 \r\n") + b"\n"
     data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n").translate(BLANKS)
     if b"\\\n" not in data:
         return data

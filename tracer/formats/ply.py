@@ -12,9 +12,9 @@ import numpy as np
 
 from tracer.formats.mesh_part import CLAY, MeshFile, make_part
 from tracer.formats.notes import Notes
-from tracer.formats.ply_body import Element, Lists, Property, Table, binary_tables, text_tables
+from tracer.formats.ply_body import LINE_END, Element, Lists, Property, Table, binary_tables, text_tables
 from tracer.formats.polygons import triangulated
-from tracer.formats.source import Fault, decode, read_bytes
+from tracer.formats.source import Fault, decode, read_bytes, utf8
 
 TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
@@ -22,7 +22,6 @@ TYPES = {
     "double": "f8", "float64": "f8",
 }  # fmt: skip
 FORMATS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
-LINE_END = rb"\r\n|\r|\n"
 MOST_HEADER = 1 << 20  # bytes
 INDICES = ("vertex_indices", "vertex_index")
 NORMALS = ("nx", "ny", "nz")
@@ -31,9 +30,7 @@ COLORS = ("red", "green", "blue", "diffuse_red", "r")
 
 def read_ply(path: Path, progress: Callable[[float], None]) -> MeshFile:
     """Read a file. Raises Fault."""
-    data = read_bytes(path).removeprefix(b"\xef\xbb\xbf")
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        data = decode(data).encode("utf-8")
+    data = utf8(read_bytes(path))
     notes = Notes()
     order, elements, body = header_of(data)
     if order:
@@ -71,7 +68,7 @@ def read_ply(path: Path, progress: Callable[[float], None]) -> MeshFile:
     if all(name in vertex for name in NORMALS):
         smooth = (np.stack([column(vertex, name) for name in NORMALS], axis=1), faces)
     part = make_part("", points, faces, smooth, CLAY, notes)
-    return MeshFile([part] if part else [], notes.lines(), [])
+    return MeshFile([part] if part else [], notes.lines())
 
 
 def header_of(data: bytes) -> tuple[str, list[Element], int]:

@@ -13,6 +13,8 @@ from tracer.formats.numbers import parsed
 from tracer.formats.polygons import MOST_CORNERS
 from tracer.formats.source import Fault, decode
 
+LINE_END = rb"\r\n|\r|\n"
+
 # Codes of `struct` for numpy's types.
 CODES = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "f4": "f", "f8": "d"}
 WIDTHS = {name: int(name[1]) for name in CODES}  # bytes
@@ -68,7 +70,7 @@ def text_tables(body: bytes, first_line: int, elements: list[Element]) -> dict[s
 
 def fault_of_text(body: bytes, first_line: int, elements: list[Element]) -> Fault:
     """The first fault of the values of a text file, which has an element on each line."""
-    lines = ((k, text.split()) for k, text in enumerate(re.split(rb"\r\n|\r|\n", body), first_line))
+    lines = ((k, text.split()) for k, text in enumerate(re.split(LINE_END, body), first_line))
     filled = ((k, words) for k, words in lines if words)
     for element in elements:
         for _ in range(element.count):

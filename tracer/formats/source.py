@@ -8,6 +8,8 @@ from pathlib import Path
 MOST_TEXT = 256 * 2**20  # bytes of a text file
 MOST_BYTES = 2**30  # bytes of a binary file
 
+UTF_16 = (b"\xff\xfe", b"\xfe\xff")  # its byte order marks
+
 KINDS = ((stat.S_ISDIR, "a folder"), (stat.S_ISFIFO, "a pipe"), (stat.S_ISSOCK, "a socket"))
 
 
@@ -62,7 +64,7 @@ def decode(data: bytes, replaced: bool = False) -> str:
 
     A Control-Z at the end, from DOS, is not part of the text.
     """
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+    if data[:2] in UTF_16:
         text = data.decode("utf-16", "replace")
     else:
         try:
@@ -71,6 +73,13 @@ def decode(data: bytes, replaced: bool = False) -> str:
             text = data.decode("utf-8-sig", "replace") if replaced else "\n".join(map(_line, data.split(b"\n")))
     body, end, rest = text.rpartition("\x1a")
     return body if end and not rest.strip("\x1a\0 \r\n") else text
+
+
+def utf8(data: bytes) -> bytes:
+    """Text in UTF-16 as UTF-8, and any text without its byte order mark."""
+    if data[:2] in UTF_16:
+        data = decode(data).encode("utf-8")
+    return data.removeprefix(b"\xef\xbb\xbf")
 
 
 def _line(line: bytes) -> str:

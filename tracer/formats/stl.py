@@ -15,7 +15,7 @@ import numpy as np
 from tracer.formats.mesh_part import CLAY, MeshFile, make_part
 from tracer.formats.notes import Notes
 from tracer.formats.numbers import parsed
-from tracer.formats.source import Fault, decode, read_bytes
+from tracer.formats.source import Fault, decode, read_bytes, utf8
 
 HEADER = 84  # bytes: a comment of 80 and the number of triangles
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -31,22 +31,21 @@ BLOCK = 1 << 22  # bytes of text that are read at once
 def read_stl(path: Path, progress: Callable[[float], None]) -> MeshFile:
     """Read a file. Raises Fault."""
     data = read_bytes(path)
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff") and decode(data[:64]).lstrip()[:5].lower() == "solid":
-        data = decode(data).encode("utf-8")
     notes = Notes()
     count = struct.unpack_from("<I", data, 80)[0] if len(data) >= HEADER else 0
     is_binary = len(data) >= HEADER and HEADER + count * RECORD.itemsize == len(data)
-    if not is_binary and re.match(rb"(?:\xef\xbb\xbf)?\s*solid\b", data, re.IGNORECASE) and is_text(data):
-        solids = text_solids(data, progress)
-    elif not is_binary and is_text(data):
-        raise Fault('must begin with "solid", as a text file, or be binary')
-    else:
+    text = b"" if is_binary else utf8(data)
+    if is_binary or not is_text(text):
         solids = [("", binary_corners(data, count, notes))]
+    elif re.match(rb"\s*solid\b", text, re.IGNORECASE):
+        solids = text_solids(text, progress)
+    else:
+        raise Fault('must begin with "solid", as a text file, or be binary')
     parts = []
     for name, corners in solids:
         faces = np.arange(3 * len(corners)).reshape(-1, 3)
         parts.append(make_part(name, corners.reshape(-1, 3), faces, None, CLAY, notes))
-    return MeshFile([part for part in parts if part], notes.lines(), [])
+    return MeshFile([part for part in parts if part], notes.lines())
 
 
 def is_text(data: bytes) -> bool:
@@ -70,7 +69,7 @@ def binary_corners(data: bytes, count: int, notes: Notes) -> np.ndarray:
 
 def text_solids(data: bytes, progress: Callable[[float], None]) -> list[tuple[str, np.ndarray]]:
     """(name, corners (n, 3, 3)) of each solid of a text file. A missing "endsolid" does not matter."""
-    text = data.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    text = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     starts = list(SOLID.finditer(text))
     solids = []
     for head, end in zip(starts, [*(found.start() for found in starts[1:]), len(text)], strict=True):

@@ -61,9 +61,7 @@ def dd_multiply(a: DD, b: DD) -> DD:
 @inlined
 def dd_divide(a: DD, b: DD) -> float:
     """a / b, rounded to one float."""
-    quotient = a[0] / b[0]
-    high, low = two_product(quotient, b[0])
-    return quotient + ((a[0] - high) - low + (a[1] - quotient * b[1])) / b[0]
+    return dd_quotient(a, b)[0]
 
 
 @inlined
@@ -120,3 +118,15 @@ def dd_cross(a: DDVector, b: DDVector) -> DDVector:
         dd_subtract(dd_multiply(a[2], b[0]), dd_multiply(a[0], b[2])),
         dd_subtract(dd_multiply(a[0], b[1]), dd_multiply(a[1], b[0])),
     )
+
+
+@inlined
+def dd_scale(k: DD, a: DDVector) -> DDVector:
+    """k a."""
+    return (dd_multiply(a[0], k), dd_multiply(a[1], k), dd_multiply(a[2], k))
+
+
+@inlined
+def dd_minus(a: DDVector, b: DDVector) -> DDVector:
+    """a - b."""
+    return (dd_subtract(a[0], b[0]), dd_subtract(a[1], b[1]), dd_subtract(a[2], b[2]))

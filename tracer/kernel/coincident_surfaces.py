@@ -117,10 +117,9 @@ def change_medium(world: Arrays, solid: int, enters: int, leaves: int, before: N
     the set before the surface.
     """
     if enters >= 0 and leaves >= 0:
-        if is_concave(world, enters, leaves):
-            set_inside(behind, solid, True)
-        elif side_of(world, world.surfaces[leaves], world.surfaces[enters]) == -1:
-            set_inside(behind, solid, False)
+        side = side_of(world, world.surfaces[leaves], world.surfaces[enters])
+        if side == 1 or side == -1:  # before the first face: a concave edge
+            set_inside(behind, solid, side == 1)
         return
     if leaves >= 0 and not world.closed[solid] and not contains(before, solid):
         set_inside(before, solid, True)

@@ -25,7 +25,7 @@ from tracer.kernel.limits import Limits
 from tracer.kernel.node_rows import start_row
 from tracer.kernel.nodes import CAMERA, KINDS, SHADOW, NodeRow
 from tracer.kernel.trace import trace_tree
-from tracer.kernel.workspace import Space, Workspace
+from tracer.kernel.workspace import Eyes, Space, Workspace
 from tracer.rays import make_ray
 
 # After so many rays of one kind, some tenths of a second, a call returns before its list is done, so that it can be
@@ -88,7 +88,7 @@ def trace_pixels(
         total, residual = vector(before[k]), before[k, 3]
         for sample in range(pixels[k].first, pixels[k].end):
             direction = camera_direction(world, view, sampler, pixels, k, sample, space)
-            start_camera_ray(world, view.eye, limits, direction, space)
+            start_camera_ray(world, view.eye, space.eye_solids, space.eye_surfaces, limits, direction, space)
             if not trace_one(world, limits, space):
                 return -1
             total = add(total, vector(space.table[0].radiance))
@@ -112,20 +112,20 @@ def trace_one(world: Arrays, limits: Limits, space: Space) -> bool:
 
 @kernel
 def trace_rays_in_turn(
-    world: Arrays, limits: Limits, rays: Numbers, solids: Numbers, into: Rows[NodeRow], batch: Batch, space: Space
+    world: Arrays, limits: Limits, rays: Numbers, eyes: Eyes, into: Rows[NodeRow], batch: Batch, space: Space
 ) -> int:
-    """Trace the trees of given rays (n, 6), origins and unit directions, with the solids (n, words) around the origins.
+    """Trace the trees of given rays (n, 6), origins and unit directions.
 
     Their rows go to `into`, one tree after another, beginning with ray number `batch.done[0]`. Returns 0 when all are
     done, 1 if `into` is too short for the next tree, -1 if the workspace is. Then the call must be repeated with more.
     """
     for k in range(batch.done[0], len(rays)):
-        for word in range(len(space.eye_solids)):
-            space.eye_solids[word] = solids[k, word]
         origin, nowhere = (rays[k, 0], rays[k, 1], rays[k, 2]), (0.0, 0.0, 0.0)
         view = View(origin, (rays[k, 3], rays[k, 4], rays[k, 5]), nowhere, nowhere, 1, 1)
         direction = world.formulas.pixel_direction(view, 0.5, 0.5)
-        start_camera_ray(world, origin, limits, direction, space)
+        m = eyes.point[k]
+        touched = eyes.surfaces[eyes.starts[m] : eyes.starts[m + 1]]
+        start_camera_ray(world, origin, eyes.solids[m], touched, limits, direction, space)
         if not trace_one(world, limits, space):
             return -1
         first, count = batch.starts[k], int(space.tree[0])
@@ -169,8 +169,10 @@ def camera_direction(
 
 
 @inlined
-def start_camera_ray(world: Arrays, eye: Vector, limits: Limits, direction: Vector, space: Space) -> None:
-    """Write row 0 of the table: the camera ray, before it is traced."""
+def start_camera_ray(
+    world: Arrays, eye: Vector, around: Numbers, touched: Numbers, limits: Limits, direction: Vector, space: Space
+) -> None:
+    """Write row 0 of the table: the camera ray, before it is traced. `around` and `touched` are those of `Eye`."""
     row = start_row(limits, space.table, 0, -1, CAMERA, 0, (1.0, 1.0, 1.0), (1.0, 1.0, 1.0))
     store(row.origin, eye)
     store(row.direction, direction)
@@ -179,22 +181,22 @@ def start_camera_ray(world: Arrays, eye: Vector, limits: Limits, direction: Vect
     store(row.approach, (0.0, 0.0, 0.0))
     store(row.before, (0.0, 0.0, 0.0))
     row.magnitude = abs(eye[0]) + abs(eye[1]) + abs(eye[2])
-    for word in range(len(space.eye_solids)):
-        space.solids[0, 0, word] = space.eye_solids[word]
-        space.solids[0, 1, word] = space.eye_solids[word]
-    if len(space.eye_surfaces) > 0:
-        start_on_surfaces(world, space)
+    for word in range(len(around)):
+        space.solids[0, 0, word] = around[word]
+        space.solids[0, 1, word] = around[word]
+    if len(touched) > 0:
+        start_on_surfaces(world, touched, space)
 
 
 @compiled
-def start_on_surfaces(world: Arrays, space: Space) -> None:
+def start_on_surfaces(world: Arrays, touched: Numbers, space: Space) -> None:
     """Start the camera ray of an eye that lies exactly on surfaces.
 
     If it points into a transparent solid, it starts inside; if it points out, outside. Neither makes a row. If it
     points into an opaque one, it hits it at distance 0.
     """
     noinline()
-    row, touched = space.table[0], space.eye_surfaces
+    row = space.table[0]
     ray = make_ray(vector(row.origin), vector(row.direction), -1, 0.0, row.magnitude)
     for k in range(len(touched)):
         group = eye_group(world, touched[k])
@@ -208,7 +210,7 @@ def start_on_surfaces(world: Arrays, space: Space) -> None:
             change_medium(world, group, enters, leaves, space.solids[0, 0], space.solids[0, 1])
         elif transmit(world, touched[k]) == 0.0 and enters >= 0 and (leaves < 0 or is_concave(world, enters, leaves)):
             row.surface = enters
-    for word in range(len(space.eye_solids)):
+    for word in range(space.solids.shape[2]):
         space.solids[0, 0, word] = space.solids[0, 1, word]
     if row.surface >= 0:
         return

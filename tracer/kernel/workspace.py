@@ -22,6 +22,15 @@ class Eye(NamedTuple):
     surfaces: np.ndarray  # ids of the surfaces that it lies exactly on
 
 
+class Eyes(NamedTuple):
+    """The same for n rays, many of which may start at one of m points."""
+
+    point: np.ndarray  # (n,) the number of each ray's point
+    solids: np.ndarray  # (m, words)
+    surfaces: np.ndarray  # ids of the surfaces that the points lie on, one point after another
+    starts: np.ndarray  # (m + 1,) the first entry of each point in `surfaces`, and the end of the last
+
+
 class OpenRow(Row):
     """A ray that a best-first search has not traced yet."""
 

@@ -16,7 +16,7 @@ from tracer.kernel.arrays import Arrays
 from tracer.kernel.capabilities import Need, needs
 from tracer.kernel.formulas import STABLE, Formulas
 from tracer.kernel.packing import pack_lights, pack_materials, pack_objects, pack_surfaces
-from tracer.kernel.workspace import Eye
+from tracer.kernel.workspace import Eye, Eyes
 from tracer.scene import Material, Scene, SceneError
 from tracer.scene.cameras import scene_view
 from tracer.scene.garbage import no_garbage_collection
@@ -26,6 +26,7 @@ from tracer.scene.solids import Solid, find_solids
 from tracer.shapes.outline import PLANE_ERROR
 from tracer.shapes.surface_row import BlockRow
 
+NO_SURFACES = np.zeros(0, np.int64)
 MAX_EYES = 64  # points whose surroundings are cached
 
 
@@ -72,37 +73,45 @@ class World:
             self._eyes[point] = self._eye(point)
         return self._eyes[point]
 
-    def eyes(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(sets of solids (n, words), whether each lies on a surface (n,)) for many points (n, 3)."""
-        masks = np.zeros((len(points), -(-len(self.solids) // WORD)), np.int64)
+    def eyes(self, points: np.ndarray) -> Eyes:
+        """The same for many points (n, 3). Equal ones are looked at once."""
+        different, point = np.unique(points, axis=0, return_inverse=True)
+        solids = np.zeros((len(different), self._words), np.int64)
         for rank, solid in enumerate(self.solids):
-            masks[solid.contains_each(points), rank // WORD] |= 1 << (rank % WORD)
-        owners = self.arrays.surfaces["object"]
-        on_surface = np.zeros(len(points), bool)
-        for s, (low, high) in enumerate(self.boxes):
-            near = np.flatnonzero(~on_surface & (points >= low).all(axis=1) & (points <= high).all(axis=1))
-            if len(near):
-                shape, row = self.scene.objects[owners[s]].shape, s - int(np.searchsorted(owners, owners[s]))
-                doubtful = near[shape.may_touch(points[near], row)]
-                on_surface[doubtful] = [shape.touches(exact(points[k].tolist()), row) for k in doubtful]
-        return masks, on_surface
+            solids[solid.contains_each(different), rank // WORD] |= 1 << (rank % WORD)
+        at, surfaces = self._contacts(different)
+        starts = np.searchsorted(at, np.arange(len(different) + 1))
+        return Eyes(point.ravel(), solids, surfaces, starts)
 
     def _eye(self, point: Vector) -> Eye:
-        mask = np.zeros(-(-len(self.solids) // WORD), np.int64)
+        mask = np.zeros(self._words, np.int64)
         p = np.array(point)
         for rank, solid in enumerate(self.solids):
             if solid.contains(p):
                 mask[rank // WORD] |= 1 << (rank % WORD)
-        owners = self.arrays.surfaces["object"]
-        near = np.flatnonzero((self.boxes[:, 0] <= p).all(axis=1) & (self.boxes[:, 1] >= p).all(axis=1))
-        rows = near - np.searchsorted(owners, owners[near])
-        place = exact(point)
-        touched = [
-            s
-            for s, row in zip(near.tolist(), rows.tolist(), strict=True)
-            if self.scene.objects[owners[s]].shape.touches(place, row)
-        ]
-        return Eye(mask, np.array(touched, np.int64))
+        return Eye(mask, self._contacts(p[None])[1])
+
+    @property
+    def _words(self) -> int:
+        """Words of a set of solids."""
+        return -(-len(self.solids) // WORD)
+
+    def _contacts(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(numbers of points, ids of surfaces) where one of the points (n, 3) lies exactly on a surface, by point."""
+        low, high = self.boxes[:, 0], self.boxes[:, 1]
+        if len(points) < len(low):
+            at = [np.flatnonzero(((low <= p) & (p <= high)).all(axis=1)) for p in points]
+            surfaces = np.unique(np.concatenate(at)) if at else NO_SURFACES
+        else:
+            surfaces = np.arange(len(low))
+        owners, found = self.arrays.surfaces["object"], []
+        for s in surfaces.tolist():
+            shape, row = self.scene.objects[owners[s]].shape, s - int(np.searchsorted(owners, owners[s]))
+            near = np.flatnonzero(((low[s] <= points) & (points <= high[s])).all(axis=1))
+            near = near[shape.may_touch(points[near], row)].tolist()
+            found += [(k, s) for k in near if shape.touches(exact(points[k].tolist()), row)]
+        pairs = np.array(sorted(found), np.int64).reshape(-1, 2)
+        return pairs[:, 0].copy(), pairs[:, 1].copy()
 
 
 @no_garbage_collection()

@@ -21,7 +21,6 @@ from tracer.shapes.shells import (
     grouped,
     has_holes,
     signed_volumes,
-    winding_number,
     winding_numbers,
 )
 
@@ -62,8 +61,7 @@ class Solid:
         """Whether the point lies inside."""
         if self.corners is None:
             return self.closed and self.shape is not None and self.shape.contains(p)
-        low, high = self.corners.min(axis=(0, 1)), self.corners.max(axis=(0, 1))
-        return bool((p >= low).all() and (p <= high).all()) and winding_number(self.corners, p) > 0.5
+        return bool(self.contains_each(p[None])[0])
 
 
 @dataclass(frozen=True)

@@ -20,13 +20,14 @@ import numpy as np
 from tracer import fields
 from tracer.compile.intrinsics import noinline
 from tracer.compile.jit import compiled, inlined
-from tracer.formulas.double_double import U, dd_dot, dd_multiply, dd_quotient, dd_subtract, exact_difference
+from tracer.formulas.double_double import U, dd_quotient, exact_difference
 from tracer.formulas.exact import Exact, dot as exact_dot, exact, minus
 from tracer.formulas.vector import Vector, add, cross, dot, length, negate, rescale, scale, subtract, unit, vector
 from tracer.rays import Ray
 from tracer.shapes.cone_roots import (
     SIDE,
     WIDE,
+    coefficients,
     height_above_side,
     inside,
     is_between_ends,
@@ -70,11 +71,11 @@ class Cone(Shape):
         height = math.hypot(*self.axis())
         growth = abs(self.base_radius - self.apex_radius)
         side = math.hypot(height, growth)
-        rows["a"] = self.ends()[0]
+        narrow, wide = self.ends()
+        rows["a"] = narrow
         rows["b"] = unit(rescale(self.axis()))
         rows["r"] = min(self.base_radius, self.apex_radius)
         rows["c"] = (height / side, growth / side, max(self.base_radius, self.apex_radius))
-        narrow, wide = self.ends()
         for k, (high, low) in enumerate(exact_difference(wide, narrow)):
             rows["normal"][..., k], rows["normal_low"][..., k] = high, low
         rows["count"] = CLOSED if self.closed else 0
@@ -153,23 +154,16 @@ def split_along(axis: Vector, v: Vector) -> tuple[float, Vector]:
 
 
 @inlined
-def quadratic_terms(surface: SurfaceRow, ray: Ray) -> tuple[float, float, Vector, Vector, float, float]:
-    """(height of the ray's origin, its change along the ray, f, d, rho, rise)."""
-    axis = vector(surface.b)
-    cosine, sine = surface.c[0], surface.c[1]
-    height, f = split_along(axis, subtract(ray.origin, vector(surface.a)))
-    climb, d = split_along(axis, ray.direction)
-    rho = cosine * surface.r + sine * height
-    return (height, climb, scale(cosine, f), scale(cosine, d), rho, sine * climb)
-
-
-@inlined
 def misses(surface: SurfaceRow, ray: Ray) -> bool:
     """Whether the ray certainly misses the side and all that it encloses."""
-    _, _, f, d, rho, rise = quadratic_terms(surface, ray)
+    axis, arm = vector(surface.b), subtract(ray.origin, vector(surface.a))
+    cosine, sine = surface.c[0], surface.c[1]
+    height, f = split_along(axis, arm)
+    climb, d = split_along(axis, ray.direction)
+    f, d, rho, rise = scale(cosine, f), scale(cosine, d), cosine * surface.r + sine * height, sine * climb
     bend = length(subtract(scale(rho, d), scale(rise, f)))
-    beside = abs(dot(vector(surface.b), cross(f, d)))  # f and d are across the axis, so f x d is along it
-    reach = length(subtract(ray.origin, vector(surface.a))) + abs(rho)
+    beside = abs(dot(axis, cross(f, d)))  # f and d are across the axis, so f x d is along it
+    reach = length(arm) + abs(rho)
     goes_along = surface.count == CLOSED and length(d) <= abs(rise)  # steeper than the side: it may stay inside
     return bend + ROUGH * reach < beside and not goes_along
 
@@ -212,8 +206,7 @@ def next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
     line = line_of(surface, ray)
     if surface.count == CLOSED:
         return max(inside(line).leave[0], 0.0) + 0.0
-    a = dd_subtract(dd_dot(line.f1, line.f1), dd_multiply(line.p1, line.p1))
-    b = dd_subtract(dd_dot(line.f0, line.f1), dd_multiply(line.p0, line.p1))
+    a, b, _ = coefficients(line)
     if a[0] <= 0.0 or b[0] >= 0.0:
         return math.inf
     t = dd_quotient((-2.0 * b[0], -2.0 * b[1]), a)

@@ -20,8 +20,10 @@ from tracer.formulas.double_double import (
     dd_add,
     dd_cross,
     dd_dot,
+    dd_minus,
     dd_multiply,
     dd_quotient,
+    dd_scale,
     dd_sqrt,
     dd_subtract,
     dd_vector,
@@ -60,16 +62,6 @@ class Crossings(NamedTuple):
 
 
 @inlined
-def scaled(a: DDVector, k: DD) -> DDVector:
-    return (dd_multiply(a[0], k), dd_multiply(a[1], k), dd_multiply(a[2], k))
-
-
-@inlined
-def minus(a: DDVector, b: DDVector) -> DDVector:
-    return (dd_subtract(a[0], b[0]), dd_subtract(a[1], b[1]), dd_subtract(a[2], b[2]))
-
-
-@inlined
 def shrunk(high: float, low: float, exponent: int) -> DD:
     """A number times 2^-exponent."""
     return (math.ldexp(high, -exponent), math.ldexp(low, -exponent))
@@ -91,10 +83,20 @@ def line_of(surface: SurfaceRow, ray: Ray) -> Line:
         (math.ldexp(square[0], e), math.ldexp(square[1], e)),
         s0,
         s1,
-        minus(scaled(f, square), scaled(w, s0)),
-        minus(scaled(d, square), scaled(w, s1)),
+        dd_minus(dd_scale(square, f), dd_scale(s0, w)),
+        dd_minus(dd_scale(square, d), dd_scale(s1, w)),
         dd_add(dd_multiply((surface.r, 0.0), square), dd_multiply(growth, s0)),
         dd_multiply(growth, s1),
+    )
+
+
+@inlined
+def coefficients(line: Line) -> tuple[DD, DD, DD]:
+    """A, B and C of the quadratic of the side."""
+    return (
+        dd_subtract(dd_dot(line.f1, line.f1), dd_multiply(line.p1, line.p1)),
+        dd_subtract(dd_dot(line.f0, line.f1), dd_multiply(line.p0, line.p1)),
+        dd_subtract(dd_dot(line.f0, line.f0), dd_multiply(line.p0, line.p0)),
     )
 
 
@@ -105,10 +107,8 @@ def side_roots(line: Line) -> tuple[DD, DD, float, bool]:
     Where A is 0 there is one root, and the other is infinite, on the side to which the ray gets farther from the axis.
     """
     noinline()
-    a = dd_subtract(dd_dot(line.f1, line.f1), dd_multiply(line.p1, line.p1))
-    b = dd_subtract(dd_dot(line.f0, line.f1), dd_multiply(line.p0, line.p1))
-    c = dd_subtract(dd_dot(line.f0, line.f0), dd_multiply(line.p0, line.p0))
-    bend = minus(scaled(line.f1, line.p0), scaled(line.f0, line.p1))
+    a, b, c = coefficients(line)
+    bend = dd_minus(dd_scale(line.p0, line.f1), dd_scale(line.p1, line.f0))
     beside = dd_cross(line.f0, line.f1)
     discriminant = dd_subtract(dd_dot(bend, bend), dd_dot(beside, beside))
     if not discriminant[0] >= 0.0:
@@ -155,7 +155,7 @@ def inside(line: Line) -> Crossings:
         else:
             leave = low
     elif a == 0.0:  # it runs along the axis of a cylinder
-        off = dd_subtract(dd_dot(line.f0, line.f0), dd_multiply(line.p0, line.p0))
+        _, _, off = coefficients(line)
         if off[0] > 0.0:
             return Crossings(NEVER, ALWAYS, SIDE, SIDE)
     enter_face = leave_face = SIDE
@@ -185,7 +185,7 @@ def height_above_side(surface: SurfaceRow, ray: Ray, t: float) -> float:
     line = line_of(surface, ray)
     p = dd_add(line.p0, dd_multiply(line.p1, (t, 0.0)))
     f = line.f0
-    g = scaled(line.f1, (t, 0.0))
+    g = dd_scale((t, 0.0), line.f1)
     f = (dd_add(f[0], g[0]), dd_add(f[1], g[1]), dd_add(f[2], g[2]))
     off = dd_subtract(dd_dot(f, f), dd_multiply(p, p))
     across = math.sqrt(max(f[0][0] * f[0][0] + f[1][0] * f[1][0] + f[2][0] * f[2][0], 0.0))

@@ -10,7 +10,15 @@ import numpy as np
 from tracer import fields
 from tracer.compile.intrinsics import noinline
 from tracer.compile.jit import compiled
-from tracer.formulas.double_double import dd_dot, dd_multiply, dd_subtract, dd_vector, exact_difference
+from tracer.formulas.double_double import (
+    dd_dot,
+    dd_minus,
+    dd_multiply,
+    dd_scale,
+    dd_subtract,
+    dd_vector,
+    exact_difference,
+)
 from tracer.formulas.exact import Exact, dot as exact_dot, exact, minus
 from tracer.formulas.vector import Vector, add, dot, length, rescale, scale, subtract, unit, vector
 from tracer.rays import Ray
@@ -90,11 +98,7 @@ def is_within_rim(surface: SurfaceRow, ray: Ray) -> bool:
     arm, d = exact_difference(ray.origin, vector(surface.a)), dd_vector(ray.direction)
     height, speed = dd_dot(normal, arm), dd_dot(normal, d)
     # All times the speed, so that no division is needed.
-    q = (
-        dd_subtract(dd_multiply(arm[0], speed), dd_multiply(d[0], height)),
-        dd_subtract(dd_multiply(arm[1], speed), dd_multiply(d[1], height)),
-        dd_subtract(dd_multiply(arm[2], speed), dd_multiply(d[2], height)),
-    )
+    q = dd_minus(dd_scale(speed, arm), dd_scale(height, d))
     radius = dd_multiply((surface.b[0], 0.0), speed)
     return dd_subtract(dd_dot(q, q), dd_multiply(radius, radius))[0] <= 0.0
 

@@ -90,7 +90,10 @@ class Mesh(Shape):
 
     def vertices(self) -> np.ndarray:
         """The vertices (n, 3), after placement."""
-        return self.scale * self.geometry.vertices @ rotation_matrix(self.rotate).T + self.translate
+        return self._moved(self.geometry.vertices)
+
+    def _moved(self, points: np.ndarray) -> np.ndarray:
+        return self.scale * points @ rotation_matrix(self.rotate).T + self.translate
 
     def pack(self, rows: np.ndarray) -> None:
         pack_triangles(rows, self.placed())
@@ -133,7 +136,7 @@ class Mesh(Shape):
         return self.is_closed() & (np.abs(winding_numbers(self.placed(), points)) > 0.5)
 
     def may_touch(self, points: np.ndarray, row: int) -> np.ndarray:
-        corners = self.vertices()[self.geometry.faces[row]]
+        corners = self._moved(self.geometry.vertices[self.geometry.faces[row]])
         return may_lie_in_plane(points, as_floats(corners[0]), as_floats(unit_normal(corners)))
 
     def touches(self, p: Exact, row: int) -> bool:

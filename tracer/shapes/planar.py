@@ -4,7 +4,8 @@ Packed as a = a point of the plane, normal + normal_low = its unit normal, r = |
 
 t = n.(a - o) / n.d. Where a ray starts nearer to the plane than rounding can tell, the sign of this t means nothing,
 and no threshold could replace it: in the corner of a room the next wall must be hit at once, at the edge of a cube
-it must not. The corners decide: a ray that leaves face A starts on that side of face B on which A lies.
+it must not. The corners decide: a ray that leaves face A starts on that side of face B on which A lies. Where A
+lies on both sides, the way by which the ray has come decides: it has not crossed B yet.
 """
 
 import math
@@ -261,5 +262,5 @@ def heights(points: np.ndarray, point: Vector, normal: Vector) -> np.ndarray:
 
 def may_lie_in_plane(points: np.ndarray, point: Vector, normal: Vector) -> np.ndarray:
     """Whether rounding can tell each point (n, 3) from the points of a plane."""
-    error = 2.0 * PLANE_ERROR * (np.abs(points).sum(axis=1) + np.abs(point).sum())
-    return np.abs(heights(points, point, normal)) <= 2.0 * error
+    error = PLANE_ERROR * (np.abs(points).sum(axis=1) + np.abs(point).sum())
+    return np.abs(heights(points, point, normal)) <= 4.0 * error

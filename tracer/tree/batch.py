@@ -9,12 +9,11 @@ from tracer.compile.rows import as_rows
 from tracer.formulas.vector import VectorLike
 from tracer.kernel.entry import Batch, trace_rays_in_turn
 from tracer.kernel.limits import MAX_NODES, make_limits
-from tracer.kernel.nodes import NODE, PUBLIC, NodeRow
+from tracer.kernel.nodes import NODE, NodeRow
 from tracer.kernel.workspace import Eye, Workspace
 from tracer.kernel.world import World
-from tracer.tree.error_propagation import propagate_errors
 from tracer.tree.raytree import RayTree
-from tracer.tree.trace import fill_angles, trace
+from tracer.tree.trace import public_rows
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -77,31 +76,21 @@ def trace_rays(
         raise ValueError("origins must be finite")
     rays = np.concatenate([starts, unit_directions(ways)], axis=1)
     limits = make_limits(world, depth, min_weight, None, max_nodes, model, records=True)
-    solids, on_surface = world.eyes(starts)
     batch = Batch(np.zeros(len(rays) + 1, np.int64), np.zeros(len(rays)), np.zeros(1, np.int64))
-    workspace = Workspace(Eye(np.zeros(solids.shape[1], np.int64), np.zeros(0, np.int64)))
+    eyes = world.eyes(starts)
+    workspace = Workspace(Eye(np.zeros(eyes.solids.shape[1], np.int64), eyes.surfaces[:0]))
     table = np.zeros(2 * len(rays) + 64, NODE)
     while True:
         into = as_rows(table, NodeRow)
-        ended = trace_rays_in_turn(world.arrays, limits, rays, solids, into, batch, workspace.space)
+        ended = trace_rays_in_turn(world.arrays, limits, rays, eyes, into, batch, workspace.space)
         if ended == 0:
             break
         if ended < 0:
             workspace.grow()
         else:
             table = np.concatenate([table, np.zeros(len(table), NODE)])
-    count = int(batch.starts[-1])
-    propagate_errors(world.arrays, as_rows(table, NodeRow), count)
-    nodes = np.zeros(count, PUBLIC)
-    for name in PUBLIC.names or ():
-        nodes[name] = table[name][:count]
-    fill_angles(nodes)
-    trees = RayTrees(world, nodes, batch.starts, batch.residuals, limits.depth, MODELS[limits.model])
-    if on_surface.any():
-        options = {"depth": depth, "min_weight": min_weight, "max_nodes": max_nodes, "model": model}
-        trees = _with_single_trees(trees, rays, np.flatnonzero(on_surface), options)
-    trees.nodes.flags.writeable = False
-    return trees
+    nodes = public_rows(world, table, int(batch.starts[-1]))
+    return RayTrees(world, nodes, batch.starts, batch.residuals, limits.depth, MODELS[limits.model])
 
 
 def unit_directions(ways: np.ndarray) -> np.ndarray:
@@ -113,18 +102,3 @@ def unit_directions(ways: np.ndarray) -> np.ndarray:
     x, y, z = np.ldexp(ways, -exponent[:, None]).T
     length = np.sqrt(x * x + y * y + z * z)
     return np.stack([x / length, y / length, z / length], axis=1)
-
-
-def _with_single_trees(trees: RayTrees, rays: np.ndarray, which: np.ndarray, options: dict) -> RayTrees:
-    """The same with some trees traced one by one: those whose eye lies exactly on a surface."""
-    single = {int(k): trace(trees.world, ray=(rays[k, :3].tolist(), rays[k, 3:].tolist()), **options) for k in which}
-    pieces, starts, residuals, first = [], trees.starts.copy(), trees.residuals.copy(), 0
-    for k in range(len(trees)):
-        tree = single.get(k) or trees.tree(k)
-        nodes = tree.nodes.copy()
-        nodes["id"] += first
-        nodes["parent"][1:] += first
-        pieces.append(nodes)
-        first += len(nodes)
-        starts[k + 1], residuals[k] = first, tree.residual
-    return RayTrees(trees.world, np.concatenate(pieces), starts, residuals, trees.depth, trees.model)

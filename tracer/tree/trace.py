@@ -63,12 +63,7 @@ def trace(
     trace_list(world.arrays, view, limits, points, one_pixel(x, y, first, first + 1), workspace)
     space = workspace.arrays
     count = int(space.tree[0])
-    propagate_errors(world.arrays, as_rows(space.table, NodeRow), count)
-    nodes = np.zeros(count, PUBLIC)
-    for name in PUBLIC.names or ():
-        nodes[name] = space.table[name][:count]
-    fill_angles(nodes)
-    nodes.flags.writeable = False
+    nodes = public_rows(world, space.table, count)
     residual = float(space.tree[1])
     reached = limits.depth if depth is not None or tolerance is None else int(nodes["depth"].max())
     image_size = (camera.width, camera.height)
@@ -84,7 +79,18 @@ def _ray_view(origin: Sequence[float], direction: Sequence[float]) -> View:
     return ray_view((numbers[0], numbers[1], numbers[2]), unit(rescale(numbers[3:])))
 
 
-def fill_angles(nodes: np.ndarray) -> None:
+def public_rows(world: World, table: np.ndarray, count: int) -> np.ndarray:
+    """The first `count` rows of a node table as readers get them, with errors and angles."""
+    propagate_errors(world.arrays, as_rows(table, NodeRow), count)
+    nodes = np.zeros(count, PUBLIC)
+    for name in PUBLIC.names or ():
+        nodes[name] = table[name][:count]
+    _fill_angles(nodes)
+    nodes.flags.writeable = False
+    return nodes
+
+
+def _fill_angles(nodes: np.ndarray) -> None:
     """Compute theta1 and theta2 from the recorded vectors. Readers need them, images do not."""
     hit = np.flatnonzero(np.isfinite(nodes["normal"][:, 0]))
     d, n = nodes["direction"][hit], nodes["normal"][hit]

@@ -94,7 +94,7 @@ def trs(translation: np.ndarray, rotation: np.ndarray, scale: np.ndarray) -> np.
 
 
 def instance_count(placed: Placed, accessors: Accessors) -> int:
-    """How often a node's mesh is shown: once, or once for each instance (EXT_mesh_gpu_instancing)."""
+    """The number of times that a node's mesh is shown: one, or one for each instance (EXT_mesh_gpu_instancing)."""
     attributes = placed.node.item("extensions").item(INSTANCING).item("attributes")
     for key in ("TRANSLATION", "ROTATION", "SCALE"):
         if attributes.has(key):

@@ -54,7 +54,9 @@ def read_gltf(path: Path, progress: Callable[[float], None]) -> MeshFile:
     scene_notes = Notes()
     camera, image = camera_and_image(document, nodes, scene_notes)
     lights = lights_of(document, nodes, kept, scene_notes)
-    return MeshFile(kept, notes.lines(), scene_notes.lines(), tuple(accessors.files), camera, image, lights)
+    return MeshFile(
+        kept, notes.lines(), tuple(accessors.files), camera, image, lights, scene_notes=tuple(scene_notes.lines())
+    )
 
 
 def check_extensions(document: Item, notes: Notes) -> None:
