@@ -243,7 +243,10 @@ class Reader:
         if found.camera or found.lights:
             notes.append("camera and lights of a mesh file are not taken over into a scene file")
         self.notes.update(dict.fromkeys(f"{shown_path(path.name)}: {note}" for note in notes))
-        return part_objects(found.parts, **values)
+        objects = part_objects(found.parts, **values)
+        for fault in dict.fromkeys(fault for item in objects for fault in item.shape.faults()):
+            self.fault(where, fault)
+        return objects
 
 
 def known(names: Iterable[str]) -> str:

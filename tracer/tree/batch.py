@@ -69,9 +69,15 @@ def trace_rays(
     Each tree equals that of `tracer.trace`, to the last bit. ValueError for a ray without a direction, numbers that are
     not finite, or another shape.
     """
-    starts, ways = np.broadcast_arrays(np.asarray(origins, np.float64), np.asarray(directions, np.float64))
-    if starts.ndim != 2 or starts.shape[1] != 3:
-        raise ValueError(f"origins and directions must have the shape (n, 3), got {starts.shape}")
+    given = np.asarray(origins, np.float64), np.asarray(directions, np.float64)
+    try:
+        starts, ways = np.broadcast_arrays(*given)
+        fits = starts.ndim == 2 and starts.shape[1] == 3
+    except ValueError:
+        fits = False
+    if not fits:
+        shapes = " and ".join(str(array.shape) for array in given)
+        raise ValueError(f"origins and directions must have the shape (n, 3), got {shapes}")
     if not np.isfinite(starts).all():
         raise ValueError("origins must be finite")
     rays = np.concatenate([starts, unit_directions(ways)], axis=1)

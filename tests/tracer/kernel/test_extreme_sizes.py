@@ -51,7 +51,9 @@ def test_a_tiny_smooth_mirror_reflects(size: float) -> None:
 def test_a_placement_beyond_the_largest_number_is_refused_by_file_and_vertex(tmp_path) -> None:
     write(tmp_path / "a.obj", obj().replace("v 1 ", "v 1e100 "))
     text = 'format = 1\n[[object]]\nshape = "mesh"\nfile = "a.obj"\nscale = 1e100\n'
-    with pytest.raises(tracer.SceneError, match=r"object\[0\].*: a.obj: vertex \d+ must be placed within 1e\+150"):
+    with pytest.raises(
+        tracer.SceneError, match=r"a.toml: object\[0\]: a.obj: vertex \d+ must be placed within 1e\+150"
+    ):
         tracer.prepare(tracer.load(write(tmp_path / "a.toml", text)))
 
 
