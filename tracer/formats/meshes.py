@@ -14,10 +14,11 @@ import numpy as np
 from tracer.formats import MESH_READERS, OTHER_MESHES
 from tracer.formats.mesh_part import MOST_FACES, MeshFile, Part
 from tracer.formats.source import Fault, shown_path
+from tracer.formulas.rotation import rotation_matrix
 from tracer.formulas.vector import Vector, as_floats
 from tracer.scene import Camera, Light, Object, Scene, SceneError
 from tracer.scene.defaults import default_lights, default_surroundings
-from tracer.shapes.mesh import Body, Mesh, rotation_matrix
+from tracer.shapes.mesh import Body, Mesh
 
 UP = {"y": (0.0, 0.0, 0.0), "z": (-90.0, 0.0, 0.0)}  # rotation that makes this axis point upwards
 

@@ -8,9 +8,11 @@ import math
 from typing import Any, NamedTuple
 
 from tracer.compile.jit import inlined
-from tracer.formulas.vector import Vector, add, as_floats, cross, rescale, scale, subtract, unit
+from tracer.formulas.double_double import U
+from tracer.formulas.vector import Vector, add, as_floats, cross, dot, length, rescale, scale, subtract, unit
 
 BATCH = 64  # pixels whose directions are computed together
+FRAME_ROUNDING = 3.0  # rounding errors of the cross product that gives the camera's frame, in u
 
 
 class View(NamedTuple):
@@ -43,6 +45,21 @@ def pixel_direction(view: View, x: float, y: float) -> Vector:
     u = (2.0 * x - view.width) / view.height
     v = (view.height - 2.0 * y) / view.height
     return unit(add(view.forward, add(scale(u, view.right), scale(v, view.up))))
+
+
+def direction_error(view: View, given_up: Vector, direction: Vector) -> float:
+    """Bound on the rounding error of `pixel_direction` due to the camera's frame, to first order, in radians.
+
+    The frame turns about the line of sight by the error of its cross product over the sine of the angle to `given_up`,
+    the author's `up`. The half height of the image is a tangent, whose condition number is 2x / sin 2x.
+    """
+    aside = length(cross(view.forward, unit(rescale(given_up))))
+    off_axis = length(cross(view.forward, direction))
+    half = length(view.up)
+    tangent = math.atan(half) * (1.0 + half * half) / half
+    twist = FRAME_ROUNDING / aside if aside > 0.0 else 0.0
+    stretch = tangent * abs(dot(view.forward, direction))
+    return U * off_axis * (twist + stretch)
 
 
 @inlined

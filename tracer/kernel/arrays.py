@@ -16,6 +16,7 @@ class ObjectRow(Row):
     tiled: Bool  # whether its checkers lie along u and v
     u: Float3
     v: Float3
+    placed: Bool  # whether it is a mesh whose vertices were moved, and so rounded
 
 
 class MaterialRow(Row):

@@ -44,8 +44,6 @@ def start_row(
         row.theta1 = math.nan
         row.theta2 = math.nan
         row.radicand = math.nan
-        row.error = math.nan
-        row.turn = math.nan
     return row
 
 

@@ -16,8 +16,8 @@ SURFACE, BACKGROUND, DEPTH, WEIGHT, TOLERANCE, NODES, INVALID, LIT, FILTERED, BL
 NONE = -1
 
 
-class PublicRow(Row):
-    """The fields that readers see."""
+class RecordedRow(Row):
+    """The fields that the kernel writes and readers see."""
 
     id: Int64
     parent: Int64
@@ -40,12 +40,24 @@ class PublicRow(Row):
     local: Float3  # local illumination
     radiance: Float3  # local + sum of factor * radiance over the children that are no shadow rays
     end: Int32  # as ENDS numbers them
-    error: Float  # estimated rounding error of `point`, a length
-    turn: Float  # estimated rounding error of `direction`, radians
 
 
-class NodeRow(PublicRow):
-    """All fields: those of readers, and those that only the kernel uses."""
+class PublicRow(RecordedRow):
+    """The fields that readers see: what was recorded, and what `tracer.tree` tells about it afterwards.
+
+    An error is a bound to first order on the rounding error (`tracer.tree.error_propagation`); of a colour, on that of
+    its largest component.
+    """
+
+    error: Float  # of `point`, a length
+    turn: Float  # of `direction`, radians
+    factor_error: Float
+    weight_error: Float
+    radiance_error: Float
+
+
+class NodeRow(RecordedRow):
+    """The fields of the kernel: what it records for readers, and what only it uses."""
 
     start: Int32  # id of the surface that the ray leaves, -1 for the eye; of coincident surfaces the first
     approach: Float3  # as in `tracer.rays.Ray`

@@ -11,6 +11,7 @@ from tracer.formulas.vector import Vector, cross, rescale, unit
 from tracer.kernel.arrays import LIGHT, MATERIAL, OBJECT, LightRow, MaterialRow, ObjectRow
 from tracer.scene import Light, Material, Object, Scene, Shape
 from tracer.shapes import CODES
+from tracer.shapes.mesh import Mesh
 from tracer.shapes.surface_row import SURFACE, SurfaceRow
 
 INFINITE = np.array([[[-np.inf] * 3, [np.inf] * 3]])  # stands for the bounds of an infinite shape
@@ -87,6 +88,8 @@ def pack_objects(objects: Sequence[Object], materials: dict[Material, int]) -> R
         if item.shape.checker_in_plane and (plane := item.shape.plane()):
             rows[k]["tiled"] = True
             rows[k]["u"], rows[k]["v"] = plane_axes(plane[1])
+        if isinstance(item.shape, Mesh):
+            rows[k]["placed"] = item.shape.is_placed()
     return as_rows(rows, ObjectRow)
 
 

@@ -3,7 +3,6 @@
 The author names the file and its placement: the mesh is scaled, then rotated about x, y and z, then translated.
 """
 
-import math
 from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
@@ -11,6 +10,7 @@ import numpy as np
 
 from tracer import fields
 from tracer.formulas.exact import Exact, exact, is_in_outline
+from tracer.formulas.rotation import placed, rotation_matrix
 from tracer.formulas.vector import Vector, as_floats
 from tracer.shapes.planar import may_lie_in_plane, unit_normal
 from tracer.shapes.shape import Shape
@@ -77,6 +77,7 @@ class Mesh(Shape):
     rotate: Vector = field(default=(0.0, 0.0, 0.0), metadata=fields.point())  # degrees about x, then y, then z
     translate: Vector = field(default=(0.0, 0.0, 0.0), metadata=fields.point())
     body: Body | None = None  # None: the mesh is alone
+    _vertices: list[np.ndarray] = field(init=False, default_factory=list, repr=False)  # cache of `vertices`
 
     @classmethod
     def example(cls) -> "Mesh":
@@ -90,10 +91,18 @@ class Mesh(Shape):
 
     def vertices(self) -> np.ndarray:
         """The vertices (n, 3), after placement."""
-        return self._moved(self.geometry.vertices)
+        if not self.is_placed():
+            return self.geometry.vertices
+        if not self._vertices:
+            self._vertices.append(self._moved(self.geometry.vertices))
+        return self._vertices[0]
 
     def _moved(self, points: np.ndarray) -> np.ndarray:
-        return self.scale * points @ rotation_matrix(self.rotate).T + self.translate
+        return placed(points, self.scale, self.rotate, self.translate)
+
+    def is_placed(self) -> bool:
+        """Whether its vertices are other than in the file, and so rounded."""
+        return self.scale != 1.0 or any(self.rotate) or any(self.translate)
 
     def pack(self, rows: np.ndarray) -> None:
         pack_triangles(rows, self.placed())
@@ -102,7 +111,7 @@ class Mesh(Shape):
         if self.geometry.normals is None:
             return None
         indices = self.geometry.faces if self.geometry.normal_faces is None else self.geometry.normal_faces
-        return (self.geometry.normals @ rotation_matrix(self.rotate).T)[indices]
+        return placed(self.geometry.normals, 1.0, self.rotate, (0.0, 0.0, 0.0))[indices]
 
     def all_faces(self) -> np.ndarray:
         """The corners (n, 3, 3) of all faces before placement: those with an area, then those without."""
@@ -120,11 +129,12 @@ class Mesh(Shape):
         """Only of the placement: the vertices themselves are checked by readers."""
         with np.errstate(over="ignore", invalid="ignore"):
             vertices = self.vertices()
-        beyond = ~(np.abs(vertices) <= fields.LARGEST).all(axis=1)
-        if not beyond.any():
-            return []
-        k = int(beyond.argmax())
-        place = " ".join(f"{x:g}" for x in vertices[k])
+            beyond = ~(np.abs(vertices) <= fields.LARGEST).all(axis=1)
+            if not beyond.any():
+                return []
+            k = int(beyond.argmax())
+            roughly = self.scale * rotation_matrix(self.rotate) @ self.geometry.vertices[k] + self.translate
+        place = " ".join(f"{x:g}" for x in roughly)
         return [f"{self.file}: vertex {k} must be placed within {fields.LARGEST:g}, got {place}"]
 
     def contains(self, p: np.ndarray) -> bool:
@@ -158,17 +168,3 @@ class Mesh(Shape):
         _, which = np.unique(np.round(planes, 5) + 0.0, axis=0, return_inverse=True)
         groups = [corners[which.ravel() == k] for k in range(int(which.max()) + 1)]
         return [tuple(Triangle(tuple(map(tuple, t))) for t in group.tolist()) for group in groups]
-
-
-def rotation_matrix(degrees: Vector) -> np.ndarray:
-    """The matrix (3, 3) that rotates about x, then y, then z. Exact for multiples of 90 degrees."""
-    turn = np.eye(3)
-    for axis, angle in enumerate(degrees):
-        c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
-        if angle % 90.0 == 0.0:
-            c, s = float(round(c)), float(round(s))
-        i, j = (axis + 1) % 3, (axis + 2) % 3
-        step = np.eye(3)
-        step[i, i], step[i, j], step[j, i], step[j, j] = c, -s, s, c
-        turn = step @ turn
-    return turn

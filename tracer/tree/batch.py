@@ -95,7 +95,7 @@ def trace_rays(
             workspace.grow()
         else:
             table = np.concatenate([table, np.zeros(len(table), NODE)])
-    nodes = public_rows(world, table, int(batch.starts[-1]))
+    nodes = public_rows(world, table, int(batch.starts[-1]), limits.model)
     return RayTrees(world, nodes, batch.starts, batch.residuals, limits.depth, MODELS[limits.model])
 
 

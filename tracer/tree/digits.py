@@ -40,8 +40,19 @@ def degrees_text(radians: float, error: float = 0.0) -> str:
     return f"{math.degrees(radians):.{decimals}f}°" if decimals >= 0 else "?"
 
 
-def rgb_text(rgb: Sequence[float] | np.ndarray, shorten: bool = False) -> str:
-    """Three numbers; with `shorten` a single one where all three are equal."""
-    if shorten and rgb[0] == rgb[1] == rgb[2]:
-        return f"{rgb[0]:.4g}"
-    return " ".join(f"{x:.4f}" for x in rgb)
+def color_decimals(error: float) -> int:
+    """The number of correct decimals of a colour, up to 4; -1 for none."""
+    if not error > 0.0:
+        return 4
+    return min(4, math.floor(-math.log10(error))) if error < 1.0 else -1
+
+
+def rgb_text(rgb: Sequence[float] | np.ndarray, error: float = 0.0) -> str:
+    """A colour with four decimals, or as many as are correct; "?" for none."""
+    decimals = color_decimals(error)
+    return " ".join(f"{x:.{decimals}f}" if decimals >= 0 else "?" for x in rgb)
+
+
+def weight_text(rgb: Sequence[float] | np.ndarray, error: float = 0.0) -> str:
+    """A weight: one number where its three components are equal."""
+    return number_text(float(rgb[0]), error) if rgb[0] == rgb[1] == rgb[2] else rgb_text(rgb, error)

@@ -4,11 +4,19 @@ A ray that is shifted by dp and turned by dd meets the next surface shifted by d
 the surface. There the normal differs, and with it the rays sent on (ray differentials: Igehy, SIGGRAPH 99). Each
 rounding adds an error of its own.
 
-The errors at a hit are summed in a matrix C over the six numbers (dp, dd): C is the sum of e e' over all errors e,
-each propagated to this hit. A hit maps C to J C J', a rounding adds its own e e'. By Cauchy's inequality (e1 + ... +
-en)^2 <= n (e1^2 + ... + en^2), so whatever the signs of the n errors, their sum is no longer than sqrt(n tr C).
-Errors that can add up do so, and errors that a concave mirror brings together again do not grow. So both a chaotic
-bounce between balls and a million bounces in a light guide are estimated correctly.
+Lemma. Let e1 ... en be the rounding errors on the way to a hit, each no longer than its bound b_j in u below, and J_j
+the derivative of the hit's (point, direction) by e_j. To first order the hit is off by J_1 e1 + ... + J_n en. Let C be
+the sum of b_j^2 J_j J_j', and lambda its largest eigenvalue. Then the hit is off by at most sqrt(n lambda): along a
+unit vector w the sum is at most that of b_j |J_j' w|, and the square of a sum of n numbers is at most n times the sum
+of their squares, here w'C w. `error` and `turn` are this bound for the point and for the direction.
+
+Assumptions: all decisions were right (`tracer.tree.margins`), and the errors are so small that the derivatives are
+constant over them. A grazing hit whose error is not small compared with its distance to the silhouette breaks the
+second.
+
+C is a 6 x 6 matrix over (dp, dd), and is propagated itself: a hit maps C to J C J', a rounding adds its own. Errors
+that can add up do so, and errors that a concave mirror brings together again do not grow. So both a chaotic bounce
+between balls and a million bounces in a light guide are estimated correctly.
 """
 
 import math
@@ -19,16 +27,16 @@ import numpy as np
 from tracer.compile.jit import compiled, inlined, kernel
 from tracer.compile.rows import Numbers, Rows
 from tracer.formulas.double_double import U
-from tracer.formulas.vector import Vector, add, dot, scale, subtract, vector
+from tracer.formulas.vector import Vector, dot, vector
 from tracer.kernel.arrays import Arrays
 from tracer.kernel.node_rows import rounding_scale
-from tracer.kernel.nodes import BLOCKED, REFRACTION, SHADOW, NodeRow
-from tracer.kernel.shadows import light_direction
-from tracer.rays import make_ray
-from tracer.shapes import interaction, normal_derivative
+from tracer.kernel.nodes import SHADOW, NodeRow, PublicRow
 from tracer.shapes.planar import HIT
+from tracer.shapes.triangle import mesh_normal_rounding, placement_error
+from tracer.tree.step_derivatives import Step, make_step, normal_error, outgoing_turn, scattered_turn, transferred
 
-# Rounding errors of one step, in u: of the incoming direction as the surface takes it, and of the outgoing direction.
+# Bounds on the rounding errors of one step, in u: of the incoming direction as the surface takes it, and of the
+# outgoing direction, with that of the normal it was computed from.
 INCOMING, OUTGOING = 1.0, 2.0
 
 
@@ -40,28 +48,17 @@ class PropagationSpace(NamedTuple):
     waiting: np.ndarray  # for each row, the number of its children still to come
     free: np.ndarray  # stack of unused slots
     work: np.ndarray  # (6, 6)
+    errors: np.ndarray  # for each row, the number n of rounding errors on the way to its hit
+    bends: np.ndarray  # for each row, the error of the normal at its hit, in radians
 
 
-class Step(NamedTuple):
-    """One ray, from the hit that sent it out to its own hit, with all that its Jacobians need."""
+def propagate_errors(
+    world: Arrays, table: Rows[NodeRow], told: Rows[PublicRow], count: int, first_turn: float
+) -> np.ndarray:
+    """Fill in `error` and `turn` of the first `count` rows of a node table, which may have several trees.
 
-    kind: int
-    d: Vector  # direction of the parent ray
-    n: Vector  # normal at the parent's hit, on the side of d
-    eta: float  # n1/n2 there
-    c1: float  # cosines of incidence and refraction there
-    c2: float
-    direction: Vector  # of this ray
-    t: float
-    end_normal: Vector  # normal at this ray's hit
-    start: int  # id of the surface that the ray leaves, -1 for the eye
-    side: float
-    point: Vector  # the ray's origin
-    light_distance: float  # of a shadow ray
-
-
-def propagate_errors(world: Arrays, table: Rows[NodeRow], count: int) -> None:
-    """Fill in `error` and `turn` of the first `count` rows of a node table, which may have several trees."""
+    The camera rays are off by `first_turn`, besides their rounding. Returns the errors of the normals (count,).
+    """
     parent = table["parent"].view(np.ndarray)[:count]
     below = np.flatnonzero(parent >= 0)
     parent = parent[below]
@@ -78,15 +75,26 @@ def propagate_errors(world: Arrays, table: Rows[NodeRow], count: int) -> None:
         waiting,
         np.arange(slots, dtype=np.int64),
         np.zeros((6, 6)),
+        np.zeros(count),
+        np.zeros(count),
     )
     first = table[0]
     size = first.magnitude + (first.t if math.isfinite(first.t) else 0.0)
     unit_length = math.ldexp(1.0, math.frexp(size)[1]) if 0.0 < size < math.inf else 1.0
-    propagate_rows(world, table, count, unit_length, space)
+    propagate_rows(world, table, told, count, unit_length, first_turn, space)
+    return space.bends
 
 
 @kernel
-def propagate_rows(world: Arrays, table: Rows[NodeRow], count: int, length: float, space: PropagationSpace) -> None:
+def propagate_rows(
+    world: Arrays,
+    table: Rows[NodeRow],
+    told: Rows[PublicRow],
+    count: int,
+    length: float,
+    first_turn: float,
+    space: PropagationSpace,
+) -> None:
     """`propagate_errors`, with lengths in units of `length`, a power of two near the scene's size: no square
     underflows.
     """
@@ -96,14 +104,15 @@ def propagate_rows(world: Arrays, table: Rows[NodeRow], count: int, length: floa
         free -= 1
         slot = space.free[free]
         here = space.matrices[slot]
-        propagate_row(world, table, i, length, space, here)
-        shift = here[0, 0] + here[1, 1] + here[2, 2]
-        turn = here[3, 3] + here[4, 4] + here[5, 5]
-        steps = row.depth + 1.0
-        row.error = math.sqrt(steps * shift) * length if 0.0 <= shift < math.inf else math.inf
-        row.turn = math.sqrt(steps * turn) if 0.0 <= turn < math.inf else math.inf
+        propagate_row(world, table, i, length, first_turn, space, here)
+        shift, turn = largest_eigenvalue(here, 0), largest_eigenvalue(here, 3)
+        errors, out = space.errors[i], told[i]
+        out.error = math.sqrt(errors * shift) * length if 0.0 <= shift < math.inf else math.inf
+        out.turn = math.sqrt(errors * turn) if 0.0 <= turn < math.inf else math.inf
         if not row.t < math.inf:
-            row.error = math.nan
+            out.error = math.nan
+        elif row.kind != SHADOW:
+            space.bends[i] = normal_error(world, row, out.error)
         space.slots[i] = slot
         parent = row.parent
         if parent >= 0:
@@ -117,8 +126,32 @@ def propagate_rows(world: Arrays, table: Rows[NodeRow], count: int, length: floa
 
 
 @compiled
+def largest_eigenvalue(c: Numbers, first: int) -> float:
+    """The largest eigenvalue of the 3 x 3 block of a symmetric matrix that begins at (first, first).
+
+    By the cosine of a third of an angle (O. K. Smith, CACM 4(4), 1961). At most the trace, and at least a third of it.
+    """
+    x, y, z = c[first, first], c[first + 1, first + 1], c[first + 2, first + 2]
+    xy, yz, zx = c[first, first + 1], c[first + 1, first + 2], c[first + 2, first]
+    mean = (x + y + z) / 3.0
+    x, y, z = x - mean, y - mean, z - mean
+    spread = math.sqrt((x * x + y * y + z * z + 2.0 * (xy * xy + yz * yz + zx * zx)) / 6.0)
+    if not 0.0 < spread < math.inf:
+        return mean
+    x, y, z, xy, yz, zx = x / spread, y / spread, z / spread, xy / spread, yz / spread, zx / spread
+    half = 0.5 * (x * (y * z - yz * yz) - xy * (xy * z - yz * zx) + zx * (xy * yz - y * zx))
+    return mean + 2.0 * spread * math.cos(math.acos(min(max(half, -1.0), 1.0)) / 3.0)
+
+
+@compiled
 def propagate_row(
-    world: Arrays, table: Rows[NodeRow], i: int, length: float, space: PropagationSpace, here: Numbers
+    world: Arrays,
+    table: Rows[NodeRow],
+    i: int,
+    length: float,
+    first_turn: float,
+    space: PropagationSpace,
+    here: Numbers,
 ) -> None:
     """Compute in `here` the matrix C at row i's hit, from the one at its parent's."""
     row, c = table[i], space.work
@@ -127,18 +160,28 @@ def propagate_row(
         for b in range(6):
             c[a, b] = space.matrices[space.slots[parent], a, b] if parent >= 0 else 0.0
     step = make_step(world, table, i)
+    errors = 2.0
     if parent >= 0:
+        errors += space.errors[parent] + 1.0
         add_rounding(c, 0.0, INCOMING * U)
         apply_jacobian(world, step, length, c, True)
+        own_bend = mesh_normal_rounding(world, table[parent].surface, vector(table[parent].point))
+        if own_bend > 0.0 and step.kind != SHADOW:
+            errors += 1.0
+            add_bend(c, step, own_bend)
+    elif first_turn > 0.0:
+        errors += 1.0
+        add_rounding(c, 0.0, first_turn)
     add_rounding(c, 0.0, OUTGOING * U)
     apply_jacobian(world, step, length, c, False)
     n_dot_d = abs(dot(step.end_normal, step.direction))
     if row.t < math.inf:
         # At grazing incidence, a small shift of the ray is a large one along the surface.
-        own = HIT * U * rounding_scale(row) / length
+        own = (HIT * U * rounding_scale(row) + placement_error(world, row.surface)) / length
         if step.end_normal != (0.0, 0.0, 0.0):  # not the end of a shadow ray at its light
             own = own / n_dot_d if n_dot_d > 0.0 else math.inf
         add_rounding(c, own, 0.0)
+    space.errors[i] = errors
     for a in range(6):
         for b in range(6):
             here[a, b] = c[a, b]
@@ -177,76 +220,11 @@ def add_rounding(c: Numbers, point: float, direction: float) -> None:
 
 
 @inlined
-def make_step(world: Arrays, table: Rows[NodeRow], i: int) -> Step:
-    """The step of row i."""
-    row = table[i]
-    direction = vector(row.direction)
-    nowhere = (0.0, 0.0, 0.0)
-    end_normal = nowhere
-    if row.kind == SHADOW:
-        if row.end == BLOCKED and row.t > 0.0:
-            approach, earlier = vector(row.approach), vector(row.before)
-            ray = make_ray(vector(row.origin), direction, row.start, row.side, row.magnitude, approach, earlier)
-            _, end_normal, _ = interaction(world, world.surfaces[row.surface], ray, row.t)
-    elif row.surface >= 0:
-        end_normal = vector(row.face_normal)
-    t = row.t if row.t < math.inf else 0.0
-    parent = table[max(row.parent, 0)]
-    d, n = vector(parent.direction), vector(parent.normal)
-    eta = parent.n1 / parent.n2 if row.kind == REFRACTION else 1.0
-    light_distance = math.inf
-    if row.kind == SHADOW:
-        _, light_distance = light_direction(world.lights[row.light], vector(row.origin))
-    c2 = math.sqrt(max(parent.radicand, 0.0)) if row.kind == REFRACTION else 1.0
-    return Step(
-        row.kind,
-        d,
-        n,
-        eta,
-        -dot(n, d),
-        c2,
-        direction,
-        t,
-        end_normal,
-        parent.surface,
-        parent.hit_side,
-        vector(parent.point),
-        light_distance,
-    )
-
-
-@inlined
-def outgoing_turn(world: Arrays, step: Step, length: float, dp: Vector, dd: Vector) -> Vector:
-    """The turn of a ray whose origin is shifted by dp (in units of `length`), and whose parent ray is turned by dd."""
-    if step.kind == SHADOW:
-        if step.light_distance == 0.0:
-            return (0.0, 0.0, 0.0)  # the light is at the ray's origin: it has no direction
-        return scale(-length / step.light_distance, subtract(dp, scale(dot(dp, step.direction), step.direction)))
-    dn = scale(step.side, normal_derivative(world, world.surfaces[step.start], step.point, scale(length, dp)))
-    return scattered_turn(step, dn, dd)
-
-
-@inlined
-def transferred(step: Step, length: float, dp: Vector, dd: Vector) -> Vector:
-    """The shift of a hit point if its ray is shifted by dp and turned by dd: it slides along the ray to the surface."""
-    shifted = add(dp, scale(step.t / length, dd))
-    n_dot_d = dot(step.end_normal, step.direction)
-    if n_dot_d == 0.0:
-        return shifted
-    return subtract(shifted, scale(dot(step.end_normal, shifted) / n_dot_d, step.direction))
-
-
-@inlined
-def scattered_turn(step: Step, dn: Vector, dd: Vector) -> Vector:
-    """The turn of a reflected or refracted ray, where the normal is turned by dn and the incoming ray by dd."""
-    n = step.n
-    dc1 = -(dot(dn, step.d) + dot(n, dd))
-    if step.kind != REFRACTION:
-        # r = d + 2 c1 n
-        return add(dd, add(scale(2.0 * dc1, n), scale(2.0 * step.c1, dn)))
-    if step.c2 == 0.0 or step.eta == 1.0:
-        return dd
-    # t = eta d + (eta c1 - c2) n, c2^2 = 1 - eta^2 (1 - c1^2)
-    dc2 = step.eta * step.eta * step.c1 * dc1 / step.c2
-    bend = step.eta * step.c1 - step.c2
-    return add(scale(step.eta, dd), add(scale(step.eta * dc1 - dc2, n), scale(bend, dn)))
+def add_bend(c: Numbers, step: Step, bend: float) -> None:
+    """Add the turn of the ray sent out that an error of the normal makes, in any direction."""
+    for k in range(3):
+        dn = (bend if k == 0 else 0.0, bend if k == 1 else 0.0, bend if k == 2 else 0.0)
+        turn = scattered_turn(step, dn, (0.0, 0.0, 0.0))
+        for a in range(3):
+            for b in range(3):
+                c[a + 3, b + 3] += turn[a] * turn[b]

@@ -32,6 +32,11 @@ class TreeTable:
         """The colour of the pixel, linear RGB (3,)."""
         return self.nodes["radiance"][0]
 
+    @property
+    def radiance_error(self) -> float:
+        """Bound to first order on the rounding error of the colour's components."""
+        return float(self.nodes["radiance_error"][0])
+
     @cached_property
     def radiance_bound(self) -> RadianceBound:
         """The most that a ray of the scene can bring."""

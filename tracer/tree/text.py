@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 
 from tracer.kernel.nodes import NODES, SHADOW
-from tracer.tree.digits import degrees_text, number_text, rgb_text
+from tracer.tree.digits import degrees_text, number_text, rgb_text, weight_text
 from tracer.tree.table import TreeTable
 
 HEADINGS = ("ray", "meets", "distance", "index", "angle", "weight", "radiance (r g b)", "why it ends")
@@ -71,7 +71,7 @@ def _head(tree: TreeTable) -> list[str]:
     where = f"{tree.place} of {tree.size[0]}x{tree.size[1]}" if tree.pixel else tree.place
     rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
     head = [f"{tree.scene.caption}: {where}, depth {tree.depth}, {tree.model}, {rays}"]
-    head.append(f"colour {rgb_text(tree.radiance)} (linear r g b); {cut_summary(tree)}")
+    head.append(f"colour {rgb_text(tree.radiance, tree.radiance_error)} (linear r g b); {cut_summary(tree)}")
     lost = [i for i in range(len(tree)) if tree.object_name(i) and tree.nodes["error"][i] > 0.0 and tree.digits(i) == 0]
     if lost:
         head.append(
@@ -133,8 +133,8 @@ def _row(tree: TreeTable, i: int, stem: str) -> tuple[str, ...]:
         number_text(row["t"], row["error"]),
         "" if shadow else _pair(number_text(row["n1"]), number_text(row["n2"])),
         "" if shadow else _pair(degrees_text(row["theta1"], row["turn"]), degrees_text(row["theta2"], row["turn"])),
-        rgb_text(row["weight"], shorten=True),
-        rgb_text(row["radiance"]),
+        weight_text(row["weight"], row["weight_error"]),
+        rgb_text(row["radiance"], row["radiance_error"]),
         end_reason(tree, i),
     )
 

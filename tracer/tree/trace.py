@@ -7,16 +7,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from tracer.choices import MODELS, SAMPLERS, SOBOL
-from tracer.compile.rows import as_rows
-from tracer.formulas.camera import View
+from tracer.compile.rows import as_rows, dtype_of
+from tracer.formulas.camera import View, direction_error
 from tracer.formulas.sampler import PIXEL_CENTER, make_sampler
-from tracer.formulas.vector import rescale, unit
+from tracer.formulas.vector import rescale, unit, vector
 from tracer.kernel.entry import one_pixel, ray_view, trace_list
 from tracer.kernel.limits import MAX_NODES, make_limits
-from tracer.kernel.nodes import PUBLIC, NodeRow
+from tracer.kernel.nodes import PUBLIC, NodeRow, PublicRow, RecordedRow
 from tracer.kernel.workspace import Workspace
 from tracer.kernel.world import World
 from tracer.tree.error_propagation import propagate_errors
+from tracer.tree.light_errors import propagate_light_errors
 from tracer.tree.raytree import RayTree
 
 
@@ -63,7 +64,8 @@ def trace(
     trace_list(world.arrays, view, limits, points, one_pixel(x, y, first, first + 1), workspace)
     space = workspace.arrays
     count = int(space.tree[0])
-    nodes = public_rows(world, space.table, count)
+    turn = 0.0 if pixel is None else direction_error(camera, world.scene.camera.up, vector(space.table["direction"][0]))
+    nodes = public_rows(world, space.table, count, limits.model, turn)
     residual = float(space.tree[1])
     reached = limits.depth if depth is not None or tolerance is None else int(nodes["depth"].max())
     image_size = (camera.width, camera.height)
@@ -79,12 +81,17 @@ def _ray_view(origin: Sequence[float], direction: Sequence[float]) -> View:
     return ray_view((numbers[0], numbers[1], numbers[2]), unit(rescale(numbers[3:])))
 
 
-def public_rows(world: World, table: np.ndarray, count: int) -> np.ndarray:
-    """The first `count` rows of a node table as readers get them, with errors and angles."""
-    propagate_errors(world.arrays, as_rows(table, NodeRow), count)
+def public_rows(world: World, table: np.ndarray, count: int, model: int, first_turn: float = 0.0) -> np.ndarray:
+    """The first `count` rows of a node table as readers get them, with errors and angles.
+
+    The camera rays are off by `first_turn`, besides their rounding.
+    """
     nodes = np.zeros(count, PUBLIC)
-    for name in PUBLIC.names or ():
+    for name in dtype_of(RecordedRow).names or ():
         nodes[name] = table[name][:count]
+    rows, told = as_rows(table, NodeRow), as_rows(nodes, PublicRow)
+    bends = propagate_errors(world.arrays, rows, told, count, first_turn)
+    propagate_light_errors(world.arrays, rows, told, count, model, bends)
     _fill_angles(nodes)
     nodes.flags.writeable = False
     return nodes

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tracer.tree.digits import degree_decimals, significant_digits
+from tracer.tree.digits import color_decimals, degree_decimals, significant_digits
 
 NO_DIGITS = "no digit left"  # for a number that is all rounding error
 
@@ -59,9 +59,15 @@ def _fixed(x: float, decimals: int) -> str:
     return text.lstrip("-") if float(text) == 0.0 else text.replace("-", "−")
 
 
-def format_weight(rgb: np.ndarray) -> str:
-    """One number if the three are equal, otherwise all of them."""
-    return format_number(float(rgb[0])) if rgb[0] == rgb[1] == rgb[2] else format_rgb(rgb, 4)
+def format_color(rgb: Sequence[float] | np.ndarray, error: float) -> str:
+    """A colour with four decimals, or as many as `error` leaves."""
+    decimals = color_decimals(error)
+    return format_rgb(rgb, decimals) if decimals >= 0 else NO_DIGITS
+
+
+def format_weight(rgb: np.ndarray, error: float = 0.0) -> str:
+    """One number if the three are equal, otherwise all of them; with no digits that `error` makes uncertain."""
+    return format_number(float(rgb[0]), error=error) if rgb[0] == rgb[1] == rgb[2] else format_color(rgb, error)
 
 
 def format_pair(first: str, second: str) -> str:

@@ -7,7 +7,8 @@ from tracer.formulas.vector import vector
 from tracer.kernel.world import World
 from tracer.scene import Material
 from tracer.tree.raytree import RayTree
-from viewer.base.wording import format_number, format_rgb, format_weight
+from viewer.base.wording import format_color, format_number, format_rgb, format_weight
+from viewer.explain.scattering import local_error
 from viewer.explain.sections import Section
 
 
@@ -35,8 +36,10 @@ def local_light(tree: RayTree, world: World, i: int) -> Section:
             detail = f"N·L {format_number(n_l, 3)}, R·V {format_number(max(r_v, 0.0), 3)}"
             if tree.end(child) == "filtered":
                 detail += f", × {format_number(tree.nodes['factor'][child][0], 3)} through glass (S)"
-        section.add(f"{name}: {detail}", format_rgb(tree.nodes["radiance"][child], 4))
-    section.add("local", format_rgb(row["local"], 4))
+        section.add(
+            f"{name}: {detail}", format_color(tree.nodes["radiance"][child], tree.nodes["radiance_error"][child])
+        )
+    section.add("local", format_color(row["local"], local_error(tree, i)))
     return section
 
 
@@ -58,8 +61,10 @@ def one_light(tree: RayTree, world: World, i: int, j: int) -> Section:
     highlight = material.specular * r_v**material.shininess if r_v > 0.0 else 0.0
     section.add("R·V", format_number(r_v))
     section.add(f"ks (R·V)ᵖ, p = {format_number(material.shininess)}", f"{highlight:.4f}")
-    section.add("S: fraction that arrives", format_weight(tree.nodes["factor"][child]))
-    section.add("contribution", format_rgb(tree.nodes["radiance"][child], 4))
+    section.add(
+        "S: fraction that arrives", format_weight(tree.nodes["factor"][child], tree.nodes["factor_error"][child])
+    )
+    section.add("contribution", format_color(tree.nodes["radiance"][child], tree.nodes["radiance_error"][child]))
     return section
 
 

@@ -11,9 +11,17 @@ from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from tracer.tree.text import END_REASONS
 from viewer.base.theme import STYLES
-from viewer.base.wording import format_angle, format_number, format_pair, format_point, format_rgb, format_weight
+from viewer.base.wording import (
+    format_angle,
+    format_color,
+    format_number,
+    format_pair,
+    format_point,
+    format_rgb,
+    format_weight,
+)
 from viewer.explain.lighting import local_light, one_light
-from viewer.explain.scattering import direction_error, scattering_sections
+from viewer.explain.scattering import brought_error, direction_error, local_error, scattering_sections
 from viewer.explain.sections import Section
 
 KIND_NAMES = {
@@ -69,9 +77,9 @@ def ray_numbers(tree: RayTree, i: int) -> Section:
         section.add("θ₁ → θ₂", format_pair(format_angle(row["theta1"], turn), format_angle(row["theta2"], turn)))
         if not math.isnan(row["radicand"]):
             section.add("1 − η²(1 − c₁²)", format_number(row["radicand"]))
-    section.add("factor", format_weight(row["factor"]))
-    section.add("weight", format_weight(row["weight"]))
-    section.add("radiance", format_rgb(row["radiance"], 4))
+    section.add("factor", format_weight(row["factor"], row["factor_error"]))
+    section.add("weight", format_weight(row["weight"], row["weight_error"]))
+    section.add("radiance", format_color(row["radiance"], row["radiance_error"]))
     section.add("ends", END_REASONS[tree.end(i)] or "no: it has children")
     section.add("path", tree.path(i))
     return section
@@ -95,13 +103,14 @@ def _sum(tree: RayTree, i: int) -> Section:
     if tree.end(i) == "background":
         section.add("background", format_rgb(row["radiance"], 4))
         return section
-    section.add("local", format_rgb(row["local"], 4))
+    section.add("local", format_color(row["local"], local_error(tree, i)))
     for child in tree.children[i]:
         below = tree.nodes[child]
         if below["kind"] != SHADOW:
+            factor = format_weight(below["factor"], below["factor_error"])
             section.add(
-                f"+ {format_weight(below['factor'])} × ray {child} ({STYLES[tree.kind(child)].letter})",
-                format_rgb(below["factor"] * below["radiance"], 4),
+                f"+ {factor} × ray {child} ({STYLES[tree.kind(child)].letter})",
+                format_color(below["factor"] * below["radiance"], brought_error(below)),
             )
-    section.add("=", format_rgb(row["radiance"], 4))
+    section.add("=", format_color(row["radiance"], row["radiance_error"]))
     return section

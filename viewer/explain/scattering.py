@@ -11,6 +11,7 @@ from tracer.choices import MODELS
 from tracer.formulas import optics
 from tracer.formulas.double_double import U
 from tracer.formulas.vector import vector
+from tracer.kernel.nodes import SHADOW
 from tracer.scene import Material
 from tracer.tree.raytree import RayTree
 from viewer.base.wording import format_angle, format_number, format_point
@@ -20,6 +21,19 @@ from viewer.explain.sections import Section
 def direction_error(tree: RayTree, i: int) -> float:
     """The largest estimated rounding error of the directions at hit i: of the ray itself and of those it sends out."""
     return float(max(tree.nodes["turn"][k] for k in (i, *tree.children[i])))
+
+
+def brought_error(row: np.void) -> float:
+    """Bound on the rounding error of what a ray brings its parent: its factor times its radiance."""
+    return float(row["factor"].max() * row["radiance_error"] + row["factor_error"] * row["radiance"].max())
+
+
+def local_error(tree: RayTree, i: int) -> float:
+    """Bound on the rounding error of the local term at hit i: of its radiance, less that of the rays that it sends
+    out.
+    """
+    below = [tree.nodes[k] for k in tree.children[i] if tree.nodes["kind"][k] != SHADOW]
+    return max(float(tree.nodes["radiance_error"][i]) - sum(map(brought_error, below)), 0.0)
 
 
 def scattering_sections(tree: RayTree, i: int) -> list[Section]:

@@ -34,7 +34,7 @@ def description(tree: RayTree) -> str:
     counts = [(kinds.count(kind), words) for kind, words in KINDS]
     made_of = ", ".join(f"{count} {words}" for count, words in counts if count)
     rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
-    return f"{rays}: {made_of}. The pixel's colour is {rgb_text(tree.radiance)} (linear r g b)."
+    return f"{rays}: {made_of}. The pixel's colour is {rgb_text(tree.radiance, tree.radiance_error)} (linear r g b)."
 
 
 KINDS = (

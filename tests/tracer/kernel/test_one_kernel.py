@@ -88,11 +88,11 @@ def check_sums(tree: tracer.RayTree) -> None:
 
 
 def check_prefix(shallow: tracer.RayTree, deep: tracer.RayTree) -> None:
-    """The rows of depth d are the first rows of depth d+1, equal except for `end` and `radiance`."""
+    """The rows of depth d are the first rows of depth d+1, equal except for `end`, `radiance` and its error."""
     rows = len(shallow)
     assert rows <= len(deep)
     for field in shallow.nodes.dtype.names or ():
-        if field not in ("end", "radiance"):
+        if field not in ("end", "radiance", "radiance_error"):
             assert same_bits(shallow.nodes[field], deep.nodes[field][:rows]), field
     assert (deep.nodes["depth"][rows:] == deep.depth).all()
 

@@ -10,10 +10,11 @@ import tracer
 from tests.scenes import cone, disc, random_cone, world_of
 from tests.tracer.kernel.test_best_first import random_world
 from tests.tracer.kernel.test_scale import LENGTHS, scaled
+from tracer.formulas.rotation import rotation_matrix as turn_of
 from tracer.formulas.vector import Vector, vector
 from tracer.scene import Light, Material, Object, Scene, Shape
 from tracer.shapes.box import Box
-from tracer.shapes.mesh import Geometry, Mesh, rotation_matrix as turn_of
+from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere

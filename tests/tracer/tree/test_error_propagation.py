@@ -73,17 +73,16 @@ def test_error_of_a_first_hit_is_that_of_its_closed_form(slope: float) -> None:
 
     A rotation by 2 moves the hit by 2 t, projected along the ray onto the floor by 1/c. The hit has 2 of its
     distance as its own error, over c. The direction to the lamp turns by the sideways movement over L, and by 2 of
-    its own.
+    its own. The errors, 2 to the hit and 3 more to the lamp, may all add up.
     """
     floor = plane((0, 0, 0), (0, 1, 0), Material("floor", diffuse=1.0))
     world = world_of(floor, lights=[Light("lamp", position=(0.0, 4.0, 0.0))])
     tree = tracer.trace(world, ray=((-1, slope, 0), (1, -slope, 0)), depth=0)
     t, c = math.hypot(1.0, slope), slope / math.hypot(1.0, slope)
     way = 1.0 + slope + t
-    moved = 4.0 * t * t * (1.0 + c**-2) + 12.0 * (way / c) ** 2
-    assert tree.nodes["error"][0] == pytest.approx(U * math.sqrt(moved), rel=1e-9, abs=0.0)
-    across = moved - 4.0 * (way / c) ** 2
-    assert tree.nodes["turn"][1] == pytest.approx(U * math.sqrt(across / 16.0 + 12.0), rel=1e-9, abs=0.0)
+    moved = 4.0 * (t * t + way * way) / (c * c)
+    assert tree.nodes["error"][0] == pytest.approx(U * math.sqrt(2.0 * moved), rel=1e-9, abs=0.0)
+    assert tree.nodes["turn"][1] == pytest.approx(U * math.sqrt(5.0 * (moved / 16.0 + 4.0)), rel=1e-9, abs=0.0)
 
 
 @pytest.mark.parametrize("gap", [1.0, 8.0])
@@ -91,18 +90,19 @@ def test_errors_of_a_straight_bounce_are_those_of_its_closed_form(gap: float) ->
     """To and fro across a gap L between two mirrors: a ray rotated by e hits its k-th wall k L e aside.
 
     Squares, in u^2: each ray has a rotation of 2, all but the first 1 more. Each hit is moved by 2 of its distance,
-    L and then 2 L, as a wall is L off the origin. The errors of n steps may all add up: n times the sum of their
-    squares.
+    L and then 2 L, as a wall is L off the origin. The errors, 2 to the first hit and 3 to each other, may all add
+    up: their number times the sum of their squares, across the ray.
     """
     world = world_of(plane((0, 0, 0), (1, 0, 0), MIRROR, "left"), plane((gap, 0, 0), (-1, 0, 0), MIRROR, "right"))
     tree = tracer.trace(world, ray=((0.5 * gap, 0, 0), (1, 0, 0)), depth=50)
     for k, row in enumerate(tree.nodes):
         turned = 4.0 * (k + 0.5) ** 2 + 5.0 * sum(float(j) ** 2 for j in range(1, k + 1))
         placed = 4.0 + 16.0 * k
-        along = 4.0 if k == 0 else 16.0  # only the last of these: the projection onto the next wall removes it
-        expected = U * gap * math.sqrt((k + 1) * (2.0 * (turned + placed) + along))
-        assert row["error"] == pytest.approx(expected, rel=1e-12, abs=0.0)
-        turn = U * math.sqrt((k + 1) * 3.0 * (4.0 + 5.0 * k))
+        errors = 2 + 3 * k
+        expected = U * gap * math.sqrt(errors * (turned + placed))
+        # Two eigenvalues are equal: their formula has half of the digits.
+        assert row["error"] == pytest.approx(expected, rel=math.sqrt(U), abs=0.0)
+        turn = U * math.sqrt(errors * (4.0 + 5.0 * k))
         assert row["turn"] == pytest.approx(turn, rel=1e-12, abs=0.0)
 
 

@@ -20,7 +20,7 @@ from viewer.figures.writers.dot import write_dot
 FIELDS = [
     "id", "parent", "kind", "depth", "origin", "direction", "t", "point", "normal", "object", "light", "n1", "n2",
     "theta1", "theta2", "factor", "weight", "radicand", "local", "radiance", "end", "error", "turn",
-    "path",
+    "factor_error", "weight_error", "radiance_error", "path",
 ]  # fmt: skip
 
 
@@ -56,7 +56,7 @@ def test_json_has_every_field_and_reads_back_to_the_same_bits(tree: tracer.RayTr
         assert node["end"] in (None, *ENDS)
         for name in ("origin", "direction", "factor", "weight", "local", "radiance"):
             assert node[name] == row[name].tolist()
-        for name in ("t", "n1", "n2", "radicand", "error", "turn"):
+        for name in ("t", "n1", "n2", "radicand", "error", "turn", "factor_error", "weight_error", "radiance_error"):
             assert node[name] == (None if math.isnan(row[name]) else row[name])
         for name in ("point", "normal"):
             assert node[name] == (None if np.isnan(row[name]).any() else row[name].tolist())

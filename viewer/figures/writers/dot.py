@@ -16,14 +16,18 @@ def write_dot(tree: RayTree) -> str:
     for i in range(len(tree)):
         row = tree.nodes[i]
         met = tree.object_name(i) or tree.end(i) or ""
-        label = f"{met}\n{rgb_text(row['radiance'])}"
+        label = f"{met}\n{rgb_text(row['radiance'], row['radiance_error'])}"
         style = "dashed" if row["kind"] == SHADOW else "solid"
         if row["kind"] == SHADOW:
             label = f"{tree.light_name(i)}\n{end_reason(tree, i)}" + (
                 f" by {met}" if tree.end(i) == "blocked" and not tree.faces_away(i) else ""
             )
         parent = "eye" if row["parent"] < 0 else f"n{row['parent']}"
-        factor = "" if row["parent"] < 0 or row["kind"] == SHADOW else f" × {number_text(row['factor'].max())}"
+        factor = (
+            ""
+            if row["parent"] < 0 or row["kind"] == SHADOW
+            else f" × {number_text(row['factor'].max(), row['factor_error'])}"
+        )
         lines.append(f"  n{i} [label={_quoted(label)}];")
         lines.append(f"  {parent} -> n{i} [label={_quoted(tree.kind(i) + factor)}, style={style}];")
     return "\n".join([*lines, "}"]) + "\n"
