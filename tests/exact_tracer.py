@@ -1,13 +1,14 @@
 """The judge of whole trees: Whitted's recursion with 50 digits, from the scene and the camera as written.
 
-It shares no code with the tracer, decides everything itself by trying every surface, and knows no hierarchy and no
-tolerance: distances below NOTHING are 0, and distances that differ by less are equal. A transparent object bounds one
+It shares no code with the tracer, decides everything itself by trying every surface, and knows no hierarchy. Distances
+below NOTHING of the scene's size are 0, and distances that differ by less are equal. A transparent object bounds one
 solid.
 """
 
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
 from mpmath import mp, mpf
 
 from tests.exact_scene import Surface, V, add, cross, dot, mul, newell, norm, sub, surfaces, unit, vec
@@ -66,6 +67,9 @@ class Judge:
         self.scene, self.depth, self.model = scene, depth, model or scene.tracing.model
         self.surfaces = surfaces(scene)
         self.closed = [item.shape.is_closed() for item in scene.objects]
+        boxes = [item.shape.bounds() for item in scene.objects]
+        points = [scene.camera.position or (1.0, 1.0, 1.0), *(box for box in boxes if box is not None)]
+        self.nothing = NOTHING * max(float(np.abs(point).max()) for point in points)
 
     def tree(self, origin: V, direction: V) -> Ray:
         inside = frozenset(k for k, item in enumerate(self.scene.objects) if self.starts_inside(k, item, origin))
@@ -93,7 +97,7 @@ class Judge:
         found = []
         for order, s in enumerate(self.surfaces):
             for t, n, shading in s.crossings(origin, direction):
-                if t > NOTHING:
+                if t > self.nothing:
                     found.append((t, order, s, n, shading))
         found.sort(key=lambda hit: (hit[0], hit[1]))
         return [(t, s, n, shading) for t, _, s, n, shading in found]
@@ -104,7 +108,7 @@ class Judge:
         hits = self.hits(ray.origin, ray.direction)
         while hits:
             t = hits[0][0]
-            here = [hit for hit in hits if hit[0] - t <= NOTHING * (1 + t)]
+            here = [hit for hit in hits if hit[0] - t <= self.nothing]
             hits = hits[len(here) :]
             opaque = [hit for hit in here if self.material(hit[1]).transmit == 0]
             sheets = [hit for hit in here if self.scene.objects[hit[1].owner].thin]
@@ -236,7 +240,7 @@ class Judge:
             if t >= distance:
                 break
             kt = mpf(0) if self.scene.tracing.shadows == "block" else mpf(self.material(s).transmit)
-            if owner != s.owner or t - last > NOTHING * (1 + t):
+            if owner != s.owner or t - last > self.nothing:
                 share *= kt
             last, owner = t, s.owner
         return share

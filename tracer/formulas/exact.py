@@ -27,15 +27,20 @@ def cross(a: Exact, b: Exact) -> Exact:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
+def area(corners: Sequence[Exact]) -> Exact:
+    """Twice the area vector of an outline (Newell's rule). It points to where the corners are counter-clockwise."""
+    arms = [minus(corner, corners[0]) for corner in corners]
+    total = exact((0, 0, 0))
+    for part in (cross(a, b) for a, b in pairwise(arms[1:])):
+        total = (total[0] + part[0], total[1] + part[1], total[2] + part[2])
+    return total
+
+
 def is_in_outline(p: Exact, corners: Sequence[Exact]) -> bool:
     """Whether a point lies in a polygon or on its sides. It lies in the plane of the polygon if it lies in that of the
     first corner with the area vector as normal.
     """
-    arms = [minus(corner, corners[0]) for corner in corners]
-    parts = [cross(a, b) for a, b in pairwise(arms[1:])]
-    normal = exact((0, 0, 0))
-    for part in parts:
-        normal = (normal[0] + part[0], normal[1] + part[1], normal[2] + part[2])
+    normal = area(corners)
     if dot(normal, minus(p, corners[0])) != 0:
         return False
     drop = max(range(3), key=lambda k: abs(normal[k]))

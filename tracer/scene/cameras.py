@@ -4,6 +4,7 @@ is visible.
 
 import math
 import operator
+from dataclasses import replace
 
 from tracer.formulas.camera import View, make_view
 from tracer.formulas.vector import Vector, add, cross, rescale, scale, unit
@@ -18,14 +19,21 @@ def scene_view(scene: Scene, extent: tuple[Vector, float], size: tuple[int, int]
     `extent` is (centre, radius) of the scene; `size` is (width, height) in pixels, by default the scene's own.
     ValueError for a size below 1x1.
     """
-    camera = scene.camera
     width, height = (operator.index(value) for value in size or (scene.image.width, scene.image.height))
     if width < 1 or height < 1:
         raise ValueError(f"size must be at least 1x1, got {width}x{height}")
+    camera = placed_camera(scene, extent, (width, height))
+    assert camera.position is not None and camera.look_at is not None
+    return make_view(camera.position, camera.look_at, camera.up, camera.fov, (width, height))
+
+
+def placed_camera(scene: Scene, extent: tuple[Vector, float], size: tuple[int, int]) -> Camera:
+    """The scene's camera with a position and a target, for an image of this size."""
+    camera = scene.camera
     middle, radius = extent
     look_at = camera.look_at or middle
-    position = camera.position or framing_position(camera, look_at, radius, (width, height))
-    return make_view(position, look_at, camera.up, camera.fov, (width, height))
+    position = camera.position or framing_position(camera, look_at, radius, size)
+    return replace(camera, position=position, look_at=look_at)
 
 
 def framing_position(camera: Camera, look_at: Vector, radius: float, size: tuple[int, int]) -> Vector:

@@ -6,7 +6,7 @@ import numpy as np
 
 from tracer.choices import MODELS
 from tracer.compile.rows import as_rows
-from tracer.formulas.vector import VectorLike
+from tracer.formulas.vector import VectorLike, vector
 from tracer.kernel.entry import Batch, trace_rays_in_turn
 from tracer.kernel.limits import MAX_NODES, make_limits
 from tracer.kernel.nodes import NODE, NodeRow
@@ -28,6 +28,8 @@ class RayTrees:
     nodes: np.ndarray  # the rows of all trees, one tree after another; `id` and `parent` count from the first row
     starts: np.ndarray  # (n + 1,) the first row of each tree, and the end of the last one
     residuals: np.ndarray  # (n,) of each tree, as `RayTree.residual`
+    origins: np.ndarray  # (n, 3) of the rays, as given
+    directions: np.ndarray  # (n, 3)
     depth: int
     model: str
 
@@ -50,7 +52,9 @@ class RayTrees:
         nodes["parent"][1:] -= first
         nodes.flags.writeable = False
         size = self.world.view().width, self.world.view().height
-        return RayTree(nodes, float(self.residuals[k]), self.world.scene, self.depth, self.model, None, size)
+        ray = (vector(self.origins[k]), vector(self.directions[k]))
+        scene, residual = self.world.scene, float(self.residuals[k])
+        return RayTree(nodes, residual, scene, self.depth, self.model, None, size, ray=ray)
 
 
 def trace_rays(
@@ -96,7 +100,7 @@ def trace_rays(
         else:
             table = np.concatenate([table, np.zeros(len(table), NODE)])
     nodes = public_rows(world, table, int(batch.starts[-1]), limits.model)
-    return RayTrees(world, nodes, batch.starts, batch.residuals, limits.depth, MODELS[limits.model])
+    return RayTrees(world, nodes, batch.starts, batch.residuals, starts, ways, limits.depth, MODELS[limits.model])
 
 
 def unit_directions(ways: np.ndarray) -> np.ndarray:

@@ -26,6 +26,8 @@ class TreeTable:
     pixel: tuple[int, int] | None  # None: a ray given by hand
     size: tuple[int, int]  # of the image, width and height
     tolerance: float | None = None  # the residual asked for; the rows are then in order of tracing
+    image_point: tuple[float, float] = (0.0, 0.0)  # the point of the image that the ray goes through, in pixels
+    ray: tuple[Vector, Vector] | None = None  # a ray by hand: origin and direction as given
 
     @property
     def radiance(self) -> np.ndarray:

@@ -9,8 +9,8 @@ import numpy as np
 from tracer.choices import MODELS, SAMPLERS, SOBOL
 from tracer.compile.rows import as_rows, dtype_of
 from tracer.formulas.camera import View, direction_error
-from tracer.formulas.sampler import PIXEL_CENTER, make_sampler
-from tracer.formulas.vector import rescale, unit, vector
+from tracer.formulas.sampler import PIXEL_CENTER, make_sampler, sample_offset
+from tracer.formulas.vector import as_floats, rescale, unit, vector
 from tracer.kernel.entry import one_pixel, ray_view, trace_list
 from tracer.kernel.limits import MAX_NODES, make_limits
 from tracer.kernel.nodes import PUBLIC, NodeRow, PublicRow, RecordedRow
@@ -69,7 +69,19 @@ def trace(
     residual = float(space.tree[1])
     reached = limits.depth if depth is not None or tolerance is None else int(nodes["depth"].max())
     image_size = (camera.width, camera.height)
-    return RayTree(nodes, residual, world.scene, reached, MODELS[limits.model], pixel and (x, y), image_size, tolerance)
+    dx, dy = (0.5, 0.5) if sample is None else sample_offset(x, y, sample, points)
+    return RayTree(
+        nodes,
+        residual,
+        world.scene,
+        reached,
+        MODELS[limits.model],
+        pixel and (x, y),
+        image_size,
+        tolerance,
+        (x + float(dx), y + float(dy)),
+        None if ray is None else (as_floats(ray[0]), as_floats(ray[1])),
+    )
 
 
 def _ray_view(origin: Sequence[float], direction: Sequence[float]) -> View:

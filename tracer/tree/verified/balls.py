@@ -1,0 +1,120 @@
+"""Ball arithmetic: numbers with a radius that surely contains the exact value (F. Johansson's Arb, by python-flint).
+
+A ball is a `flint.arb`. A comparison of balls is true only if it holds for all their values, so of `a < b` and
+`a >= b` both may be false. Square roots, quotients and powers through 0 give nan: callers decide the sign first.
+"""
+
+import math
+from collections.abc import Iterable
+from contextlib import AbstractContextManager
+from typing import Any
+
+Ball = Any  # flint.arb
+BallVector = tuple[Ball, Ball, Ball]
+
+PRECISIONS = (128, 512)  # bits; the next is tried where decisions are left open
+
+
+class MissingExtra(ImportError):
+    """python-flint is not installed."""
+
+
+def flint() -> Any:
+    """The library, loaded when a tree is verified. MissingExtra if it is not installed."""
+    try:
+        import flint
+    except ImportError as error:
+        raise MissingExtra("verified trees need the extra raytree[verify]: pip install 'raytree[verify]'") from error
+    return flint
+
+
+def precision(bits: int) -> AbstractContextManager[None]:
+    """A context in which balls have this many bits."""
+    return flint().ctx.workprec(bits)
+
+
+def ball(x: float) -> Ball:
+    """A float without rounding."""
+    return flint().arb(x)
+
+
+def balls(values: Iterable[float]) -> BallVector:
+    """Three floats without rounding."""
+    arb = flint().arb
+    x, y, z = (arb(float(value)) for value in values)
+    return (x, y, z)
+
+
+def add(a: BallVector, b: BallVector) -> BallVector:
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def subtract(a: BallVector, b: BallVector) -> BallVector:
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def scale(k: Ball, a: BallVector) -> BallVector:
+    return (k * a[0], k * a[1], k * a[2])
+
+
+def dot(a: BallVector, b: BallVector) -> Ball:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: BallVector, b: BallVector) -> BallVector:
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def square(a: BallVector) -> Ball:
+    return a[0] ** 2 + a[1] ** 2 + a[2] ** 2
+
+
+def unit(a: BallVector) -> BallVector:
+    """nan if the vector may be 0."""
+    return scale(1 / square(a).sqrt(), a)
+
+
+def sign(x: Ball) -> int | None:
+    """-1, 0 or +1; None if the ball does not tell."""
+    if x > 0:
+        return 1
+    if x < 0:
+        return -1
+    return 0 if x.is_zero() else None
+
+
+def anywhere() -> Ball:
+    """A ball around all numbers."""
+    arb = flint().arb
+    return arb.neg_inf().union(arb.pos_inf())
+
+
+def nowhere() -> BallVector:
+    """A vector of which nothing is known."""
+    nan = flint().arb.nan()
+    return (nan, nan, nan)
+
+
+def between(low: Ball, high: Ball) -> Ball:
+    """A ball around all numbers between two balls."""
+    return low.union(high)
+
+
+def power(base: Ball, exponent: float) -> Ball:
+    """max(base, 0) to a positive power, taken at the ends of the base's range."""
+    top = base.upper()
+    if not top > 0:
+        return ball(0.0)
+    bottom, p = base.lower(), ball(exponent)
+    low = bottom**p if bottom > 0 else ball(0.0)
+    return between(low, top**p)
+
+
+def bounds(x: Ball) -> tuple[float, float]:
+    """Floats below and above all values of a ball; (-inf, inf) for nan."""
+    if not x.is_finite():
+        return (-math.inf, math.inf)
+    low, high = float(x.lower()), float(x.upper())
+    if x.is_exact() and ball(low) == x:
+        return (low, low)
+    return (math.nextafter(low, -math.inf), math.nextafter(high, math.inf))

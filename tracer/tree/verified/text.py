@@ -1,0 +1,50 @@
+"""A verified tree in words."""
+
+import math
+
+from tracer.tree.digits import number_text
+from tracer.tree.verified.enclosures import Range, VerifiedTree
+
+MOST = 5  # doubts that are listed
+
+
+def verified_text(verified: VerifiedTree) -> list[str]:
+    """The lines about the colour and the decisions."""
+    return [f"verified with {verified.bits} bits: {color_text(verified)}", *decision_lines(verified)]
+
+
+def color_text(verified: VerifiedTree) -> str:
+    """The enclosure of the colour."""
+    most = max(high - low for low, high in verified.color)
+    if math.isinf(most):
+        least = " ".join(number_text(low) for low, _ in verified.color)
+        return (
+            f"the exact colour is at least {least} (r g b), and has no upper end, because no bound is known for the "
+            f'material "{verified.unbounded}"'
+        )
+    return "the exact colour is " + ", ".join(range_text(part) for part in verified.color) + " (r, g, b)"
+
+
+def range_text(part: Range) -> str:
+    """A range with the digits that both ends share, and how far off they may be; or both ends."""
+    low, high = part
+    if low == high:
+        return f"{low:.17g}"
+    width, middle = high - low, 0.5 * (low + high)
+    if width > 1e-3 * high:
+        return f"{number_text(low)} to {number_text(high)}"
+    digits = max(1, min(17, math.floor(math.log10(middle) - math.log10(width))))
+    shown = f"{middle:.{digits}g}"
+    off = max(high - float(shown), float(shown) - low)
+    return f"{shown} ± {math.nextafter(off, math.inf):.1e}"
+
+
+def decision_lines(verified: VerifiedTree) -> list[str]:
+    """How many decisions are certified, how, and which are not."""
+    surfaces = f"{verified.tested} surfaces were decided in ball arithmetic, {verified.boxed} excluded by their boxes"
+    if verified.certified == verified.decisions:
+        return [f"all {verified.decisions} decisions are certified; {surfaces}"]
+    doubts = [f"ray {i}: {doubt}" for i, row in enumerate(verified.rows) for doubt in row.doubts]
+    listed = "; ".join(doubts[:MOST]) + (f"; and {len(doubts) - MOST} more" if len(doubts) > MOST else "")
+    counts = f"{verified.certified} of {verified.decisions} decisions are certified; {surfaces}"
+    return [counts, f"not certified: {listed}"]
