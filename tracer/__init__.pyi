@@ -6,3 +6,4 @@ from .scene import Scene as Scene, SceneError as SceneError
 from .tree.batch import RayTrees as RayTrees, trace_rays as trace_rays
 from .tree.raytree import RayTree as RayTree
 from .tree.trace import trace as trace
+from .tree.verified.verified import verify as verify

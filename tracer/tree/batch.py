@@ -12,6 +12,7 @@ from tracer.kernel.limits import MAX_NODES, make_limits
 from tracer.kernel.nodes import NODE, NodeRow
 from tracer.kernel.workspace import Eye, Workspace
 from tracer.kernel.world import World
+from tracer.tree.margins.margins import Details
 from tracer.tree.raytree import RayTree
 from tracer.tree.trace import public_rows
 
@@ -26,6 +27,7 @@ class RayTrees:
 
     world: World
     nodes: np.ndarray  # the rows of all trees, one tree after another; `id` and `parent` count from the first row
+    details: Details  # what readers of the rows do not see
     starts: np.ndarray  # (n + 1,) the first row of each tree, and the end of the last one
     residuals: np.ndarray  # (n,) of each tree, as `RayTree.residual`
     origins: np.ndarray  # (n, 3) of the rays, as given
@@ -53,8 +55,9 @@ class RayTrees:
         nodes.flags.writeable = False
         size = self.world.view().width, self.world.view().height
         ray = (vector(self.origins[k]), vector(self.directions[k]))
-        scene, residual = self.world.scene, float(self.residuals[k])
-        return RayTree(nodes, residual, scene, self.depth, self.model, None, size, ray=ray)
+        details = Details(*(column[first:end] for column in self.details))
+        residual = float(self.residuals[k])
+        return RayTree(self.world, nodes, details, residual, self.depth, self.model, None, size, ray=ray)
 
 
 def trace_rays(
@@ -99,8 +102,10 @@ def trace_rays(
             workspace.grow()
         else:
             table = np.concatenate([table, np.zeros(len(table), NODE)])
-    nodes = public_rows(world, table, int(batch.starts[-1]), limits.model)
-    return RayTrees(world, nodes, batch.starts, batch.residuals, starts, ways, limits.depth, MODELS[limits.model])
+    nodes, details = public_rows(world, table, int(batch.starts[-1]), limits.model)
+    return RayTrees(
+        world, nodes, details, batch.starts, batch.residuals, starts, ways, limits.depth, MODELS[limits.model]
+    )
 
 
 def unit_directions(ways: np.ndarray) -> np.ndarray:

@@ -10,6 +10,7 @@ import numpy as np
 from tracer.kernel.nodes import PUBLIC
 from tracer.tree.table import TreeTable
 from tracer.tree.text import tree_text
+from tracer.tree.verified.enclosures import VerifiedTree
 
 FORMAT = "raytree-tree/1"
 
@@ -21,12 +22,13 @@ class RayTree(TreeTable):
     tree.radiance, tree.nodes["t"], tree.to_json()
     """
 
-    def to_text(self, most: int | None = None) -> str:
-        """The tree as text for a terminal: the heaviest rays if there are more than `most`."""
-        return tree_text(self, most)
+    def to_text(self, most: int | None = None, verified: VerifiedTree | None = None) -> str:
+        """The tree as text for a terminal: the heaviest rays if there are more than `most`. With what is `verified`."""
+        return tree_text(self, most, verified)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The content of the JSON: names for codes, None for absent, degrees for angles."""
+    def to_dict(self, verified: VerifiedTree | None = None) -> dict[str, Any]:
+        """The content of the JSON: names for codes, None for absent, degrees for angles. With what is `verified`."""
+        about = {} if verified is None else {"verified": verified.to_dict()}
         return {
             "format": FORMAT,
             "scene": str(self.scene.path) if self.scene.path else self.scene.title,
@@ -37,18 +39,19 @@ class RayTree(TreeTable):
             "radiance": _json_value(self.radiance),
             "residual": _json_value(self.residual),
             "bound": _json_value(self.bound),
-            "nodes": [self._node(i) for i in range(len(self))],
+            **about,
+            "nodes": [self._node(i, verified) for i in range(len(self))],
         }
 
-    def to_json(self) -> str:
+    def to_json(self, verified: VerifiedTree | None = None) -> str:
         """The tree as JSON, a line per node. Floats are the shortest text that reads back to the same bits."""
-        tree = self.to_dict()
+        tree = self.to_dict(verified)
         nodes = tree.pop("nodes")
         head = json.dumps(tree, allow_nan=False, ensure_ascii=False)
         lines = ",\n  ".join(json.dumps(node, allow_nan=False, ensure_ascii=False) for node in nodes)
         return f'{head[:-1]}, "nodes": [\n  {lines}]}}\n'
 
-    def _node(self, i: int) -> dict[str, Any]:
+    def _node(self, i: int, verified: VerifiedTree | None) -> dict[str, Any]:
         row = self.nodes[i]
         node: dict[str, Any] = {}
         for field in PUBLIC.names or ():
@@ -68,6 +71,11 @@ class RayTree(TreeTable):
                 case _:
                     node[field] = _json_value(row[field])
         node["path"] = self.path(i)
+        margin = float(self.margins.margin[i])
+        node["margin"] = margin if margin < math.inf else None
+        node["decision"] = self.decision(self.margins, i) or None
+        if verified is not None:
+            node["verified"] = verified.row_to_dict(i)
         return node
 
     def _repr_svg_(self) -> str | None:

@@ -1,6 +1,6 @@
 """The rows of a ray tree, and queries on them."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -8,19 +8,22 @@ import numpy as np
 
 from tracer.formulas.vector import Vector
 from tracer.kernel.nodes import BLOCKED, ENDS, KINDS, SHADOW, SURFACE
+from tracer.kernel.world import World
 from tracer.scene import Scene
 from tracer.scene.radiance_bound import RadianceBound, radiance_bound
 from tracer.tree.digits import significant_digits
 from tracer.tree.ledger import Ledger, make_ledger
+from tracer.tree.margins.margins import DECISIONS, Details, Margins, find_margins
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TreeTable:
     """One pixel's tree. `nodes` is a structured array, one row per ray, with the fields of `tracer.nodes`."""
 
+    world: World
     nodes: np.ndarray
+    details: Details  # what readers of the rows do not see
     residual: float  # sum over the rays that were cut of the largest component of their weight
-    scene: Scene
     depth: int
     model: str
     pixel: tuple[int, int] | None  # None: a ray given by hand
@@ -28,6 +31,10 @@ class TreeTable:
     tolerance: float | None = None  # the residual asked for; the rows are then in order of tracing
     image_point: tuple[float, float] = (0.0, 0.0)  # the point of the image that the ray goes through, in pixels
     ray: tuple[Vector, Vector] | None = None  # a ray by hand: origin and direction as given
+
+    @property
+    def scene(self) -> Scene:
+        return self.world.scene
 
     @property
     def radiance(self) -> np.ndarray:
@@ -123,6 +130,36 @@ class TreeTable:
         if not size > row["error"]:
             return 0
         return min(15, significant_digits(size, row["error"]))
+
+    @cached_property
+    def margins(self) -> Margins:
+        """The decision margins of all rows."""
+        return self.margins_of(np.arange(len(self)))
+
+    def margins_of(self, rows: np.ndarray) -> Margins:
+        """The decision margins of some rows. The time is about 25 ns for each row and each surface that is near it."""
+        return find_margins(self.world, self.nodes, self.details, rows)
+
+    def decision(self, margins: Margins, k: int) -> str:
+        """The decision that entry k of `margins` is about, in words; empty for none within reach."""
+        if margins.decision[k] < 0:
+            return ""
+        owner = margins.object[k]
+        return DECISIONS[margins.decision[k]].format(self.scene.object_name(int(owner)) if owner >= 0 else "")
+
+    def doubtful(self, rows: Iterable[int]) -> dict[int, str]:
+        """The rays among `rows` that could have gone otherwise, since rounding may have decided; each with the decision
+        in words.
+        """
+        chosen = np.array(sorted(rows), np.int64)
+        margins = self.margins_of(chosen)
+        low = np.flatnonzero(margins.margin < 1.0).tolist()
+        return {int(chosen[k]): self.decision(margins, k) for k in low}
+
+    @cached_property
+    def doubts(self) -> list[tuple[int, str]]:
+        """`doubtful` among all rays, in their order."""
+        return list(self.doubtful(range(len(self))).items())
 
     def path(self, i: int) -> str:
         """The light path of ray i in Heckbert's notation (SIGGRAPH 1990), eye first.

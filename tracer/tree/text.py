@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from tracer.kernel.nodes import NODES, SHADOW
 from tracer.tree.digits import degrees_text, number_text, rgb_text, weight_text
 from tracer.tree.table import TreeTable
+from tracer.tree.verified.enclosures import VerifiedTree
+from tracer.tree.verified.text import verified_text
 
 HEADINGS = ("ray", "meets", "distance", "index", "angle", "weight", "radiance (r g b)", "why it ends")
 
@@ -26,20 +28,23 @@ END_REASONS = {
 MAX_INDENT = 60  # levels that are indented; a deeper tree shows its levels as numbers
 
 
-def tree_text(tree: TreeTable, most: int | None = None) -> str:
-    """The tree with each ray's children below it, after a head of two lines. If there are more than `most` rays, only
-    the heaviest are listed.
+def tree_text(tree: TreeTable, most: int | None = None, verified: VerifiedTree | None = None) -> str:
+    """The tree with each ray's children below it, after some lines about all of it. If there are more than `most` rays,
+    only the heaviest are listed.
     """
     rows: list[tuple[str, ...]] = [HEADINGS]
     shown = set(range(len(tree)))
-    head = _head(tree)
+    head = _head(tree) + ([] if verified is None else verified_text(verified))
     if most is not None and len(tree) > most:
         shown = heaviest_rows(tree, most, shown)
         head.append(f"the heaviest {len(shown)} of {len(tree)} rays are shown")
     stems = _stems(tree, shown)
+    doubts = tree.doubtful(shown)
+    if doubts:
+        head.append(f"{len(doubts)} of the rays could have gone otherwise: rounding may have decided")
     for i in tree.preorder():
         if i in shown:
-            rows.append(_row(tree, i, stems[i]))
+            rows.append(_row(tree, i, stems[i], doubts.get(i, "")))
     return "\n".join([*head, "", *columns(rows)]) + "\n"
 
 
@@ -120,7 +125,7 @@ def _stems(tree: TreeTable, shown: set[int]) -> dict[int, str]:
     return stems
 
 
-def _row(tree: TreeTable, i: int, stem: str) -> tuple[str, ...]:
+def _row(tree: TreeTable, i: int, stem: str, doubt: str) -> tuple[str, ...]:
     row = tree.nodes[i]
     kind = tree.kind(i)
     met = tree.object_name(i) or ""
@@ -135,7 +140,7 @@ def _row(tree: TreeTable, i: int, stem: str) -> tuple[str, ...]:
         "" if shadow else _pair(degrees_text(row["theta1"], row["turn"]), degrees_text(row["theta2"], row["turn"])),
         weight_text(row["weight"], row["weight_error"]),
         rgb_text(row["radiance"], row["radiance_error"]),
-        end_reason(tree, i),
+        "; ".join(part for part in (end_reason(tree, i), doubt and f"not certain: {doubt}") if part),
     )
 
 

@@ -18,6 +18,7 @@ from tracer.kernel.workspace import Workspace
 from tracer.kernel.world import World
 from tracer.tree.error_propagation import propagate_errors
 from tracer.tree.light_errors import propagate_light_errors
+from tracer.tree.margins.margins import Details
 from tracer.tree.raytree import RayTree
 
 
@@ -65,15 +66,19 @@ def trace(
     space = workspace.arrays
     count = int(space.tree[0])
     turn = 0.0 if pixel is None else direction_error(camera, world.scene.camera.up, vector(space.table["direction"][0]))
-    nodes = public_rows(world, space.table, count, limits.model, turn)
+    nodes, details = public_rows(world, space.table, count, limits.model, turn)
     residual = float(space.tree[1])
     reached = limits.depth if depth is not None or tolerance is None else int(nodes["depth"].max())
     image_size = (camera.width, camera.height)
-    dx, dy = (0.5, 0.5) if sample is None else sample_offset(x, y, sample, points)
+    dx, dy = 0.5, 0.5
+    if sample is not None:
+        with np.errstate(over="ignore"):  # random bits: products wrap
+            dx, dy = sample_offset(x, y, sample, points)
     return RayTree(
+        world,
         nodes,
+        details,
         residual,
-        world.scene,
         reached,
         MODELS[limits.model],
         pixel and (x, y),
@@ -93,8 +98,10 @@ def _ray_view(origin: Sequence[float], direction: Sequence[float]) -> View:
     return ray_view((numbers[0], numbers[1], numbers[2]), unit(rescale(numbers[3:])))
 
 
-def public_rows(world: World, table: np.ndarray, count: int, model: int, first_turn: float = 0.0) -> np.ndarray:
-    """The first `count` rows of a node table as readers get them, with errors and angles.
+def public_rows(
+    world: World, table: np.ndarray, count: int, model: int, first_turn: float = 0.0
+) -> tuple[np.ndarray, Details]:
+    """The first `count` rows of a node table as readers get them, with errors and angles, and what they do not see.
 
     The camera rays are off by `first_turn`, besides their rounding.
     """
@@ -106,7 +113,10 @@ def public_rows(world: World, table: np.ndarray, count: int, model: int, first_t
     propagate_light_errors(world.arrays, rows, told, count, model, bends)
     _fill_angles(nodes)
     nodes.flags.writeable = False
-    return nodes
+    start, surface, magnitude, face_normal = (
+        table[name][:count].copy() for name in ("start", "surface", "magnitude", "face_normal")
+    )
+    return nodes, Details(start, surface, magnitude, face_normal, bends)
 
 
 def _fill_angles(nodes: np.ndarray) -> None:

@@ -68,6 +68,7 @@ class TraceOptions:
     tolerance: float | None = _tolerance()
     size: tuple[int, int] | None = _size()
     up: str = _up()
+    verify: bool = switch("guaranteed ends of each number and of the colour; needs the extra raytree[verify]")
     format: str = option(one_of(DATA), "text by default", "text")
     rays: int = option(whole(0), f"text: show the N rays of largest weight, {HEAVIEST} by default; 0: all", HEAVIEST)
     output: Path | None = option(FILE, "write there instead of the terminal", short="-o")

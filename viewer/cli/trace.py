@@ -1,7 +1,9 @@
 """`raytree trace`: the ray tree behind one pixel, as text or as data."""
 
 import tracer
-from viewer.base.files import check_writable, write_atomically
+from tracer.tree.verified.balls import MissingExtra
+from tracer.tree.verified.enclosures import VerifiedTree
+from viewer.base.files import Unusable, check_writable, write_atomically
 from viewer.cli.loading import faults, find, prepared
 from viewer.cli.options import TraceOptions
 from viewer.cli.terminal import compile_once, put
@@ -11,6 +13,8 @@ from viewer.figures.catalogue import FORMATS
 def trace(options: TraceOptions) -> int:
     if options.output:
         check_writable(options.output)
+    if options.verify and options.format not in ("text", "json"):
+        raise Unusable(f"raytree trace: --verify is written as text or json, not as {options.format}")
     path, _ = find(options.scene)
     compile_once()
     with faults():
@@ -26,9 +30,22 @@ def trace(options: TraceOptions) -> int:
             tolerance=options.tolerance,
             model=options.model,
         )
-    text = tree.to_text(options.rays or None) if options.format == "text" else FORMATS[options.format].text(tree)
+    most = options.rays or None
+    if options.verify:
+        verified = verified_tree(world, tree)
+        text = tree.to_json(verified) if options.format == "json" else tree.to_text(most, verified)
+    else:
+        text = tree.to_text(most) if options.format == "text" else FORMATS[options.format].text(tree)
     if options.output:
         write_atomically(options.output, text.encode("utf-8"))
     else:
         put(text)
     return 0
+
+
+def verified_tree(world: tracer.World, tree: tracer.RayTree) -> VerifiedTree:
+    """The enclosures of a tree. Unusable if the library for them is not installed."""
+    try:
+        return tracer.verify(world, tree)
+    except MissingExtra as error:
+        raise Unusable(f"raytree trace: {error}") from None

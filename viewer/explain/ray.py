@@ -6,6 +6,8 @@ Nothing here draws. Each number comes from the node table, or is computed from i
 
 import math
 
+import numpy as np
+
 from tracer.kernel.nodes import SHADOW
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
@@ -77,12 +79,24 @@ def ray_numbers(tree: RayTree, i: int) -> Section:
         section.add("θ₁ → θ₂", format_pair(format_angle(row["theta1"], turn), format_angle(row["theta2"], turn)))
         if not math.isnan(row["radicand"]):
             section.add("1 − η²(1 − c₁²)", format_number(row["radicand"]))
+    section.add("closest decision", margin_text(tree, i))
     section.add("factor", format_weight(row["factor"], row["factor_error"]))
     section.add("weight", format_weight(row["weight"], row["weight_error"]))
     section.add("radiance", format_color(row["radiance"], row["radiance_error"]))
     section.add("ends", END_REASONS[tree.end(i)] or "no: it has children")
     section.add("path", tree.path(i))
     return section
+
+
+def margin_text(tree: RayTree, i: int) -> str:
+    """How far ray i was from going otherwise, in units of rounding error, and which decision that was."""
+    margins = tree.margins_of(np.array([i]))
+    margin, words = float(margins.margin[0]), tree.decision(margins, 0)
+    if not words:
+        return "more than 10⁶ times the rounding error away"
+    if margin < 1.0:
+        return f"{words}: within the rounding error, so the ray could have gone otherwise"
+    return f"{words}: {format_number(margin, 2)} times the rounding error away"
 
 
 def explain_ray(tree: RayTree, world: World, i: int) -> list[Section]:

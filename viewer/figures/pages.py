@@ -9,6 +9,7 @@ from viewer.figures.export_options import TEXT_SIZE
 from viewer.figures.marks import Figure, with_line_width
 from viewer.figures.subject import FigureStyle, Subject
 
+MOST_DOUBTS = 3  # that a description lists
 THINNEST, THICKEST = 0.45, 1.6  # factors of the line width, which follows the text size
 
 
@@ -34,7 +35,9 @@ def description(tree: RayTree) -> str:
     counts = [(kinds.count(kind), words) for kind, words in KINDS]
     made_of = ", ".join(f"{count} {words}" for count, words in counts if count)
     rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
-    return f"{rays}: {made_of}. The pixel's colour is {rgb_text(tree.radiance, tree.radiance_error)} (linear r g b)."
+    color = rgb_text(tree.radiance, tree.radiance_error)
+    doubts = [f"Ray {i} could have gone otherwise, by rounding: {words}." for i, words in tree.doubts]
+    return " ".join([f"{rays}: {made_of}. The pixel's colour is {color} (linear r g b).", *doubts[:MOST_DOUBTS]])
 
 
 KINDS = (

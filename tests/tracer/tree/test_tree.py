@@ -20,7 +20,7 @@ from viewer.figures.writers.dot import write_dot
 FIELDS = [
     "id", "parent", "kind", "depth", "origin", "direction", "t", "point", "normal", "object", "light", "n1", "n2",
     "theta1", "theta2", "factor", "weight", "radicand", "local", "radiance", "end", "error", "turn",
-    "factor_error", "weight_error", "radiance_error", "path",
+    "factor_error", "weight_error", "radiance_error", "path", "margin", "decision",
 ]  # fmt: skip
 
 
@@ -67,7 +67,7 @@ def test_json_has_every_field_and_reads_back_to_the_same_bits(tree: tracer.RayTr
 def test_table_cannot_be_written_to(tree: tracer.RayTree) -> None:
     with pytest.raises(ValueError, match="read-only"):
         tree.nodes["t"] = 0.0
-    assert tree.nodes.dtype.names == tuple(FIELDS[:-1])
+    assert tree.nodes.dtype.names == tuple(FIELDS[:-3])
 
 
 def test_hits_lie_where_the_ray_says(tree: tracer.RayTree) -> None:

@@ -4,6 +4,7 @@ import random
 
 import numpy as np
 
+import tracer
 from tests.scenes import box
 from tracer.kernel.nodes import (
     BACKGROUND,
@@ -20,6 +21,7 @@ from tracer.kernel.nodes import (
     TIR,
 )
 from tracer.scene import Light, Material, Scene
+from tracer.tree.margins.margins import Details
 from tracer.tree.raytree import RayTree
 
 BOTH = (REFLECTION, REFRACTION)
@@ -73,4 +75,7 @@ def random_tree(seed: int, most: int, lights: int, depth: int) -> RayTree:
         for name, value in row.items():
             nodes[name][i] = value
     nodes["t"] = 1.0
-    return RayTree(nodes, 0.0, scene, depth, "whitted", (0, 0), (640, 480))
+    count = len(nodes)
+    none, zero = np.full(count, -1), np.zeros(count)
+    nothing = Details(none, none, zero, nodes["normal"], zero)
+    return RayTree(tracer.prepare(scene), nodes, nothing, 0.0, depth, "whitted", (0, 0), (640, 480))

@@ -204,7 +204,7 @@ def test_names_are_whole_where_there_is_room() -> None:
 
 def renamed(tree: RayTree, name: str) -> RayTree:
     scene = replace(tree.scene, objects=tuple(replace(item, name=name) for item in tree.scene.objects))
-    return replace(tree, scene=scene)
+    return replace(tree, world=replace(tree.world, scene=scene))
 
 
 def words_in_boxes(tree: RayTree) -> set[str]:

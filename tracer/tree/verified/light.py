@@ -27,11 +27,26 @@ from tracer.tree.verified.scatter import Hit
 from tracer.tree.verified.scenery import Scenery
 
 
+class Passage(NamedTuple):
+    """What of a light passes all surfaces on the way."""
+
+    low: Ball
+    high: Ball
+    through_glass: bool | None  # None: not known
+
+    @property
+    def doubt(self) -> str:
+        """What is not certain; empty if all is."""
+        if self.low != self.high:
+            return "in shadow or not"
+        return "through glass or past it" if self.through_glass is None else ""
+
+
 class Share(NamedTuple):
     """What a light adds to the local term."""
 
     rgb: BallVector
-    visible: tuple[Ball, Ball] | None  # bounds on the fraction that passes; None: the surface faces away
+    passage: Passage | None  # None: the surface faces away
     doubt: str  # what is not certain; empty if all is
 
 
@@ -73,12 +88,13 @@ def to_light(light: Light, p: BallVector) -> tuple[BallVector, Ball | None]:
 
 def transmittance(
     scenery: Scenery, p: BallVector, towards: BallVector, distance: Ball | None, start: Sequence[Face]
-) -> tuple[Ball, Ball]:
-    """Bounds on the fraction of a light that passes all surfaces on the way."""
+) -> Passage:
+    """What of a light passes all surfaces on the way."""
     low = high = ball(1.0)
     crossings = scenery.crossings(p, towards, start)
     if crossings is None:
-        return ball(0.0), high
+        return Passage(ball(0.0), high, None)
+    through_glass: bool | None = False
     blocks = scenery.world.scene.tracing.shadows == SHADOWS[BLOCK]
     last: Crossing | None = None
     for c in crossings:
@@ -92,8 +108,11 @@ def transmittance(
         low = low * passes
         if c.certain and (distance is None or c.t < distance):
             high = high * passes
+            through_glass = True
             last = c
-    return low, high
+        elif not through_glass:
+            through_glass = None
+    return Passage(low, high, through_glass)
 
 
 def light_share(scenery: Scenery, hit: Hit, color: BallVector, p: BallVector, start: Sequence[Face], j: int) -> Share:
@@ -105,14 +124,14 @@ def light_share(scenery: Scenery, hit: Hit, color: BallVector, p: BallVector, st
     faces = [sign(n_l), sign(dot(hit.face_normal, towards))]
     if -1 in faces or 0 in faces:
         return Share(dark, None, "")
-    low, high = transmittance(scenery, p, towards, distance, start)
+    passage = transmittance(scenery, p, towards, distance, start)
     r_v = -dot(subtract(scale(2 * n_l, hit.normal), towards), hit.d)
     shine = ball(material.specular) * power(r_v, material.shininess) if material.specular > 0.0 else ball(0.0)
     diffuse = ball(material.diffuse) * n_l
-    visible = between(low, high)
+    visible = between(passage.low, passage.high)
     rgb = [visible * ball(light.color[k]) * (diffuse * color[k] + shine) for k in range(3)]
-    doubt = "" if low == high else "in shadow or not"
+    doubt = passage.doubt
     if None in faces:
         rgb = [between(ball(0.0), x.abs_upper()) for x in rgb]
         doubt = "faces the light or not"
-    return Share((rgb[0], rgb[1], rgb[2]), (low, high), doubt)
+    return Share((rgb[0], rgb[1], rgb[2]), passage, doubt)

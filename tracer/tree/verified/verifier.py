@@ -17,6 +17,7 @@ from tracer.tree.verified.balls import (
     add,
     ball,
     balls,
+    between,
     bounds,
     cross,
     flint,
@@ -27,7 +28,7 @@ from tracer.tree.verified.balls import (
 from tracer.tree.verified.enclosures import VerifiedRow, VerifiedTree
 from tracer.tree.verified.face import Face
 from tracer.tree.verified.interface import Interface, Solids, first_interface, medium
-from tracer.tree.verified.light import light_share, surface_color
+from tracer.tree.verified.light import Passage, light_share, surface_color
 from tracer.tree.verified.scatter import Hit, Sent, scattered, usable_normal
 from tracer.tree.verified.scenery import Scenery
 
@@ -107,7 +108,7 @@ class Verifier:
         else:
             doubt = ""
         above = recorded["parent"]
-        row.certified = self.decide(i, doubt) and (above < 0 or self.rows[above].certified)
+        row.certified = self.decide(i, doubt) and bool(above < 0 or self.rows[above].certified)
         if doubt or found is None:
             return
         if shown is None:
@@ -166,12 +167,13 @@ class Verifier:
             total = (total[0] + share.rgb[0], total[1] + share.rgb[1], total[2] + share.rgb[2])
             k = recorded[j]
             doubt = share.doubt
-            if not doubt and share.visible is not None:
+            if not doubt and share.passage is not None:
                 end = self.tree.nodes["end"][k]
-                doubt = "" if end == expected_end(share.visible[0]) else "it ends otherwise than recorded"
+                doubt = "" if end == expected_end(share.passage) else "it ends otherwise than recorded"
             shadow = self.rows[k]
+            passes = between(share.passage.low, share.passage.high) if share.passage else ball(0.0)
             shadow.certified = self.decide(k, doubt) and self.rows[i].certified
-            shadow.weight = bounds(self.states[i].weight * (share.visible[0] if share.visible else ball(0.0)))
+            shadow.weight = bounds(self.states[i].weight * passes)
             shadow.radiance = (bounds(share.rgb[0]), bounds(share.rgb[1]), bounds(share.rgb[2]))
         self.own[i] = (total[0], total[1], total[2])
 
@@ -237,9 +239,9 @@ def camera_ray(camera: Camera, view: View, x: float, y: float) -> tuple[BallVect
     return eye, unit(add(forward, add(scale(u, right), scale(v, cross(right, forward)))))
 
 
-def expected_end(visible: Ball) -> int:
-    """The end of a shadow row of which this fraction passes."""
-    return BLOCKED if visible == 0 else LIT if visible == 1 else FILTERED
+def expected_end(passage: Passage) -> int:
+    """The end of a shadow row."""
+    return BLOCKED if passage.high == 0 else FILTERED if passage.through_glass else LIT
 
 
 def up_product(a: float, b: float) -> float:

@@ -1,0 +1,1 @@
+"""Decision margins: how far, in units of its own rounding error, each ray was from going otherwise."""

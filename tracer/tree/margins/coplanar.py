@@ -1,0 +1,52 @@
+"""Whether two faces lie exactly in one plane, as their authors wrote them. They are then one interface, and which is
+met first is no decision.
+"""
+
+import numpy as np
+
+from tracer.formulas.exact import Exact, area, cross, dot, exact, minus
+from tracer.shapes.box import Box
+from tracer.shapes.cone import Cone
+from tracer.shapes.disc import Disc
+from tracer.shapes.mesh import Mesh
+from tracer.shapes.plane import Plane
+from tracer.shapes.polygon import Polygon
+from tracer.shapes.shape import Shape
+from tracer.shapes.triangle import Triangle
+
+Planes = list[tuple[Exact, Exact]]  # (point, normal)
+
+
+def in_one_plane(a: Shape, row_a: int, b: Shape, row_b: int, near: np.ndarray) -> bool:
+    """Whether surface `row_a` of a shape and surface `row_b` of another have faces in one plane through a point that is
+    near both.
+    """
+    return any(
+        not any(cross(n, m)) and dot(n, minus(q, p)) == 0
+        for p, n in planes_of(a, row_a, near)
+        for q, m in planes_of(b, row_b, near)
+    )
+
+
+def planes_of(shape: Shape, row: int, near: np.ndarray) -> Planes:
+    """The planes of a surface's flat faces; of a box, of the faces near a point."""
+    match shape:
+        case Plane():
+            return [(exact(shape.point), exact(shape.normal))]
+        case Disc():
+            return [(exact(shape.center), exact(shape.normal))]
+        case Polygon() | Triangle():
+            return [outlined([exact(corner) for corner in shape.vertices])]
+        case Box():
+            faces = [(end, k) for end in (shape.min, shape.max) for k in range(3)]
+            size = max(map(abs, (*shape.min, *shape.max)))
+            return [(exact(end), exact(np.eye(3)[k])) for end, k in faces if abs(end[k] - near[k]) <= 1e-6 * size]
+        case Cone(closed=True):
+            return [(exact(disc.center), exact(disc.normal)) for (disc,) in shape.faces()[1:] if isinstance(disc, Disc)]
+        case Mesh():
+            return [outlined([exact(corner) for corner in shape.placed()[row].tolist()])]
+    return []
+
+
+def outlined(corners: list[Exact]) -> tuple[Exact, Exact]:
+    return corners[0], area(corners)
