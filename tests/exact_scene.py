@@ -1,8 +1,8 @@
-"""Surfaces with 50 digits, from the scene as its author wrote it: where a line crosses each of them.
+"""Surfaces with 100 digits, from the scene as its author wrote it: where a line crosses each of them.
 
 A vector is a tuple of three mpf. `surfaces(scene)` lists the surfaces of all objects; `crossings` of one gives all
 its (distance, outward unit normal, normal to shade with) along a line, in front of the origin and behind it. The
-formulas are the textbook's: with 50 digits their cancellation does no harm.
+formulas are the textbook's: with so many digits their cancellation does no harm.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -23,7 +23,7 @@ from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
 
-mp.dps = 50
+DIGITS = 100  # a ray that grazes a plane loses 30 of them
 
 V = tuple[Any, Any, Any]
 Crossing = tuple[mpf, V, V]
@@ -229,6 +229,11 @@ SHAPES: dict[str, Callable[[Any], Iterator[Callable]]] = {
 @lru_cache(maxsize=64)
 def surfaces(scene: Scene) -> tuple[Surface, ...]:
     """Every surface of a scene, in the file's order."""
+    with mp.workdps(DIGITS):
+        return _surfaces(scene)
+
+
+def _surfaces(scene: Scene) -> tuple[Surface, ...]:
     return tuple(Surface(k, one) for k, item in enumerate(scene.objects) for one in of_object(item))
 
 

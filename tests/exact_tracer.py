@@ -1,4 +1,4 @@
-"""The judge of whole trees: Whitted's recursion with 50 digits, from the scene and the camera as written.
+"""The judge of whole trees: Whitted's recursion with 100 digits, from the scene and the camera as written.
 
 It shares no code with the tracer, decides everything itself by trying every surface, and knows no hierarchy. Distances
 below NOTHING of the scene's size are 0, and distances that differ by less are equal. A transparent object bounds one
@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from mpmath import mp, mpf
 
-from tests.exact_scene import Surface, V, add, cross, dot, mul, newell, norm, sub, surfaces, unit, vec
-from tracer.formulas.camera import View
+from tests.exact_scene import DIGITS, Surface, V, add, cross, dot, mul, newell, norm, sub, surfaces, unit, vec
+from tracer.formulas.vector import VectorLike
 from tracer.scene import Camera, Light, Object, Scene
 
 NOTHING = mpf(10) ** -30
@@ -47,17 +47,19 @@ def camera_ray(camera: Camera, size: tuple[int, int], x: float, y: float) -> tup
     rounding.
     """
     assert camera.position is not None and camera.look_at is not None
-    eye = vec(camera.position)
-    forward = unit(sub(vec(camera.look_at), eye))
-    right = unit(cross(forward, vec(camera.up)))
-    up, half = cross(right, forward), mp.tan(mp.pi * mpf(camera.fov) / 360)
-    u, v = half * (2 * mpf(x) - size[0]) / size[1], half * (size[1] - 2 * mpf(y)) / size[1]
-    return eye, unit(add(forward, add(mul(u, right), mul(v, up))))
+    with mp.workdps(DIGITS):
+        eye = vec(camera.position)
+        forward = unit(sub(vec(camera.look_at), eye))
+        right = unit(cross(forward, vec(camera.up)))
+        up, half = cross(right, forward), mp.tan(mp.pi * mpf(camera.fov) / 360)
+        u, v = half * (2 * mpf(x) - size[0]) / size[1], half * (size[1] - 2 * mpf(y)) / size[1]
+        return eye, unit(add(forward, add(mul(u, right), mul(v, up))))
 
 
-def given_ray(view: View) -> tuple[V, V]:
-    """A ray by hand, whose direction the tracer has rounded to a unit vector."""
-    return vec(view.eye), unit(vec(view.forward))
+def given_ray(origin: VectorLike, direction: VectorLike) -> tuple[V, V]:
+    """A ray by hand. The tracer rounds its direction to a unit vector."""
+    with mp.workdps(DIGITS):
+        return vec(origin), unit(vec(direction))
 
 
 class Judge:
@@ -74,7 +76,8 @@ class Judge:
     def tree(self, origin: V, direction: V) -> Ray:
         inside = frozenset(k for k, item in enumerate(self.scene.objects) if self.starts_inside(k, item, origin))
         ray = Ray("camera", origin, direction, mpf(1), mpf(1), 0, inside)
-        self.trace(ray)
+        with mp.workdps(DIGITS):
+            self.trace(ray)
         return ray
 
     def starts_inside(self, k: int, item: Object, p: V) -> bool:

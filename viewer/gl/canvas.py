@@ -9,6 +9,7 @@ from imgui_bundle import imgui
 
 from viewer.base.cached import Cached, Changed
 from viewer.base.colormap import colorize
+from viewer.explain.sections import Section
 from viewer.figures.ray_lines import RayLine, ray_lines
 from viewer.gl.magnified import NEAR, Place, magnify
 from viewer.gl.picture_texture import PictureTexture
@@ -42,6 +43,7 @@ class Canvas:
         self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)  # left, top, size of a pixel
         self.nodes: dict[int, tuple[float, float]] = {}  # of the tree
         self.ray_changed = Changed()  # the ray whose numbers are shown
+        self.sections: Cached[list[Section]] = Cached()  # the explanation of that ray
         self._map: Cached[moderngl.Texture | None] = Cached(_release)
         self._near: Cached[Seen | None] = Cached(lambda seen: _release(seen and seen.texture))
         self._view_changed = Changed()

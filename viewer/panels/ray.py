@@ -43,8 +43,10 @@ def draw(session: Session, canvas: Canvas) -> None:
         imgui.text_colored(session.appearance.theme.muted, "(none selected)")
     imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(session.appearance.theme.muted, fate[0].upper() + fate[1:] + ".")
+    imgui.text_colored(session.appearance.theme.muted, session.verification.text(row))
     imgui.pop_text_wrap_pos()
-    for section in explain_ray(tree, session.world, row):
+    world = session.world
+    for section in canvas.sections.get((tree, row), lambda: explain_ray(tree, world, row)):
         _section(session, section)
 
 

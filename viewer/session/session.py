@@ -24,6 +24,7 @@ from viewer.session.figure_export import FigureExport, Shown
 from viewer.session.image_renderer import ImageRenderer
 from viewer.session.refinement import Refinement, Strategy
 from viewer.session.scene_loader import Opening, SceneLoader
+from viewer.session.verification import Verification
 from viewer.session.view_state import Appearance, Notice, OpenDialog, PanZoom, Request, Visibility
 from viewer.session.warmup import Warmup
 
@@ -42,6 +43,7 @@ class Session:
         self.image = ImageRenderer(self.calls.post)
         self.refinement = Refinement(self.image)
         self.export = FigureExport(self.calls.post)
+        self.verification = Verification(self.calls.post)
         # How the scene is looked at.
         self.shown = Visibility()
         self.image_view = PanZoom()
@@ -113,6 +115,8 @@ class Session:
             if self.pixel and not self.tree:
                 self._trace()
                 news = True
+            if self.tree:
+                self.verification.ask(self.world, self.tree)
             if not self.image.picture:
                 self.render()
                 news = True

@@ -96,6 +96,8 @@ class App:
         self.frame()  # compiles and sends what the scene needs while the image renders
         session.image.wait()
         session.image.progress = lambda: None
+        session.verification.wait()
+        session.update()
         say("draw the viewer")
         for _ in range(frames):
             self.frame()
@@ -129,7 +131,8 @@ class App:
         session = self.session
         picture = session.image.picture
         loads = session.loader.loading is not None
-        return not session.warmup.ready or loads or (picture is not None and not picture.finished)
+        renders = picture is not None and not picture.finished
+        return not session.warmup.ready or loads or renders or session.verification.is_running
 
     def _take_dropped(self) -> None:
         """Open the file that was dropped on the window."""

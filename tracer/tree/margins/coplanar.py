@@ -42,7 +42,8 @@ def planes_of(shape: Shape, row: int, near: np.ndarray) -> Planes:
             size = max(map(abs, (*shape.min, *shape.max)))
             return [(exact(end), exact(np.eye(3)[k])) for end, k in faces if abs(end[k] - near[k]) <= 1e-6 * size]
         case Cone(closed=True):
-            return [(exact(disc.center), exact(disc.normal)) for (disc,) in shape.faces()[1:] if isinstance(disc, Disc)]
+            axis = minus(exact(shape.apex), exact(shape.base))
+            return [(exact(end), axis) for end in (shape.base, shape.apex)]
         case Mesh():
             return [outlined([exact(corner) for corner in shape.placed()[row].tolist()])]
     return []

@@ -68,7 +68,7 @@ def order_margins(
     t, speed = gaps.to_planes(rays.o[k], rays.d[k], point, normal, low, infinite)
     own = items.planes.surface[item]
     error = (rays.error(k, t) + OUTLINE * U * np.abs(point).sum(axis=1)) / np.abs(speed)
-    level = infinite & (t <= rays.end[k]) & ~is_face(own, normal, ends.start[k], ends.start_normal[k])
+    level = infinite & ~(t > rays.end[k]) & ~is_face(own, normal, ends.start[k], ends.start_normal[k])
     yield Doubt(PARALLEL, k[level], (np.abs(speed) / (rays.turn[k] + 4.0 * U))[level], own[level])
     for decision, margin, where in against_ends(rays, ends, k, t, error):
         faces = is_face(own, normal, where[0], where[1])

@@ -29,6 +29,7 @@ class VerifiedTree(NamedTuple):
     certified: int  # of the decisions
     tested: int  # surfaces that were decided in balls, over all rays
     boxed: int  # surfaces that their boxes exclude, over all rays
+    cut: bool  # whether the tree lacks rays that were cut: the colour is that of the others
     unbounded: str  # the material because of which the colour has no upper end; empty if it has one
 
     @property

@@ -45,9 +45,7 @@ def faces_of(shape: Shape, surface: int, row: int, cache: dict[int, Any]) -> lis
         case Box():
             return [_box_face(surface, shape, k, side) for k in range(3) for side in (-1, 1)]
         case Cone():
-            ends = shape.faces()[1:]
-            discs = [_flat(surface, d.center, d.normal, ball(d.radius)) for (d,) in ends if isinstance(d, Disc)]
-            return [ConeSide(surface, shape), *discs]
+            return [ConeSide(surface, shape), *_end_discs(surface, shape)]
         case Mesh():
             return [_mesh_face(surface, shape, row, cache)]
     return None
@@ -58,6 +56,20 @@ def _flat(surface: int, point: Sequence[float], normal: Sequence[float], radius:
         return exact.exact(point), exact.exact(normal)
 
     return Flat(surface, balls(point), balls(normal), (), radius, rational)
+
+
+def _end_discs(surface: int, shape: Cone) -> list[Flat]:
+    """The end discs of a closed cone. Its axis is the exact difference of two points."""
+    found = []
+    for end, other, radius in (
+        (shape.base, shape.apex, shape.base_radius),
+        (shape.apex, shape.base, shape.apex_radius),
+    ):
+        if shape.closed and radius > 0.0:
+            point, normal = exact.exact(end), exact.minus(exact.exact(end), exact.exact(other))
+            outwards = subtract(balls(end), balls(other))
+            found.append(Flat(surface, balls(end), outwards, (), ball(radius), lambda plane=(point, normal): plane))
+    return found
 
 
 def _outlined(surface: int, corners: Sequence[Sequence[float]]) -> Flat:

@@ -66,8 +66,8 @@ class Verifier:
         self.sum_up()
         reason = self.tree.radiance_bound.reason
         unbounded = reason if math.isinf(max(high for _, high in self.rows[0].radiance)) else ""
-        scenery = self.scenery
-        return VerifiedTree(self.rows, bits, self.decisions, self.certified, scenery.tested, scenery.boxed, unbounded)
+        counts = (self.decisions, self.certified, self.scenery.tested, self.scenery.boxed)
+        return VerifiedTree(self.rows, bits, *counts, self.tree.residual > 0.0, unbounded)
 
     def first_state(self) -> State:
         """The camera ray, or the ray by hand."""

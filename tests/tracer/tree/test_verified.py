@@ -1,0 +1,168 @@
+"""Verified trees: enclosures that contain the judge's answer, whatever the decisions."""
+
+import math
+import sys
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import tracer
+from tests.compared_trees import compared, judged_pixel, judged_ray
+from tests.planted_rays import planted_ray
+from tests.random_scenes import random_scene, stiff_scene
+from tests.scenes import GLASS, MATTE, MIRROR, OPEN, ball, box, plane, polygon, world_of
+from tracer.kernel.nodes import SHADOW
+from tracer.scene import Light, Material, Scene
+from tracer.tree.raytree import RayTree
+from tracer.tree.verified.balls import MissingExtra
+from tracer.tree.verified.enclosures import VerifiedTree
+from tracer.tree.verified.text import verified_text
+
+
+def pixel_tree(scene: Scene, seed: int) -> RayTree:
+    random = np.random.default_rng(seed)
+    return tracer.trace(tracer.prepare(scene), (int(random.integers(32)), int(random.integers(24))))
+
+
+def check(tree: RayTree, verified: VerifiedTree) -> list[float]:
+    """The judge's numbers lie in the enclosures, and certified rows are the judge's rows. Returns relative widths."""
+    ray = judged_pixel(tree.world, tree) if tree.ray is None else judged_ray(tree.world, tree)
+    widths = []
+    for channel, (low, high) in zip(ray.radiance, verified.color, strict=True):
+        assert low <= channel <= high
+        if channel > 0:
+            widths.append((high - low) / float(channel))
+    for i, one, agrees, whole in compared(tree, ray):
+        row = verified.rows[i]
+        assert agrees or not row.certified
+        if tree.nodes["kind"][i] == SHADOW or not agrees:
+            continue
+        if row.certified:
+            assert row.weight is not None
+            assert row.weight[0] <= one.weight <= row.weight[1]
+            for (low, high), exact in zip(row.point or (), one.point or (), strict=True):
+                assert low <= exact <= high
+        if whole:
+            for (low, high), exact in zip(row.radiance, one.radiance, strict=True):
+                assert low <= exact <= high
+    return widths
+
+
+@pytest.mark.parametrize("scenes", [random_scene, stiff_scene])
+def test_enclosures_contain_the_exact_tree(scenes: Callable[[int], Scene]) -> None:
+    many(scenes, range(200))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scenes", [random_scene, stiff_scene])
+def test_enclosures_of_ten_thousand_trees(scenes: Callable[[int], Scene]) -> None:
+    many(scenes, range(1000, 6000))
+
+
+def many(scenes: Callable[[int], Scene], seeds: range) -> None:
+    decisions = certified = 0
+    widths: list[float] = []
+    for seed in seeds:
+        tree = pixel_tree(scenes(seed), seed)
+        verified = tracer.verify(tree.world, tree)
+        widths += check(tree, verified)
+        decisions += verified.decisions
+        certified += verified.certified
+    assert certified >= 0.99 * decisions
+    assert np.median(widths) <= 1e-12
+
+
+@pytest.mark.parametrize("scenes", [random_scene, stiff_scene])
+def test_rays_aimed_at_outlines(scenes: Callable[[int], Scene]) -> None:
+    """Where a decision is not certified, or was recorded otherwise, the enclosure is wide, and still holds."""
+    open_ones = 0
+    for seed in range(400):
+        scene = scenes(seed)
+        world = tracer.prepare(scene)
+        ray = planted_ray(seed, scene, world)
+        if ray is None:
+            continue
+        tree = tracer.trace(world, ray=ray, depth=3)
+        verified = tracer.verify(world, tree)
+        check(tree, verified)
+        open_ones += verified.certified < verified.decisions
+    assert open_ones > 5
+
+
+def test_shipped_scenes(world: tracer.World) -> None:
+    """Every decision of every lesson's tree is certified."""
+    width, height = world.scene.image.width, world.scene.image.height
+    for pixel in ((width // 3, height // 2), (width // 2 + 7, height // 3), (5, height - 5)):
+        tree = tracer.trace(world, pixel)
+        verified = tracer.verify(world, tree)
+        assert verified.certified == verified.decisions
+        assert verified.bits == 128
+        for (low, high), color in zip(verified.color, tree.radiance, strict=True):
+            assert low - tree.radiance_error <= color <= high + tree.radiance_error
+            assert high - low <= 1e-12
+
+
+def test_a_tie_is_enclosed_by_all_that_could_be() -> None:
+    """A ray exactly at the edge of a bright square before a dark background: 0 to the most that a ray can bring."""
+    square = polygon(((-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)), OPEN, "square")
+    world = world_of(square, background=(0.25, 0.25, 0.25))
+    tree = tracer.trace(world, ray=((1, 0.3, 5), (0, 0, -1)), depth=2)
+    verified = tracer.verify(world, tree)
+    assert (verified.certified, verified.decisions, verified.bits) == (0, 1, 512)
+    assert verified.rows[0].doubts == ("which surface it meets",)
+    for low, high in verified.color:
+        assert low == 0.0
+        assert high == pytest.approx(1.0, rel=1e-9)
+        assert high >= 1.0
+
+
+def test_without_a_bound_there_is_no_upper_end_and_the_text_says_why() -> None:
+    shining = Material("shining glass", transmit=1.0, ior=1.5, specular=0.5)
+    lamp = Light("lamp", position=(5.0, 5.0, 5.0))
+    world = world_of(box((-1, -1, -1), (1, 1, 1), shining, "block"), lights=[lamp])
+    tree = tracer.trace(world, ray=((1, 0.3, 5), (0, 0, -1)), depth=2)
+    verified = tracer.verify(world, tree)
+    assert verified.unbounded == "shining glass"
+    assert all(high == math.inf for _, high in verified.color)
+    assert 'no bound is known for the material "shining glass"' in verified_text(verified)[0]
+    assert verified.to_dict()["color"] == [[0.0, None]] * 3
+
+
+def test_faces_in_one_plane_are_certified() -> None:
+    """A glass block on a glass block, on a floor: the ray crosses both shared planes, and leaves them."""
+    lower, upper = box((-1, 0, -1), (1, 1, 1), GLASS, "lower"), box((-0.7, 1, -0.7), (0.7, 2, 0.7), GLASS, "upper")
+    world = world_of(lower, upper, plane((0, 0, 0), (0, 1, 0), MIRROR, "floor"), background=(0.5, 0.6, 0.7))
+    tree = tracer.trace(world, ray=((0.1, 3, 0.2), (0.05, -1, 0.03)), depth=5)
+    verified = tracer.verify(world, tree)
+    assert len(tree) > 4
+    assert verified.certified == verified.decisions
+    check(tree, verified)
+
+
+def test_a_recorded_decision_that_is_wrong_is_refuted() -> None:
+    """A table that says another object was met is not believed."""
+    world = world_of(ball((0, 0, 0), 1.0, MIRROR, "ball"), ball((5, 0, 0), 1.0, MATTE, "other"))
+    tree = tracer.trace(world, ray=((0.3, 0.2, 5), (0, 0, -1)), depth=1)
+    nodes = tree.nodes.copy()
+    nodes["object"][0] = 1
+    forged = RayTree(world, nodes, tree.details, 0.0, 1, "whitted", None, tree.size, ray=tree.ray)
+    verified = tracer.verify(world, forged)
+    assert verified.rows[0].doubts == ("it meets another surface than recorded",)
+    assert not verified.rows[0].certified
+
+
+def test_boxes_exclude_most_surfaces() -> None:
+    balls = [ball((3 * x, 3 * y, 0), 1.0, MATTE, f"{x} {y}") for x in range(20) for y in range(20)]
+    world = world_of(*balls)
+    tree = tracer.trace(world, ray=((9.3, 12.2, 9), (0, 0, -1)), depth=0)
+    verified = tracer.verify(world, tree)
+    assert verified.tested + verified.boxed == 400
+    assert verified.tested == 1
+
+
+def test_without_the_library_the_error_names_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "flint", None)
+    world = world_of(ball())
+    with pytest.raises(MissingExtra, match=r"raytree\[verify\]"):
+        tracer.verify(world, tracer.trace(world, (5, 5)))

@@ -1,0 +1,93 @@
+"""The verification of the picked pixel's tree, in a thread of its own: a tree may take some tenths of a second."""
+
+import math
+from collections.abc import Callable
+from threading import Thread
+
+import tracer
+from tracer.kernel.world import World
+from tracer.tree.raytree import RayTree
+from tracer.tree.verified.balls import MissingExtra
+from tracer.tree.verified.enclosures import VerifiedTree
+from viewer.base.wording import format_number
+
+MOST_ROWS = 2000  # of a tree that the window verifies: about a second
+
+
+class Verification:
+    """What is certain of one tree. Only the window's thread changes it."""
+
+    def __init__(self, post: Callable[[Callable[[], object]], object]) -> None:
+        self.post = post
+        self.tree: RayTree | None = None  # the one asked for last
+        self.found: VerifiedTree | None = None  # of `tree`
+        self.failure = ""
+        self._running: Thread | None = None
+
+    @property
+    def is_running(self) -> bool:
+        return self._running is not None
+
+    def wait(self) -> None:
+        """Wait until the tree asked for is verified; the result comes with the next posted call."""
+        if self._running is not None:
+            self._running.join()
+
+    def ask(self, world: World, tree: RayTree) -> None:
+        """Verify this tree, unless it has been asked for. One tree is verified at a time, the last one asked for."""
+        if tree is self.tree:
+            return
+        self.tree, self.found = tree, None
+        self._start(world)
+
+    def _start(self, world: World) -> None:
+        tree = self.tree
+        if self._running is not None or tree is None or len(tree) > MOST_ROWS:
+            return
+
+        def work() -> None:
+            found, failure = None, ""
+            try:
+                found = tracer.verify(world, tree)
+            except MissingExtra:
+                failure = "not verified: needs the extra raytree[verify]"
+            self.post(lambda: self._finish(world, tree, found, failure))
+
+        self._running = Thread(target=work, daemon=True, name="verification")
+        self._running.start()
+
+    def _finish(self, world: World, tree: RayTree, found: VerifiedTree | None, failure: str) -> None:
+        self._running, self.failure = None, failure
+        if tree is self.tree:
+            self.found = found
+        elif not failure and self.tree is not None:
+            self._start(self.tree.world)
+
+    def text(self, row: int) -> str:
+        """The state in a sentence, with what is not certain of this row."""
+        if self.tree is None:
+            return ""
+        if len(self.tree) > MOST_ROWS:
+            return f"Not verified here: more than {MOST_ROWS} rays. See raytree trace --verify."
+        if self.failure:
+            return self.failure[0].upper() + self.failure[1:] + "."
+        if self.found is None:
+            return "The tree is being verified …"
+        found = self.found
+        doubts = found.rows[row].doubts if row < len(found.rows) else ()
+        here = f" Not certain at this ray: {'; '.join(doubts)}." if doubts else ""
+        return f"Verified: {accuracy_text(found)}, {decisions_text(found)}.{here}"
+
+
+def accuracy_text(found: VerifiedTree) -> str:
+    """How exactly the tree's colour is known."""
+    off = max(0.5 * (high - low) for low, high in found.color)
+    if math.isinf(off):
+        return f"no upper end for the colour, because of the material {found.unbounded}"
+    return "the colour is exact" if off == 0.0 else f"the colour is known to ±{format_number(off, 2)}"
+
+
+def decisions_text(found: VerifiedTree) -> str:
+    if found.certified == found.decisions:
+        return f"all {found.decisions} decisions are certified"
+    return f"{found.certified} of {found.decisions} decisions are certified"
