@@ -1,6 +1,7 @@
 """Refinement in the window: the same samples as `raytree render`, the curve of every method, and a map."""
 
 import math
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -47,6 +48,7 @@ def until(driver: Driver, there: Callable[[], bool]) -> None:
         if there():
             return
         driver.frames(1)
+        time.sleep(0.0)  # the threads that trace get the interpreter
     pytest.fail("it never came")
 
 
