@@ -22,15 +22,20 @@ from viewer.cli.terminal import compile_once, put
 LONGEST = 20  # characters of a word in the table
 NONE = "–"  # the textbook has no formula to compare with
 WIDTH = 100  # of running text
-HEADINGS = ("setting", "exact answer", "the textbook's", "error", "ours", "error", "", "")
-COMPARED = {None: "", "better": "textbook better", "as good": "textbook as good", "worse": ""}
+HEADINGS = ("setting", "exact answer", "the textbook's", "error", "ours", "error", "", "textbook is")
+COMPARED = {None: "", "better": "better", "as good": "as good", "worse": ""}
 ABOUT = """\
 Below each case stands the setting at which our error is the largest part of what is allowed. If the textbook's error
 is larger at another setting, that one follows. Both errors are in the same unit, a unit of rounding: 2^-53 of the
 answer times the condition number of the problem. "0.7 of 4" means 0.7 units, and that 4 are allowed. If an answer has
 a bound of its own (some of E and F), the unit is that bound. Words and counts are right or wrong, and numbers whose
 every digit counts are exact or inexact. A dash: the textbook has no formula to compare with.
-"Worst of 500" means the largest error of 500 random problems from a fixed seed. --explain shows how they are distributed.
+"Worst of 500" is our largest error in 500 random problems, the same in every run; "one of 500" is the one with the
+textbook's largest error. --explain shows how the errors are distributed, and every setting.
+"""
+UNITS = """\
+Errors are in units of rounding: 2^-53 of the answer times the condition number of the problem. "Worst of 500" is our
+largest error in 500 random problems; "one of 500", below it, is the one with the textbook's largest error.
 """
 
 
@@ -43,7 +48,7 @@ def check(options: CheckOptions) -> int:
     if options.json:
         put(json.dumps(to_dict(results), indent=1, allow_nan=False, ensure_ascii=False) + "\n")
     elif options.explain:
-        put("\n".join(explained(result) for result in results))
+        put("\n".join([*map(explained, results), UNITS]))
     else:
         put(table(results) + "\n" + comparison(results) + "\n" + verdict(results, time.perf_counter() - began) + "\n")
     return 0 if all(result.ok for result in results) else 1
@@ -125,8 +130,8 @@ def comparison(results: Sequence[Result]) -> str:
     where = textwrap.fill(f"It is smaller at settings of {', '.join(better)}.", WIDTH) + "\n" if better else ""
     return (
         f"The textbook has an answer at {found.total()} settings. Its error is larger than ours at {found['worse']}, "
-        f"equal at {found['as good']},\nand smaller at {found['better']}. Of random problems, the largest errors are "
-        f"compared.\n{where}"
+        f"equal at {found['as good']},\nand smaller at {found['better']}. (Of random problems, the largest errors are "
+        f"compared.)\n{where}"
     )
 
 

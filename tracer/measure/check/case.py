@@ -134,7 +134,7 @@ def worst_of(setting: str, draws: Iterable[Reading]) -> Reading:
     """The reading of a family: the draw with our largest error, as a share of what is allowed."""
     every = tuple(draws)
     worst = max(every, key=lambda draw: draw.share)
-    named = tuple(replace(draw, setting=f"{setting}, any of {len(every)}") for draw in every)
+    named = tuple(replace(draw, setting=f"{setting}, one of {len(every)}") for draw in every)
     return replace(worst, setting=f"{setting}, worst of {len(every)}", draws=named)
 
 

@@ -58,10 +58,9 @@ def edge_on(kind: Face, chance: Draws) -> Iterator[Reading]:
             t = textbook.triangle(eye, direction, corners, least=0.0, tmin=0.0)
             usual = beside(list(textbook.at(eye, direction, t)) if t < math.inf else None, corners)
             drawn.append(Reading("", 0, ours, unit, POINT, usual))
-            beyond += ours > row["error"]
-    name = f"{kind.name}s edge-on"
-    yield worst_of(f"{name}: off the face by", drawn)
-    yield exactly(f"{name}: farther off than told, of {len(drawn)}", 0, beyond)
+            beyond += ours > float(row["error"])
+    yield worst_of(f"edge-on {kind.name}: off by", drawn)
+    yield exactly(f"edge-on {kind.name}: off by more than told, of {len(drawn)}", 0, beyond)
 
 
 def nearly_edge_on(chance: Draws, count: int) -> Iterator[Hit]:
@@ -90,7 +89,7 @@ def any_edge() -> Iterator[Reading]:
     """
     for kind, seed in ((Triangle, 51), (Polygon, 52)):
         yield from edge_on(kind, Draws(seed))
-    yield from distances("triangles nearly edge-on", nearly_edge_on(Draws(53), 300))
+    yield from distances("nearly edge-on", nearly_edge_on(Draws(53), 300))
 
 
 def rims(chance: Draws) -> Iterator[Decision]:

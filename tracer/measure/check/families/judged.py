@@ -33,7 +33,7 @@ def distances(what: str, hits: Iterable[Hit]) -> Iterator[Reading]:
         f"{what}: t", [Reading("", one.exact, one.t, U * float(one.exact), ROUNDED_ONCE, one.usual) for one in found]
     )
     beyond = sum(not off(one.t, one.exact) <= one.told for one in found)
-    yield exactly(f"{what}: farther off than told, of {len(found)}", 0, beyond)
+    yield exactly(f"{what}: t off by more than told, of {len(found)}", 0, beyond)
 
 
 def wrong_of(what: str, decisions: Sequence[Decision]) -> Reading:
@@ -41,4 +41,4 @@ def wrong_of(what: str, decisions: Sequence[Decision]) -> Reading:
     wrong = sum(one.exact != one.ours for one in decisions)
     usual = sum(one.exact != one.usual for one in decisions)
     least = math.log2(min(abs(one.margin) for one in decisions if one.margin))
-    return exactly(f"{what}: wrong of {len(decisions)}, margins from 2^{least:.0f}", 0, wrong, usual)
+    return exactly(f"{what}: wrong of {len(decisions)}, margin 2^{least:.0f}", 0, wrong, usual)
