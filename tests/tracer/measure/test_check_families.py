@@ -14,7 +14,7 @@ from tracer.measure.check.check import CASES
 from tracer.measure.check.distribution import quantiles
 from tracer.measure.check.draws import Draws, minus, plus, times
 from tracer.measure.check.exact_shapes import DECIDING, Tube
-from tracer.measure.check.families import cones, faces, placed_meshes, refraction, rooms, spheres
+from tracer.measure.check.families import boxes, cones, faces, placed_meshes, refraction, rooms, spheres
 from tracer.measure.check.families.judged import Decision, Hit, distances, wrong_of
 from tracer.measure.check.scenes import world
 
@@ -69,6 +69,23 @@ def test_rays_leave_a_room_without_its_last_wall() -> None:
     assert closed.ok
     assert isinstance(opened.got, int)
     assert 20 < opened.got <= 40
+
+
+def test_wrong_decisions_at_the_edges_of_a_box_have_a_large_margin() -> None:
+    with localcontext(DIGITS):
+        found = list(boxes.crossings(Draws(5)))
+    assert max(one.wrongly(math.isfinite(one.t)) for one in found) <= 4.0
+    assert max(one.wrongly(True) for one in found) > 1e9
+    assert max(one.wrongly(False) for one in found) > 1e9
+    assert sum(abs(one.margin) < 1.0 for one in found) > 10  # at edges, where only rounding decides
+
+
+def test_box_is_entered_and_left() -> None:
+    corners = ((0.0, 0.0, 0.0), (1.0, 2.0, 4.0))
+    assert exact_shapes.box((-1, -1, -1), (1, 1, 1), *corners) == (1, 2)
+    assert exact_shapes.box((-1, 1, 2), (2, 1, -1), *corners) == (Decimal("0.5"), 1)
+    near, far = exact_shapes.box((-1, 0.5, 3), (1, 4, 1), *corners)
+    assert near > far
 
 
 def test_same_seed_same_draws_and_sizes_over_many_decades() -> None:

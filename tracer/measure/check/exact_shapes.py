@@ -77,6 +77,17 @@ def tube(origin: Sequence[float], direction: Sequence[float], shape: Tube) -> li
     return [t for t in found if 0 <= height + t * climb <= 1]
 
 
+def box(
+    origin: Sequence[float], direction: Sequence[float], low: Sequence[float], high: Sequence[float]
+) -> tuple[Decimal, Decimal]:
+    """The distances at which a line enters and leaves a box. It misses if it enters after it leaves."""
+    slabs = [
+        sorted(((decimal(a) - decimal(o)) / decimal(d), (decimal(b) - decimal(o)) / decimal(d)))
+        for o, d, a, b in zip(origin, direction, low, high, strict=True)
+    ]
+    return max(near for near, _ in slabs), min(far for _, far in slabs)
+
+
 def plane(
     origin: Sequence[float], direction: Sequence[float], place: Sequence[Number], upright: Sequence[Number]
 ) -> Decimal:

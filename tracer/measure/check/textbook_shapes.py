@@ -90,14 +90,17 @@ def mesh_walls(corners: Sequence[Sequence[Vector]], tmin: float) -> list[Wall]:
 
 
 def tube_walls(shape: Tube, tmin: float) -> list[Wall]:
-    """The side of a cylinder and its two discs."""
-    axis = unit([y - x for x, y in zip(shape.base, shape.apex, strict=True)])
+    """The side of a cylinder or frustum and its two discs."""
+    axis = [y - x for x, y in zip(shape.base, shape.apex, strict=True)]
+    slope = (shape.apex_radius - shape.base_radius) / math.sqrt(dot(axis, axis))
+    axis = unit(axis)
 
     def out(hit: Vector) -> Vector:
         arm = [x - y for x, y in zip(hit, shape.base, strict=True)]
-        return unit(at(arm, axis, -dot(arm, axis)))
+        return unit(at(unit(at(arm, axis, -dot(arm, axis))), axis, -slope))
 
-    def end(center: Vector) -> Wall:
-        return (lambda o, d: disc(o, d, center, axis, shape.base_radius, tmin)), lambda hit: axis
+    def end(center: Vector, radius: float) -> Wall:
+        return (lambda o, d: disc(o, d, center, axis, radius, tmin)), lambda hit: axis
 
-    return [((lambda o, d: tube(o, d, shape, tmin)), out), end(shape.base), end(shape.apex)]
+    side = (lambda o, d: tube(o, d, shape, tmin)), out
+    return [side, end(shape.base, shape.base_radius), end(shape.apex, shape.apex_radius)]
