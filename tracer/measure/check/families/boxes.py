@@ -30,15 +30,21 @@ class Crossing(NamedTuple):
         return abs(self.margin) if hit != (self.near <= self.far) else 0.0
 
 
+def coordinate(chance: Draws, low: float, high: float) -> float:
+    """Between two faces, on one of them, or a little before or behind one."""
+    if chance.random() < 0.3:
+        return chance.uniform(low, high)
+    beyond = chance.choice((-1.0, 0.0, 1.0)) * 2.0 ** -chance.uniform(1, 56)
+    return chance.choice((low, high)) + beyond * (high - low)
+
+
 def crossings(chance: Draws) -> Iterator[Crossing]:
-    """Rays from outside at faces, edges and corners."""
+    """Rays from outside at points in, on and around the box, many of them at its edges and corners."""
     for _ in range(50):
         size = chance.size(-6, 6)
         low = chance.place(size * chance.size(-3, 3))
         high = plus(low, [size * chance.size(-1, 0) for _ in range(3)])
-        targets = [
-            [chance.choice((a, b, chance.uniform(a, b))) for a, b in zip(low, high, strict=True)] for _ in range(10)
-        ]
+        targets = [[coordinate(chance, *ends) for ends in zip(low, high, strict=True)] for _ in range(10)]
         eyes = [plus(target, times(2.0 * size * chance.size(0, 4), chance.direction())) for target in targets]
         ways = [minus(target, eye) for target, eye in zip(targets, eyes, strict=True)]
         for row, eye in zip(paths(world(box(low, high, MATTE)), eyes, ways).hits, eyes, strict=True):
