@@ -159,6 +159,7 @@ def test_worst_of_keeps_the_draws_and_compares_the_worst() -> None:
 
 def test_quantiles_are_errors_that_so_many_do_not_exceed() -> None:
     assert quantiles(float(k) for k in range(1, 201)) == {"median": 100.0, "90 %": 180.0, "99 %": 198.0, "worst": 200.0}
+    assert quantiles(float(k) for k in range(1, 11)) == {"median": 5.0, "90 %": 9.0, "99 %": 10.0, "worst": 10.0}
     assert quantiles([7.0]) == {"median": 7.0, "90 %": 7.0, "99 %": 7.0, "worst": 7.0}
 
 

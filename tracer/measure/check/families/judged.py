@@ -41,4 +41,4 @@ def wrong_of(what: str, decisions: Sequence[Decision]) -> Reading:
     wrong = sum(one.exact != one.ours for one in decisions)
     usual = sum(one.exact != one.usual for one in decisions)
     least = math.log2(min(abs(one.margin) for one in decisions if one.margin))
-    return exactly(f"{what}: wrong of {len(decisions)}, margin 2^{least:.0f}", 0, wrong, usual)
+    return exactly(f"{what}: wrong of {len(decisions)}, margins to 2^{least:.0f}", 0, wrong, usual)

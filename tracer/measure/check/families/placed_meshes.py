@@ -72,7 +72,7 @@ def hits(chance: Draws, count: int) -> Iterator[Reading]:
 @case("B13", "meshes far from the origin in their file, moved back by their placement")
 def any_placement() -> Iterator[Reading]:
     """Ours is no better here. The vertices are placed in double precision, as in every tracer: coordinates of 1e9 have
-    errors of 1e-7, which are left when the placement moves them back. The unit is u times the largest coordinate
-    before it is moved, over the cosine of incidence.
+    errors of 1e-7, which are left when the placement moves them back. The error told with a hit does not include
+    them. The unit is u times the largest coordinate before it is moved, over the cosine of incidence.
     """
     yield worst_of("t", hits(Draws(55), 200))
