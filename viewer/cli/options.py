@@ -130,7 +130,9 @@ class CheckOptions:
     """`raytree check`."""
 
     cases: tuple[str, ...] = argument("CASE", TEXT, "names like A1, or groups like A; all by default", nargs="*")
-    explain: bool = switch("explain the error of the textbook's formula, and show every setting")
+    explain: bool = switch(
+        "explain the error of the textbook's formula, and show every setting and how errors are distributed"
+    )
     json: bool = switch("print JSON")
 
 

@@ -9,12 +9,13 @@ from functools import cache
 import pytest
 from mpmath import mp, mpf
 
-from tracer.measure.check.case import DIGITS, Case, Reading, Result, exactly, off, run
+from tracer.measure.check.case import DIGITS, Case, Got, Reading, Result, exactly, off, run
 from tracer.measure.check.cases import spheres
 from tracer.measure.check.check import CASES
 
 # Cases that the textbook's formulas must fail. The others test structure, or the textbook does well there.
 FAILS = ("A1", "A2", "A3", "A6", "A7", "A8", "A9", "A4", "A5", "A10", "A11")
+FAILS += ("A12", "A13", "B11", "B12", "B14", "D14", "K1", "K2", "K3")
 FAILS += ("B1", "B3", "B6", "B7", "B8", "B10", "C1", "C2", "C3", "C4", "C5", "C7", "C9", "J4")
 
 # The least loss of the textbook's formulas, as a relative error (absolute at 0).
@@ -60,8 +61,7 @@ def test_case_comes_out(case: Case) -> None:
 
 @pytest.mark.parametrize("case", [case for case in CASES if case.id in LOST], ids=lambda case: case.id)
 def test_textbook_loses_what_is_claimed(case: Case) -> None:
-    errors = [(r.textbook_error, r.error * r.unit) for r in result(case).readings if r.textbook_error is not None]
-    lost, ours = max(errors)
+    lost, ours = max((relative(r.textbook, r), relative(r.got, r)) for r in compared(case))
     assert lost >= LOST[case.id]
     assert ours < lost
 
@@ -72,9 +72,20 @@ def test_ids_are_unique() -> None:
 
 @pytest.mark.parametrize("case", [case for case in CASES if case.id in FAILS], ids=lambda case: case.id)
 def test_textbook_fails_visibly_where_we_do_not(case: Case) -> None:
-    readings = [one for one in result(case).readings if one.textbook is not None]
-    ours = [off(one.got, one.exact) / (size(one) or 1.0) for one in readings]
-    assert max(one.textbook_error or 0.0 for one in readings) > max(1e-12, 1000.0 * max(ours, default=0.0))
+    ours = max(relative(one.got, one) for one in compared(case))
+    assert max(relative(one.textbook, one) for one in compared(case)) > max(1e-12, 1000.0 * ours)
+
+
+def compared(case: Case) -> list[Reading]:
+    """The readings with an answer of the textbook, of a family all draws."""
+    every = [draw for reading in result(case).readings for draw in reading.draws or (reading,)]
+    return [reading for reading in every if reading.textbook is not None]
+
+
+def relative(answer: Got | None, reading: Reading) -> float:
+    """The error relative to the exact answer, or absolute if that is 0."""
+    assert answer is not None
+    return off(answer, reading.exact) / (size(reading) or 1.0)
 
 
 def size(reading: Reading) -> float:

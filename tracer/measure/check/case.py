@@ -1,16 +1,20 @@
 """A case of `raytree check`: a scene with an exact answer, the answer of the textbook's formula, and ours.
 
-An error is counted in units of rounding: u = 2^-53 times the size of the answer times the case's condition number,
-the factor by which the problem magnifies rounding errors of its input. Exact answers are computed with 50 decimal
-digits, or are whole numbers, fractions and words.
+An error, ours or the textbook's, is counted in units of rounding: u = 2^-53 times the size of the answer times the
+case's condition number, the factor by which the problem magnifies rounding errors of its input. Exact answers are
+computed with 50 decimal digits, or are whole numbers, fractions and words.
+
+A family is many random draws of one problem from a fixed seed. Its reading is the draw with our largest error.
 """
 
 import inspect
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Context, Decimal, localcontext
 from fractions import Fraction
+from functools import cached_property
+from typing import Literal
 
 from tracer.formulas.double_double import U
 
@@ -18,6 +22,7 @@ DIGITS = Context(prec=50)
 
 Exact = Decimal | Fraction | int | str
 Got = float | int | str
+Comparison = Literal["better", "as good", "worse"]
 
 
 @dataclass(frozen=True)
@@ -30,30 +35,37 @@ class Reading:
     unit: float = U  # in the unit of the answer: u times its size times the condition number
     allowed: float = 4.0  # units
     textbook: Got | None = None  # the textbook's answer; None if it has none
+    draws: tuple["Reading", ...] = ()  # of a family: all its draws
 
-    @property
+    @cached_property
     def error(self) -> float:
-        """The error in units; infinite if the answer is not of the right kind."""
-        return (
-            off(self.got, self.exact) / self.unit if self.unit > 0.0 else (0.0 if self.got == self.exact else math.inf)
-        )
+        """Our error in units; infinite if the answer is not of the right kind."""
+        return self._in_units(self.got)
 
-    @property
+    @cached_property
     def textbook_error(self) -> float | None:
-        """Relative to the exact answer, or absolute if that is 0."""
-        if self.textbook is None:
-            return None
-        return off(self.textbook, self.exact) / self.size
+        """The textbook's error in the same units; None if it has no answer."""
+        return None if self.textbook is None else self._in_units(self.textbook)
+
+    def _in_units(self, answer: Got) -> float:
+        if self.unit > 0.0:
+            return off(answer, self.exact) / self.unit
+        return 0.0 if answer == self.exact else math.inf
 
     @property
-    def gain(self) -> float:
-        """The ratio of the textbook's error to ours."""
-        return (self.textbook_error or 0.0) / (off(self.got, self.exact) / self.size + U)
+    def share(self) -> float:
+        """Our error as a share of what is allowed; above 1 if it is too large."""
+        return self.error / (self.allowed or 1.0)
 
     @property
-    def size(self) -> float:
-        """The size of the exact answer, to which errors are relative; 1 for 0 and for words."""
-        return (0.0 if isinstance(self.exact, str) else abs(float(self.exact))) or 1.0
+    def textbooks_worst(self) -> "Reading":
+        """Of a family the draw with the textbook's largest error; otherwise the reading itself."""
+        return max((self, *self.draws), key=lambda one: -1.0 if one.textbook_error is None else one.textbook_error)
+
+    @property
+    def comparison(self) -> Comparison | None:
+        """The textbook's largest error compared with ours; None if it has no answer."""
+        return compare(self.textbooks_worst.textbook_error, self.error)
 
     @property
     def ok(self) -> bool:
@@ -72,6 +84,7 @@ TOPICS = {
     "H": "one medium in another",
     "I": "shadows and mirrors",
     "J": "what must not change a tree, and invalid input",
+    "K": "cones and cylinders",
     "L": "rays that a scene does not need",
 }
 
@@ -101,19 +114,35 @@ class Result:
 
     @property
     def worst(self) -> Reading:
-        """The reading that is nearest to the allowed error, or farthest beyond it."""
-        return max(self.readings, key=lambda reading: reading.error / (reading.allowed or 1.0))
+        """The reading whose error is the largest share of what is allowed. Of equal ones, that with the textbook's
+        largest error.
+        """
+        return max(self.readings, key=lambda reading: (reading.share, reading.textbooks_worst.textbook_error or 0.0))
 
     @property
-    def telling(self) -> Reading:
-        """The reading to be shown: the worst if the case fails, otherwise the one with the largest gain over the
-        textbook.
-        """
-        return self.worst if not self.ok else max(self.readings, key=lambda reading: reading.gain)
+    def textbooks_worst(self) -> Reading:
+        """The reading, or the draw of a family, with the textbook's largest error; `worst` if none is larger."""
+        each = (self.worst, *(reading.textbooks_worst for reading in self.readings))
+        return max(each, key=lambda reading: reading.textbook_error or 0.0)
 
     @property
     def ok(self) -> bool:
         return bool(self.readings) and all(reading.ok for reading in self.readings)
+
+
+def worst_of(setting: str, draws: Iterable[Reading]) -> Reading:
+    """The reading of a family: the draw with our largest error, as a share of what is allowed."""
+    every = tuple(draws)
+    worst = max(every, key=lambda draw: draw.share)
+    named = tuple(replace(draw, setting=f"{setting}, one of {len(every)}") for draw in every)
+    return replace(worst, setting=f"{setting}, worst of {len(every)}", draws=named)
+
+
+def compare(theirs: float | None, ours: float) -> Comparison | None:
+    """The textbook's error compared with ours."""
+    if theirs is None:
+        return None
+    return "worse" if theirs > ours else "as good" if theirs == ours else "better"
 
 
 def run(case: Case) -> Result:

@@ -7,14 +7,16 @@ from fractions import Fraction
 from importlib import import_module
 from typing import Any
 
-from tracer.measure.check import cases
-from tracer.measure.check.case import Case, Result, run
+from tracer.measure.check import cases, families
+from tracer.measure.check.case import Case, Reading, Result, run
+from tracer.measure.check.distribution import ours, the_textbooks
 
 
 def all_cases() -> Iterator[Case]:
-    """The cases in the files of the folder `cases`."""
-    for file in pkgutil.iter_modules(cases.__path__, f"{cases.__name__}."):
-        yield from (value for value in vars(import_module(file.name)).values() if isinstance(value, Case))
+    """The cases in the files of the folders `cases` and `families`."""
+    for folder in (cases, families):
+        for file in pkgutil.iter_modules(folder.__path__, f"{folder.__name__}."):
+            yield from (value for value in vars(import_module(file.name)).values() if isinstance(value, Case))
 
 
 CASES = tuple(sorted(set(all_cases()), key=lambda one: (one.id[0], int(one.id[1:]))))
@@ -43,21 +45,36 @@ def _case(result: Result) -> dict[str, Any]:
         "got": plain(worst.got),
         "error": finite(worst.error),
         "tolerance": worst.allowed,
+        "textbook_error": plain(worst.textbooks_worst.textbook_error),
+        "textbook_is": worst.comparison,
         "title": result.case.title,
-        "readings": [
-            {
-                "setting": reading.setting,
-                "exact": plain(reading.exact),
-                "got": plain(reading.got),
-                "textbook": plain(reading.textbook),
-                "error": finite(reading.error),
-                "unit": reading.unit,
-                "tolerance": reading.allowed,
-                "ok": reading.ok,
-            }
-            for reading in result.readings
-        ],
+        "readings": [_reading(reading) for reading in result.readings],
     }
+
+
+def _reading(reading: Reading) -> dict[str, Any]:
+    """`textbook_error` is null if the textbook has no answer, or an infinite error: `textbook_is` is null only for the
+    former. Of a family, it is the largest of all draws.
+    """
+    values = {
+        "setting": reading.setting,
+        "exact": plain(reading.exact),
+        "got": plain(reading.got),
+        "textbook": plain(reading.textbook),
+        "error": finite(reading.error),
+        "unit": reading.unit,
+        "tolerance": reading.allowed,
+        "textbook_error": plain(reading.textbooks_worst.textbook_error),
+        "textbook_is": reading.comparison,
+        "ok": reading.ok,
+    }
+    if reading.draws:
+        values |= {
+            "draws": len(reading.draws),
+            "quantiles": {name: finite(error) for name, error in ours(reading).items()},
+            "textbook_quantiles": {name: finite(error) for name, error in the_textbooks(reading).items()},
+        }
+    return values
 
 
 def plain(value: Any) -> Any:

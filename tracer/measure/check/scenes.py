@@ -2,12 +2,15 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from tracer.formulas.vector import Vector, as_floats
 from tracer.kernel.world import World, prepare
 from tracer.scene import Background, Camera, Light, Material, Object, Scene, Tracing
 from tracer.shapes.box import Box
 from tracer.shapes.plane import Plane
 from tracer.shapes.sphere import Sphere
+from tracer.tree.batch import RayTrees, trace_rays
 from tracer.tree.raytree import RayTree
 from tracer.tree.trace import trace
 
@@ -47,3 +50,8 @@ def world(
 def path(world: World, origin: Sequence[float], direction: Sequence[float], depth: int | None = 0, **limits) -> RayTree:
     """The tree of a ray given by hand."""
     return trace(world, ray=(origin, direction), depth=depth, **limits)
+
+
+def paths(world: World, origins: Sequence[Sequence[float]], directions: Sequence[Vector], depth: int = 0) -> RayTrees:
+    """The trees of many rays given by hand."""
+    return trace_rays(world, np.array(origins), np.array(directions), depth=depth)

@@ -50,7 +50,9 @@ def plane(origin: Vector, direction: Vector, point: Vector, normal: Vector, tmin
     return t if t > tmin else math.inf
 
 
-def triangle(origin: Vector, direction: Vector, corners: Sequence[Vector], least: float = 1e-8) -> float:
+def triangle(
+    origin: Vector, direction: Vector, corners: Sequence[Vector], least: float = 1e-8, tmin: float = TMIN
+) -> float:
     """The distance to a triangle by Moeller and Trumbore, with their threshold for the determinant; inf for none."""
     a, b, c = corners
     e1, e2 = [y - x for x, y in zip(a, b, strict=True)], [y - x for x, y in zip(a, c, strict=True)]
@@ -64,7 +66,7 @@ def triangle(origin: Vector, direction: Vector, corners: Sequence[Vector], least
     if u < 0.0 or v < 0.0 or u + v > 1.0:
         return math.inf
     t = dot(e2, q) / determinant
-    return t if t > TMIN else math.inf
+    return t if t > tmin else math.inf
 
 
 def cross(a: Vector, b: Vector) -> Vector:
