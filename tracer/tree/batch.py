@@ -30,6 +30,7 @@ class RayTrees:
     residuals: np.ndarray  # (n,) of each tree, as `RayTree.residual`
     depth: int
     model: str
+    max_nodes: int = MAX_NODES  # the limit of rows of each tree
 
     def __len__(self) -> int:
         return len(self.residuals)
@@ -50,7 +51,8 @@ class RayTrees:
         nodes["parent"][1:] -= first
         nodes.flags.writeable = False
         size = self.world.view().width, self.world.view().height
-        return RayTree(nodes, float(self.residuals[k]), self.world.scene, self.depth, self.model, None, size)
+        residual = float(self.residuals[k])
+        return RayTree(nodes, residual, self.world.scene, self.depth, self.model, None, size, max_nodes=self.max_nodes)
 
 
 def trace_rays(
@@ -96,7 +98,7 @@ def trace_rays(
         else:
             table = np.concatenate([table, np.zeros(len(table), NODE)])
     nodes = public_rows(world, table, int(batch.starts[-1]))
-    return RayTrees(world, nodes, batch.starts, batch.residuals, limits.depth, MODELS[limits.model])
+    return RayTrees(world, nodes, batch.starts, batch.residuals, limits.depth, MODELS[limits.model], limits.max_nodes)
 
 
 def unit_directions(ways: np.ndarray) -> np.ndarray:

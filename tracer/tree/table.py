@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from tracer.formulas.vector import Vector
+from tracer.kernel.limits import MAX_NODES
 from tracer.kernel.nodes import BLOCKED, ENDS, KINDS, SHADOW, SURFACE
 from tracer.scene import Scene
 from tracer.scene.radiance_bound import RadianceBound, radiance_bound
@@ -26,6 +27,8 @@ class TreeTable:
     pixel: tuple[int, int] | None  # None: a ray given by hand
     size: tuple[int, int]  # of the image, width and height
     tolerance: float | None = None  # the residual asked for; the rows are then in order of tracing
+    missing_allowed: float | None = None  # the missing light asked for; `tolerance` follows from it
+    max_nodes: int = MAX_NODES  # the limit of rows
 
     @property
     def radiance(self) -> np.ndarray:

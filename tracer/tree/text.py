@@ -86,12 +86,13 @@ def cut_summary(tree: TreeTable) -> str:
         return "no ray was cut"
     carry = f"rays that were cut carry {number_text(tree.residual)} of the weight"
     if (tree.nodes["end"] == NODES).any():
-        carry = f"stopped at the limit of rays: {carry}"
+        carry = f"stopped at the limit of {tree.max_nodes:,} rays: {carry}"
     elif tree.tolerance is not None and tree.residual > tree.tolerance:
         carry = f"stopped by depth or weight, before the tolerance was reached: {carry}"
     most = tree.missing
     channel = max(range(3), key=lambda k: most[k])
-    return f"{carry}{missing_light(most[channel], tree.radiance_bound.reason, float(tree.radiance[channel]))}"
+    lacks = missing_light(most[channel], tree.radiance_bound.reason, float(tree.radiance[channel]))
+    return f"{carry}{lacks}{within(tree.bound, tree.missing_allowed)}"
 
 
 def missing_light(bound: float, reason: str, radiance: float | None = None) -> str:
@@ -102,6 +103,13 @@ def missing_light(bound: float, reason: str, radiance: float | None = None) -> s
         return f', and no upper bound is known for the missing light, because of the material "{reason}"'
     of = "the light" if radiance is None else f"this pixel's {number_text(radiance)}"
     return f": at most {number_text(bound)} of {of} is missing"
+
+
+def within(bound: float, allowed: float | None) -> str:
+    """The end of a sentence about missing light of which no more than `allowed` was asked for, if so."""
+    if allowed is None:
+        return ""
+    return f", {'within' if bound <= allowed else 'more than'} the {number_text(allowed)} that was asked for"
 
 
 def _stems(tree: TreeTable, shown: set[int]) -> dict[int, str]:

@@ -24,6 +24,8 @@ def trace(options: TraceOptions) -> int:
             size=options.size,
             min_weight=options.min_weight,
             tolerance=options.tolerance,
+            missing=options.missing,
+            max_rays=options.max_rays,
             model=options.model,
         )
     text = tree.to_text(options.rays or None) if options.format == "text" else FORMATS[options.format].text(tree)

@@ -104,7 +104,12 @@ def command_line(options: ExportOptions, format_name: str) -> str:
 def steps_of(world: World, options: ExportOptions, depths: range) -> list[Step]:
     """Trace the trees, and divide them into pages."""
     ray = (options.ray[:3], options.ray[3:]) if options.ray else None
-    how = {"size": options.size, "min_weight": options.min_weight, "model": options.model}
+    how = {
+        "size": options.size,
+        "min_weight": options.min_weight,
+        "max_rays": options.max_rays,
+        "model": options.model,
+    }
     trees = [tracer.trace(world, options.pixel, ray, depth=depth, **how) for depth in depths]
     if options.step == "rays":
         steps = by_ray(trees[-1])
