@@ -17,7 +17,7 @@ from tracer.image.film import Film, Traced
 from tracer.image.passes import Stopped, trace_passes
 from tracer.image.progressive import MAX_SAMPLES, ProgressiveImage, RoundStats
 from tracer.image.task import Cancelled, RemoteExecutor, Task, Work, never, shared
-from tracer.image.tiles import SIDE, SMALL_SIDE, make_tiles
+from tracer.image.tiles import SHALLOW, SIDE, SMALL_SIDE, make_tiles, scattered
 from tracer.image.warmup import warm_up
 from tracer.kernel.limits import BREADTH_FIRST, default_max_rays, image_max_nodes, make_limits
 from tracer.kernel.nodes import KINDS
@@ -83,11 +83,14 @@ class Goal:
         """Whether the time is up."""
         return self.seconds is not None and time.perf_counter() - self.began >= self.seconds
 
-    def share(self, error: float) -> float:
-        """The share of the work that is done, if the error falls as N^-3/4, like that of an edge."""
+    def share(self, error: float, growth: float = 1.0) -> float:
+        """The share of the work that is done, if the error falls as N^-3/4, like that of an edge.
+
+        `growth` is the number of samples now, relative to that when the error was estimated.
+        """
         shares = [0.0]
         if self.error is not None and error >= self.error:
-            shares.append((self.error / error) ** (4.0 / 3.0))
+            shares.append((self.error / error) ** (4.0 / 3.0) * growth)
         if self.seconds is not None:
             shares.append((time.perf_counter() - self.began) / self.seconds)
         return min(1.0, max(shares))
@@ -163,8 +166,8 @@ def render(
         else:
             film, ended, stats, counts = Film(view.width, view.height), "", None, None
             task = Task.of(world, view, limits, points.sampler)
-            tiles = make_tiles(view.width, view.height, SMALL_SIDE if best_first else SIDE)
-            works = [Work(tile, points.first, points.first + points.count) for tile in tiles]
+            tiles = make_tiles(view.width, view.height, SIDE if limits.depth <= SHALLOW else SMALL_SIDE)
+            works = [Work(tile, points.first, points.first + points.count) for tile in scattered(tiles)]
 
             def finished(traced: Traced, share: float) -> None:
                 film.add(traced)
@@ -201,17 +204,17 @@ def _converge(
     image: ProgressiveImage, goal: Goal, executor: Executor, threads: int, progress: Progress, cancelled: Cancelled
 ) -> str:
     """Trace rounds until the goal is reached. Returns what ended it. Every pixel gets at least two samples."""
-    error = math.nan
+    error, samples = math.nan, 1
 
     def is_over() -> bool:
         return cancelled() or (goal.is_late and image.statistics.counts.min() > 1)
 
     def finished(*_: object) -> None:
-        progress(goal.share(error))
+        progress(goal.share(error, image.statistics.counts.sum() / samples))
 
     try:
         for stats in image.rounds(executor, threads, finished, is_over):
-            error = stats.error
+            error, samples = stats.error, image.statistics.counts.sum()
             if goal.error is not None and stats.error <= goal.error:
                 return "error"
             if goal.is_late and stats.least > 1:

@@ -14,10 +14,8 @@ from tracer.kernel.world import World
 from tracer.scene.radiance_bound import radiance_bound
 
 MAX_NODES = 10**6  # rows of a tree, unless asked otherwise
-MAX_RAYS = (
-    10**10
-)  # rays of an image for each sample that a pixel can get, unless asked otherwise: see `default_max_rays`
-LEAST_ROWS = 1000  # the same for each pixel of a very large image
+MAX_RAYS = 10**10  # rays of an image for each sample that a pixel can get, unless asked otherwise
+LEAST_ROWS = 1000  # the same for each pixel, where an image is so large that this is more
 MAX_DEPTH = 2**31 - 1  # limit of a row's `depth`
 BREADTH_FIRST = -1.0  # value of `tolerance` for breadth-first tracing
 

@@ -14,7 +14,6 @@ from typing import NamedTuple
 from tracer.formulas.vector import Vector
 from tracer.scene.scene import Material, Scene
 
-
 MARGIN = 2.0**-48  # relative: of the rounding errors between a sum of weights and the light that it can bring
 
 
@@ -27,7 +26,6 @@ class RadianceBound(NamedTuple):
 
     rgb: Vector
     reason: str  # the material because of which a channel has no bound; empty if all have one
-    cause: str = ""  # the numbers of that material that allow none, as text
 
     @property
     def largest(self) -> float:
@@ -43,8 +41,9 @@ class RadianceBound(NamedTuple):
         light. MissingBoundError if there is no bound.
         """
         if math.isinf(self.largest):
+            adds_up = "it passes on all the light that it gets, or more, so light can add up without limit"
             raise MissingBoundError(
-                f'missing needs a bound on the light of a ray, and the material "{self.reason}" allows none: {self.cause}'
+                f'missing needs a bound on the light of a ray, and the material "{self.reason}" has none: {adds_up}'
             )
         return missing / self.largest * (1.0 - MARGIN) if self.largest > 0.0 else math.inf
 
@@ -52,7 +51,7 @@ class RadianceBound(NamedTuple):
 def radiance_bound(scene: Scene) -> RadianceBound:
     """B of a scene."""
     names = {item.material: item.material.name or item.name or item.shape.name for item in reversed(scene.objects)}
-    most, reason, cause = list(scene.background.color), "", ""
+    most, reason = list(scene.background.color), ""
     local = {material: local_bound(scene, material) for material in names}
     for k in range(3):
         shines = most[k] > 0.0 or any(own[k] > 0.0 for own in local.values())
@@ -61,11 +60,8 @@ def radiance_bound(scene: Scene) -> RadianceBound:
             if passed_on < 1.0:
                 most[k] = max(most[k], local[material][k] / (1.0 - passed_on))
             elif local[material][k] > 0.0 or (passed_on > 1.0 and shines):
-                most[k] = math.inf
-                if not reason:
-                    adds = ", and it adds light of its own" if local[material][k] > 0.0 else ""
-                    reason, cause = name, f"its reflect + transmit is {passed_on:g}{adds}"
-    return RadianceBound((most[0], most[1], most[2]), reason, cause)
+                most[k], reason = math.inf, reason or name
+    return RadianceBound((most[0], most[1], most[2]), reason)
 
 
 def local_bound(scene: Scene, material: Material) -> Vector:

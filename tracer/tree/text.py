@@ -3,7 +3,9 @@
 import math
 from collections.abc import Sequence
 
-from tracer.kernel.nodes import NODES, SHADOW
+import numpy as np
+
+from tracer.kernel.nodes import SHADOW
 from tracer.tree.digits import degrees_text, number_text, rgb_text
 from tracer.tree.table import TreeTable
 
@@ -31,10 +33,9 @@ def tree_text(tree: TreeTable, most: int | None = None) -> str:
     the heaviest are listed.
     """
     rows: list[tuple[str, ...]] = [HEADINGS]
-    shown = set(range(len(tree)))
+    shown = heaviest_rows(tree, len(tree) if most is None else most)
     head = _head(tree)
-    if most is not None and len(tree) > most:
-        shown = heaviest_rows(tree, most, shown)
+    if len(shown) < len(tree):
         head.append(f"the heaviest {len(shown)} of {len(tree)} rays are shown")
     stems = _stems(tree, shown)
     for i in tree.preorder():
@@ -43,22 +44,21 @@ def tree_text(tree: TreeTable, most: int | None = None) -> str:
     return "\n".join([*head, "", *columns(rows)]) + "\n"
 
 
-def heaviest_rows(tree: TreeTable, most: int, rows: set[int]) -> set[int]:
-    """The heaviest rays with their shadow rays: at most `most` rows, but at least one ray.
+def heaviest_rows(tree: TreeTable, most: int, rows: set[int] | None = None) -> set[int]:
+    """The heaviest of these rays, or of all, with their shadow rays: at most `most` rows, but at least one ray.
 
     The parent of a row that is kept is kept, too, since no ray is heavier than its parent.
     """
-    if len(rows) <= most:
-        return rows
-    weights = tree.nodes["weight"].max(axis=1)
-    rays = sorted((i for i in rows if tree.nodes["kind"][i] != SHADOW), key=lambda i: (-weights[i], i))
-    kept: set[int] = set()
-    for i in rays:
-        shadows = {child for child in tree.children[i] if child in rows and tree.nodes["kind"][child] == SHADOW}
-        if kept and len(kept) + 1 + len(shadows) > most:
-            break
-        kept |= {i} | shadows
-    return kept
+    among = np.arange(len(tree)) if rows is None else np.array(sorted(rows))
+    if len(among) <= most:
+        return set(among.tolist())
+    is_shadow = tree.nodes["kind"][among] == SHADOW
+    rays, shadows = among[~is_shadow], among[is_shadow]
+    parents = tree.nodes["parent"][shadows]
+    order = rays[np.argsort(-tree.nodes["weight"][rays].max(axis=1), kind="stable")]
+    taken = np.cumsum(1 + np.bincount(parents, minlength=len(tree))[order])
+    kept = order[: max(1, int(np.searchsorted(taken, most, side="right")))]
+    return set(kept.tolist()) | set(shadows[np.isin(parents, kept)].tolist())
 
 
 def columns(rows: Sequence[Sequence[str]]) -> list[str]:
@@ -85,7 +85,7 @@ def cut_summary(tree: TreeTable) -> str:
     if tree.residual == 0.0:
         return "no ray was cut"
     carry = f"rays that were cut carry {number_text(tree.residual)} of the weight"
-    if (tree.nodes["end"] == NODES).any():
+    if tree.is_limited:
         carry = f"stopped at the limit of {tree.max_nodes:,} rays: {carry}"
     elif tree.tolerance is not None and tree.residual > tree.tolerance:
         carry = f"stopped by depth or weight, before the tolerance was reached: {carry}"

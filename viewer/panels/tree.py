@@ -2,18 +2,20 @@
 
 import bisect
 import math
+from collections.abc import Set
 
 import numpy as np
 from imgui_bundle import imgui
 
 from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import RayTree
 from tracer.tree.text import cut_summary, heaviest_rows
 from viewer.base.srgb import display_color
 from viewer.base.theme import BLOCKED_DASH, DIMMED, SMALL, STYLES, faded
 from viewer.base.wording import format_number
 from viewer.explain.ray import headline
 from viewer.figures.layout.tidy_tree import Place, closed_under_parents, tidy_layout
-from viewer.figures.ray_lines import relatives
+from viewer.figures.ray_lines import drawn_rows, relatives
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.panel import Corner, Panel
@@ -39,7 +41,7 @@ def draw(session: Session, canvas: Canvas) -> None:
         _hint(session, pad, corner, room)
         return
     pad.push_clip_rect(corner, (corner.x + room.x, corner.y + room.y), True)
-    diagram = _Diagram(session, pad, corner, room)
+    diagram = _Diagram(session, canvas, pad, corner, room)
     diagram.draw()
     canvas.nodes = {i: diagram.at[i] for i in diagram.rows}
     pad.pop_clip_rect()
@@ -53,25 +55,31 @@ def _hint(session: Session, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: i
     d.text(pad, at, session.appearance.theme.muted, content, size)
 
 
+def _places(tree: RayTree, kinds: Set[str]) -> dict[int, Place]:
+    """The positions of the rows that are drawn: the heaviest of these kinds."""
+    wanted = {i for i in drawn_rows(tree) if tree.kind(i) in kinds or i == 0}
+    wanted = closed_under_parents(tree.nodes["parent"], wanted)
+    return tidy_layout(tree, heaviest_rows(tree, MOST_ROWS, wanted)).places
+
+
 class _Diagram:
-    def __init__(self, session: Session, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+    def __init__(
+        self, session: Session, canvas: Canvas, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2
+    ) -> None:
         assert session.tree and session.full_tree
         self.session = session
         self.tree = session.tree
         self.pad = pad
         self.theme = session.appearance.theme
-        full = session.full_tree
-        wanted = {i for i in range(len(full)) if full.kind(i) in session.shown.kinds or i == 0}
-        wanted = closed_under_parents(full.nodes["parent"], wanted)
-        rows = heaviest_rows(full, MOST_ROWS, wanted)
-        places = tidy_layout(full, rows).places
-        self.folded = len(self.tree) - sum(i < len(self.tree) for i in wanted & rows)
+        full, kinds = session.full_tree, frozenset(session.shown.kinds)
+        places = canvas.tree_places.get((full, kinds), lambda: _places(full, kinds))
         self._fit(places, corner, room)
-        self.rows = sorted(i for i in rows if i < len(self.tree))
+        self.rows = sorted(i for i in places if i < len(self.tree))
+        self.folded = len(self.tree) - len(self.rows)
         self.levels: dict[float, list[float]] = {}  # positions of hits on each level, left to right
         for x, y in sorted(self.at[i] for i in self.rows if self.tree.nodes["kind"][i] != SHADOW):
             self.levels.setdefault(y, []).append(x)
-        self.kept = relatives(self.tree, session.selected) if session.selected is not None else None
+        self.kept = relatives(self.tree, session.selected, self.rows) if session.selected is not None else None
 
     def _fit(self, places: dict[int, Place], corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
         """Map positions to pixels, as far apart as the room allows, up to WIDEST and TALLEST."""
@@ -118,8 +126,8 @@ class _Diagram:
         return (x, y - 36 * d.unit())
 
     def _levels(self) -> None:
-        """The depths, as faint lines with their numbers."""
-        deepest = int(self.tree.nodes["depth"].max())
+        """The depths of the rays that are drawn, as faint lines with their numbers."""
+        deepest = int(self.tree.nodes["depth"][self.rows].max())
         size = self.text_size
         for depth in range(deepest + 1):
             y = self.at[0][1] + depth * self.step_y

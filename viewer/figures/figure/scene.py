@@ -81,7 +81,7 @@ class _Drawing:
             self._thing(part, 1.0)
         for part in view.seen.glass:
             self._thing(part, GLASS)
-        lines = ray_lines(self.tree, len(self.tree), view.frame, frozenset(KINDS))
+        lines = ray_lines(self.tree, range(len(self.tree)), view.frame, frozenset(KINDS))
         self.lines = [line for line in lines if line.row in step.rows]
         for line in sorted(self.lines, key=lambda line: -line.row):  # the first rays lie over the later ones
             self._ray(line)
