@@ -29,9 +29,10 @@ class RayLine:
 
 
 def drawn_rows(tree: RayTree, selected: int | None = None) -> list[int]:
-    """The rows that are drawn: the heaviest MOST_DRAWN, and the selected ray with its ancestors."""
+    """The rows that are drawn: the heaviest MOST_DRAWN, and the selected ray with as many of its nearest ancestors."""
     rows = heaviest_rows(tree, MOST_DRAWN)
-    return sorted(rows | ancestors(tree, selected)) if selected is not None else sorted(rows)
+    above = ancestors(tree, selected) if selected is not None else set()
+    return sorted(rows.union(sorted(above)[-MOST_DRAWN:]))
 
 
 def ray_lines(tree: RayTree, rows: Sequence[int], frame: Frame, kinds: Set[str]) -> list[RayLine]:

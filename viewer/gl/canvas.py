@@ -43,6 +43,7 @@ class Canvas:
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
         self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)  # left, top, size of a pixel
         self.nodes: dict[int, tuple[float, float]] = {}  # of the tree
+        self.tree_kept: Cached[set[int]] = Cached()  # rows of the tree that stay bright beside the selected one
         self.tree_places: Cached[dict[int, TreePlace]] = Cached()  # of the tree, in its own units
         self.ray_changed = Changed()  # the ray whose numbers are shown
         self._map: Cached[moderngl.Texture | None] = Cached(_release)

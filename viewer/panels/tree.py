@@ -2,20 +2,18 @@
 
 import bisect
 import math
-from collections.abc import Set
 
 import numpy as np
 from imgui_bundle import imgui
 
 from tracer.kernel.nodes import SHADOW
-from tracer.tree.raytree import RayTree
-from tracer.tree.text import cut_summary, heaviest_rows
+from tracer.tree.text import cut_summary
 from viewer.base.srgb import display_color
 from viewer.base.theme import BLOCKED_DASH, DIMMED, SMALL, STYLES, faded
 from viewer.base.wording import format_number
 from viewer.explain.ray import headline
-from viewer.figures.layout.tidy_tree import Place, closed_under_parents, tidy_layout
-from viewer.figures.ray_lines import drawn_rows, relatives
+from viewer.figures.layout.tidy_tree import Place, heaviest_places
+from viewer.figures.ray_lines import relatives
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.panel import Corner, Panel
@@ -55,13 +53,6 @@ def _hint(session: Session, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: i
     d.text(pad, at, session.appearance.theme.muted, content, size)
 
 
-def _places(tree: RayTree, kinds: Set[str]) -> dict[int, Place]:
-    """The positions of the rows that are drawn: the heaviest of these kinds."""
-    wanted = {i for i in drawn_rows(tree) if tree.kind(i) in kinds or i == 0}
-    wanted = closed_under_parents(tree.nodes["parent"], wanted)
-    return tidy_layout(tree, heaviest_rows(tree, MOST_ROWS, wanted)).places
-
-
 class _Diagram:
     def __init__(
         self, session: Session, canvas: Canvas, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2
@@ -72,14 +63,17 @@ class _Diagram:
         self.pad = pad
         self.theme = session.appearance.theme
         full, kinds = session.full_tree, frozenset(session.shown.kinds)
-        places = canvas.tree_places.get((full, kinds), lambda: _places(full, kinds))
+        places = canvas.tree_places.get((full, kinds), lambda: heaviest_places(full, kinds, MOST_ROWS))
         self._fit(places, corner, room)
         self.rows = sorted(i for i in places if i < len(self.tree))
         self.folded = len(self.tree) - len(self.rows)
         self.levels: dict[float, list[float]] = {}  # positions of hits on each level, left to right
         for x, y in sorted(self.at[i] for i in self.rows if self.tree.nodes["kind"][i] != SHADOW):
             self.levels.setdefault(y, []).append(x)
-        self.kept = relatives(self.tree, session.selected, self.rows) if session.selected is not None else None
+        self.kept: set[int] | None = None
+        if (selected := session.selected) is not None:
+            key = (self.tree, selected, kinds)
+            self.kept = canvas.tree_kept.get(key, lambda: relatives(self.tree, selected, self.rows))
 
     def _fit(self, places: dict[int, Place], corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
         """Map positions to pixels, as far apart as the room allows, up to WIDEST and TALLEST."""
