@@ -50,8 +50,9 @@ def _tolerance() -> Any:
 
 def _missing() -> Any:
     return option(
-        LIGHT, "the same until the other rays can add no more light than E to red, green or blue", group="cut"
-    )
+        LIGHT, "trace best-first, to any depth, until the other rays can add no more light than E to any channel",
+        group="cut",
+    )  # fmt: skip
 
 
 def _max_rays() -> Any:
