@@ -65,9 +65,7 @@ class Space(NamedTuple):
     rays: Numbers  # traced in this call, by kind
     tests: Numbers  # (1,): ray-surface intersection tests in this call; a block of eight triangles counts as eight
     limited: Numbers  # (1,): trees in this call that the limit of rows ended
-    tree: (
-        Numbers  # (rows, residual, 1 if the limit of rows ended it) of the last tree; -1 rows: the table was too short
-    )
+    tree: Numbers  # of the last tree: rows (-1: the table was too short), residual, 1 if the limit of rows ended it
 
 
 class Workspace:

@@ -12,7 +12,8 @@ from tracer.tree.text import heaviest_rows
 from viewer.base.orbit import Frame
 from viewer.base.theme import BLOCKED_DASH, ESCAPE, FILTERED_DASH, STYLES
 
-MOST_DRAWN = 20_000  # the heaviest rays, if a tree has more
+MOST_DRAWN = 20_000  # rays in the window: the heaviest, if a tree has more
+MOST_IN_FIGURE = 2_000  # the same in a figure of the scene
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class RayLine:
 
 
 def drawn_rows(tree: RayTree, selected: int | None = None) -> list[int]:
-    """The rows that are drawn: the heaviest MOST_DRAWN, and the selected ray with as many of its nearest ancestors."""
+    """The rows that the window draws: the heaviest, and the selected ray with its nearest ancestors."""
     rows = heaviest_rows(tree, MOST_DRAWN)
     above = ancestors(tree, selected) if selected is not None else set()
     return sorted(rows.union(sorted(above)[-MOST_DRAWN:]))

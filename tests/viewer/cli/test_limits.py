@@ -1,12 +1,15 @@
 """`--missing` and `--max-rays` on the command line: image and tree agree, and a limit that was reached is said."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from viewer.cli.main import main
+from viewer.figures import export
+from viewer.figures.figure import scene
 
 MIRRORS = """
 format = 1
@@ -109,3 +112,18 @@ def test_unusable_limits_are_one_line(
         (line,) = capsys.readouterr().err.splitlines()
         assert said in line
     assert not (tmp_path / "image.npy").exists()
+
+
+def test_figure_of_the_scene_draws_the_heaviest_rays(
+    mirrors: str, tmp_path: Path, capsys: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of a tree that is too large, the table has all rows."""
+    for module in (export, scene):
+        monkeypatch.setattr(module, "MOST_IN_FIGURE", 3)
+    options = ["--pixel", "30,20", "--depth", "20", "--figure", "scene", "--format", "svg,json"]
+    assert main(["export", mirrors, *options, "-o", f"{tmp_path}/"]) == 0
+    assert "scene: of 42 rays, the heaviest 3 are drawn in the scene" in capsys.readouterr().err
+    svg, data = (next(tmp_path.glob(f"*.{end}")).read_text() for end in ("svg", "json"))
+    assert len(json.loads(data)["nodes"]) == 42
+    drawn = {int(row) for row in re.findall(r'id="ray-(\d+)', svg)}
+    assert drawn == {0, 1}  # a ray and its shadow ray; the next two rows would be one too many
