@@ -64,6 +64,7 @@ def test_click_ends_where_the_image_ends(
             note = f"3,072 pixels stopped at the limit of {rows} rays"
             assert (note in said) == (rows < 2 * depth)
     refine(room, 4)
+    room.frames()
     assert session.image.picture
     assert f"{session.image.picture.limited:,} samples stopped at the limit of 40 rays" in said
     assert session.image.picture.limited >= 4 * 3072
