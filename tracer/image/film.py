@@ -25,16 +25,18 @@ class Traced(NamedTuple):
 
 
 class Totals:
-    """Total numbers of rays and intersection tests."""
+    """Total numbers of rays, of intersection tests, and of trees that the limit of rows ended."""
 
     def __init__(self) -> None:
         self.rays = np.zeros(len(KINDS), np.int64)  # by kind
         self.tests = 0  # ray-surface intersection tests
+        self.limited = 0  # trees
 
     def add(self, counts: Counts) -> None:
         """Add the counts of a tile."""
         self.rays += counts.rays
         self.tests += int(counts.tests[0])
+        self.limited += int(counts.limited[0])
 
 
 class Film:

@@ -15,8 +15,10 @@ from tracer.compile.rows import Rows, as_rows
 from tracer.kernel.entry import PIXEL, PixelRow
 
 SIDE = 64  # pixels: some milliseconds of work, so that cancelling is fast and threads finish together
-SMALL_SIDE = 16  # where trees are traced to a tolerance: a pixel may then take a second
+SMALL_SIDE = 16  # where trees may be so deep that a pixel takes a second
+SHALLOW = 8  # the largest depth of trees for which the tiles are large
 BLOCK = 4  # pixels are listed in blocks of 4x4, whose rays are close together
+R2 = (0.7548776662466927, 0.5698402909980532)  # 1/g and 1/g^2, where g^3 = g + 1
 COARSE_TO_FINE = (8, 4, 2, 1)  # steps of the passes of an image that is watched
 
 
@@ -46,6 +48,18 @@ def make_tiles(width: int, height: int, side: int = SIDE, step: int = 1, traced:
         for top in range(0, height, side)
         for left in range(0, width, side)
     ]
+
+
+def scattered(tiles: Sequence[Tile]) -> list[Tile]:
+    """The tiles of one pass in an order whose first ones, however many, are spread evenly over the image. So the share
+    of the tiles that are done is about the share of the work, although one part of an image may take a thousand times
+    as long as another.
+
+    The order is that of a linear dither pattern with the constants of the R2 sequence (M. Roberts, "The Unreasonable
+    Effectiveness of Quasirandom Sequences", 2018).
+    """
+    width, height = tiles[0].right - tiles[0].left, tiles[0].bottom - tiles[0].top
+    return sorted(tiles, key=lambda tile: (R2[0] * (tile.left // width) + R2[1] * (tile.top // height)) % 1.0)
 
 
 def make_passes(width: int, height: int, steps: Sequence[int] = (1,), side: int = SIDE) -> list[list[Tile]]:

@@ -63,6 +63,7 @@ def trace_best_first(world: Arrays, limits: Limits, space: Space) -> int:
             break
         if planned + 1 + lights > limits.max_nodes:
             stopped_by = NODES
+            space.tree[2] = 1.0
             break
         parent, refracted = heap[0].parent, heap[0].refracted
         left = dd_add(left, (-heap[0].weight, 0.0))

@@ -54,10 +54,11 @@ class Batch(NamedTuple):
 
 
 class Counts(NamedTuple):
-    """Numbers of rays and intersection tests."""
+    """Numbers of rays, of intersection tests, and of trees that the limit of rows ended."""
 
     rays: np.ndarray  # by kind, as KINDS numbers them
     tests: np.ndarray  # (1,): ray-surface intersection tests
+    limited: np.ndarray  # (1,): trees
 
 
 @kernel
@@ -80,6 +81,7 @@ def trace_pixels(
     rays = space.rays
     rays[:] = 0
     space.tests[:] = 0
+    space.limited[:] = 0
     for k in range(len(pixels)):
         if is_enough(rays):
             return k
@@ -93,6 +95,7 @@ def trace_pixels(
                 return -1
             total = add(total, vector(space.table[0].radiance))
             residual += space.tree[1]
+            space.limited[0] += int(space.tree[2])
         store(sums[k], total)
         sums[k, 3] = residual
     return len(pixels)
@@ -102,6 +105,7 @@ def trace_pixels(
 def trace_one(world: Arrays, limits: Limits, space: Space) -> bool:
     """Trace the tree whose camera ray is row 0, and note its size in `space.tree`. False if the table is too short."""
     is_best_first = limits.tolerance >= 0.0
+    space.tree[2] = 0.0
     count = trace_best_first(world, limits, space) if is_best_first else trace_tree(world, limits, space)
     space.tree[0] = count
     if count < 0:
@@ -255,7 +259,7 @@ def trace_list(
     """
     before = _no_sums(len(pixels)) if before is None else before
     sums = np.zeros((len(pixels), 4))
-    counts = Counts(np.zeros(len(KINDS), np.int64), np.zeros(1, np.int64))
+    counts = Counts(np.zeros(len(KINDS), np.int64), np.zeros(1, np.int64), np.zeros(1, np.int64))
     done = 0
     while True:
         reached = trace_pixels(world, view, limits, sampler, pixels[done:], before[done:], sums[done:], workspace.space)
@@ -264,6 +268,7 @@ def trace_list(
             continue
         counts.rays[:] += workspace.arrays.rays
         counts.tests[:] += workspace.arrays.tests
+        counts.limited[:] += workspace.arrays.limited
         done += reached
         if done == len(pixels):
             return sums, counts

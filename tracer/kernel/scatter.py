@@ -102,6 +102,8 @@ def append_child(
     if reason != NONE:
         parent.end = reason
         parent.cut += heaviest
+        if reason == NODES:
+            space.tree[2] = 1.0
         return (count, planned)
     start_child(world, limits, space, i, rays, refracted, count)
     return (count + 1, planned + rows)

@@ -64,7 +64,8 @@ class Space(NamedTuple):
     directions: Numbers  # (3, BATCH) of the next camera rays
     rays: Numbers  # traced in this call, by kind
     tests: Numbers  # (1,): ray-surface intersection tests in this call; a block of eight triangles counts as eight
-    tree: Numbers  # (rows, residual) of the last tree; -1 rows if the table was too short for it
+    limited: Numbers  # (1,): trees in this call that the limit of rows ended
+    tree: Numbers  # of the last tree: rows (-1: the table was too short), residual, 1 if the limit of rows ended it
 
 
 class Workspace:
@@ -84,7 +85,8 @@ class Workspace:
             directions=np.zeros((3, BATCH)),
             rays=np.zeros(len(KINDS), np.int64),
             tests=np.zeros(1, np.int64),
-            tree=np.zeros(2),
+            limited=np.zeros(1, np.int64),
+            tree=np.zeros(3),
         )
         self._bundle()
 

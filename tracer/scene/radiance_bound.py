@@ -14,6 +14,12 @@ from typing import NamedTuple
 from tracer.formulas.vector import Vector
 from tracer.scene.scene import Material, Scene
 
+MARGIN = 2.0**-48  # relative: of the rounding errors between a sum of weights and the light that it can bring
+
+
+class MissingBoundError(ValueError):
+    """A limit on the missing light was asked for, of a scene whose rays have no bound on their light."""
+
 
 class RadianceBound(NamedTuple):
     """B for each channel, linear RGB; inf where there is no bound."""
@@ -30,8 +36,20 @@ class RadianceBound(NamedTuple):
         r, g, b = (residual * most if residual > 0.0 else 0.0 for most in self.rgb)
         return (r, g, b)
 
+    def weight(self, missing: float) -> float:
+        """A weight of cut rays that cannot bring more light than `missing`, in any channel; inf in a scene without
+        light. MissingBoundError if there is no bound.
+        """
+        if math.isinf(self.largest):
+            adds_up = "it passes on all the light that it gets, or more, so light can add up without limit"
+            raise MissingBoundError(
+                f'missing needs a bound on the light of a ray, and the material "{self.reason}" has none: {adds_up}'
+            )
+        return missing / self.largest * (1.0 - MARGIN) if self.largest > 0.0 else math.inf
+
 
 def radiance_bound(scene: Scene) -> RadianceBound:
+    """B of a scene."""
     names = {item.material: item.material.name or item.name or item.shape.name for item in reversed(scene.objects)}
     most, reason = list(scene.background.color), ""
     local = {material: local_bound(scene, material) for material in names}

@@ -34,6 +34,7 @@ class RayTrees:
     directions: np.ndarray  # (n, 3)
     depth: int
     model: str
+    max_nodes: int = MAX_NODES  # the limit of rows of each tree
 
     def __len__(self) -> int:
         return len(self.residuals)
@@ -54,10 +55,18 @@ class RayTrees:
         nodes["parent"][1:] -= first
         nodes.flags.writeable = False
         size = self.world.view().width, self.world.view().height
-        ray = (vector(self.origins[k]), vector(self.directions[k]))
-        details = Details(*(column[first:end] for column in self.details))
-        residual = float(self.residuals[k])
-        return RayTree(self.world, nodes, details, residual, self.depth, self.model, None, size, ray=ray)
+        return RayTree(
+            self.world,
+            nodes,
+            Details(*(column[first:end] for column in self.details)),
+            float(self.residuals[k]),
+            self.depth,
+            self.model,
+            None,
+            size,
+            ray=(vector(self.origins[k]), vector(self.directions[k])),
+            max_nodes=self.max_nodes,
+        )
 
 
 def trace_rays(
@@ -103,9 +112,8 @@ def trace_rays(
         else:
             table = np.concatenate([table, np.zeros(len(table), NODE)])
     nodes, details = public_rows(world, table, int(batch.starts[-1]), limits.model)
-    return RayTrees(
-        world, nodes, details, batch.starts, batch.residuals, starts, ways, limits.depth, MODELS[limits.model]
-    )
+    made = (batch.starts, batch.residuals, starts, ways, limits.depth, MODELS[limits.model], limits.max_nodes)
+    return RayTrees(world, nodes, details, *made)
 
 
 def unit_directions(ways: np.ndarray) -> np.ndarray:

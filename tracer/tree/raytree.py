@@ -39,6 +39,7 @@ class RayTree(TreeTable):
             "radiance": _json_value(self.radiance),
             "residual": _json_value(self.residual),
             "bound": _json_value(self.bound),
+            "max_nodes": self.max_nodes,
             **about,
             "nodes": [self._node(i, verified) for i in range(len(self))],
         }

@@ -1,19 +1,36 @@
 """The rows of a ray tree, and queries on them."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import SupportsIndex
 
 import numpy as np
 
 from tracer.formulas.vector import Vector
-from tracer.kernel.nodes import BLOCKED, ENDS, KINDS, SHADOW, SURFACE
+from tracer.kernel.limits import MAX_NODES
+from tracer.kernel.nodes import BLOCKED, ENDS, KINDS, NODES, SHADOW, SURFACE
 from tracer.kernel.world import World
 from tracer.scene import Scene
 from tracer.scene.radiance_bound import RadianceBound, radiance_bound
 from tracer.tree.digits import significant_digits
 from tracer.tree.ledger import Ledger, make_ledger
 from tracer.tree.margins.margins import DECISIONS, Details, Margins, find_margins
+
+
+class Children(Sequence[list[int]]):
+    """The rows below each row, from the parents of all rows. It is quick to make for a million rows."""
+
+    def __init__(self, parents: np.ndarray) -> None:
+        self.order = np.argsort(parents, kind="stable")
+        self.starts = np.searchsorted(parents[self.order], np.arange(len(parents) + 1))
+
+    def __len__(self) -> int:
+        return len(self.starts) - 1
+
+    def __getitem__(self, row: SupportsIndex) -> list[int]:  # type: ignore[override]
+        first, end = self.starts[int(row) : int(row) + 2]
+        return self.order[first:end].tolist()
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -29,6 +46,8 @@ class TreeTable:
     pixel: tuple[int, int] | None  # None: a ray given by hand
     size: tuple[int, int]  # of the image, width and height
     tolerance: float | None = None  # the residual asked for; the rows are then in order of tracing
+    missing_allowed: float | None = None  # the missing light asked for; `tolerance` follows from it
+    max_nodes: int = MAX_NODES  # the limit of rows
     image_point: tuple[float, float] = (0.0, 0.0)  # the point of the image that the ray goes through, in pixels
     ray: tuple[Vector, Vector] | None = None  # a ray by hand: origin and direction as given
 
@@ -79,13 +98,14 @@ class TreeTable:
         return f"<RayTree of {self.place}: depth {self.depth}, {len(self)} rows, radiance {color}>"
 
     @cached_property
-    def children(self) -> list[list[int]]:
+    def is_limited(self) -> bool:
+        """True if the limit of rows ended the tree."""
+        return bool((self.nodes["end"] == NODES).any())
+
+    @cached_property
+    def children(self) -> "Children":
         """For each row, the rows below it: its shadow rays first, then the rays that it sends out."""
-        below: list[list[int]] = [[] for _ in range(len(self.nodes))]
-        for i, parent in enumerate(self.nodes["parent"]):
-            if parent >= 0:
-                below[parent].append(i)
-        return below
+        return Children(self.nodes["parent"])
 
     def preorder(self) -> Iterator[int]:
         """The rows in preorder: each ray, then all that is below it."""

@@ -3,7 +3,9 @@
 import math
 from collections.abc import Sequence
 
-from tracer.kernel.nodes import NODES, SHADOW
+import numpy as np
+
+from tracer.kernel.nodes import SHADOW
 from tracer.tree.digits import degrees_text, number_text, rgb_text, weight_text
 from tracer.tree.table import TreeTable
 from tracer.tree.verified.enclosures import VerifiedTree
@@ -33,10 +35,9 @@ def tree_text(tree: TreeTable, most: int | None = None, verified: VerifiedTree |
     only the heaviest are listed.
     """
     rows: list[tuple[str, ...]] = [HEADINGS]
-    shown = set(range(len(tree)))
+    shown = heaviest_rows(tree, len(tree) if most is None else most)
     head = _head(tree) + ([] if verified is None else verified_text(verified))
-    if most is not None and len(tree) > most:
-        shown = heaviest_rows(tree, most, shown)
+    if len(shown) < len(tree):
         head.append(f"the heaviest {len(shown)} of {len(tree)} rays are shown")
     stems = _stems(tree, shown)
     doubts = tree.doubtful(shown)
@@ -48,22 +49,21 @@ def tree_text(tree: TreeTable, most: int | None = None, verified: VerifiedTree |
     return "\n".join([*head, "", *columns(rows)]) + "\n"
 
 
-def heaviest_rows(tree: TreeTable, most: int, rows: set[int]) -> set[int]:
-    """The heaviest rays with their shadow rays: at most `most` rows, but at least one ray.
+def heaviest_rows(tree: TreeTable, most: int, rows: set[int] | None = None) -> set[int]:
+    """The heaviest of these rays, or of all, with their shadow rays: at most `most` rows, but at least one ray.
 
     The parent of a row that is kept is kept, too, since no ray is heavier than its parent.
     """
-    if len(rows) <= most:
-        return rows
-    weights = tree.nodes["weight"].max(axis=1)
-    rays = sorted((i for i in rows if tree.nodes["kind"][i] != SHADOW), key=lambda i: (-weights[i], i))
-    kept: set[int] = set()
-    for i in rays:
-        shadows = {child for child in tree.children[i] if child in rows and tree.nodes["kind"][child] == SHADOW}
-        if kept and len(kept) + 1 + len(shadows) > most:
-            break
-        kept |= {i} | shadows
-    return kept
+    among = np.arange(len(tree)) if rows is None else np.array(sorted(rows))
+    if len(among) <= most:
+        return set(among.tolist())
+    is_shadow = tree.nodes["kind"][among] == SHADOW
+    rays, shadows = among[~is_shadow], among[is_shadow]
+    parents = tree.nodes["parent"][shadows]
+    order = rays[np.argsort(-tree.nodes["weight"][rays].max(axis=1), kind="stable")]
+    taken = np.cumsum(1 + np.bincount(parents, minlength=len(tree))[order])
+    kept = order[: max(1, int(np.searchsorted(taken, most, side="right")))]
+    return set(kept.tolist()) | set(shadows[np.isin(parents, kept)].tolist())
 
 
 def columns(rows: Sequence[Sequence[str]]) -> list[str]:
@@ -90,13 +90,14 @@ def cut_summary(tree: TreeTable) -> str:
     if tree.residual == 0.0:
         return "no ray was cut"
     carry = f"rays that were cut carry {number_text(tree.residual)} of the weight"
-    if (tree.nodes["end"] == NODES).any():
-        carry = f"stopped at the limit of rays: {carry}"
+    if tree.is_limited:
+        carry = f"stopped at the limit of {tree.max_nodes:,} rays: {carry}"
     elif tree.tolerance is not None and tree.residual > tree.tolerance:
         carry = f"stopped by depth or weight, before the tolerance was reached: {carry}"
     most = tree.missing
     channel = max(range(3), key=lambda k: most[k])
-    return f"{carry}{missing_light(most[channel], tree.radiance_bound.reason, float(tree.radiance[channel]))}"
+    lacks = missing_light(most[channel], tree.radiance_bound.reason, float(tree.radiance[channel]))
+    return f"{carry}{lacks}{within(tree.bound, tree.missing_allowed)}"
 
 
 def missing_light(bound: float, reason: str, radiance: float | None = None) -> str:
@@ -107,6 +108,13 @@ def missing_light(bound: float, reason: str, radiance: float | None = None) -> s
         return f', and no upper bound is known for the missing light, because of the material "{reason}"'
     of = "the light" if radiance is None else f"this pixel's {number_text(radiance)}"
     return f": at most {number_text(bound)} of {of} is missing"
+
+
+def within(bound: float, allowed: float | None) -> str:
+    """The end of a sentence about missing light of which no more than `allowed` was asked for, if so."""
+    if allowed is None:
+        return ""
+    return f", {'within' if bound <= allowed else 'more than'} the {number_text(allowed)} that was asked for"
 
 
 def _stems(tree: TreeTable, shown: set[int]) -> dict[int, str]:

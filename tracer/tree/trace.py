@@ -12,7 +12,7 @@ from tracer.formulas.camera import View, direction_error
 from tracer.formulas.sampler import PIXEL_CENTER, make_sampler, sample_offset
 from tracer.formulas.vector import as_floats, rescale, unit, vector
 from tracer.kernel.entry import one_pixel, ray_view, trace_list
-from tracer.kernel.limits import MAX_NODES, make_limits
+from tracer.kernel.limits import BREADTH_FIRST, image_max_nodes, make_limits
 from tracer.kernel.nodes import PUBLIC, NodeRow, PublicRow, RecordedRow
 from tracer.kernel.workspace import Workspace
 from tracer.kernel.world import World
@@ -32,7 +32,9 @@ def trace(
     sample: int | None = None,
     min_weight: float = 0.0,
     tolerance: float | None = None,
-    max_nodes: int = MAX_NODES,
+    missing: float | None = None,
+    max_rays: int | None = None,
+    max_nodes: int | None = None,
     model: str | None = None,
     sampler: str = SAMPLERS[SOBOL],
     samples: int | None = None,
@@ -42,14 +44,23 @@ def trace(
     `size` (width, height), `depth` and `model` are the scene's by default. `sample` is the number of one of the pixel's
     sample points, by default its centre; jittered points also need the number of `samples`. `min_weight` cuts rays
     whose largest weight is below it. With a `tolerance`, the heaviest rays are traced first, to any depth unless one is
-    given, until the weights of the rest sum up to no more than that, or `max_nodes` rays have been traced.
+    given, until the weights of the rest sum up to no more than that. With `missing` in its place, until the rest can
+    add no more light than that to any channel: `bound` is at most `missing`. In a scene without light, that is so after
+    the first ray.
 
-    ValueError for a pixel outside the image, a ray without a direction, or another value that is not allowed.
+    The tree has at most `max_nodes` rows, each ray counted with all shadow rays that its hit could have. By default it
+    is the limit that `tracer.render` gives to the trees of an image of this size with this number of `samples` and of
+    `max_rays`, so that the tree ends where that of the image ends. A ray counts as an image of one pixel.
+
+    ValueError for a pixel outside the image, a ray without a direction, or another value that is not allowed;
+    MissingBoundError, a ValueError, for `missing` where the light of a ray has no bound.
     """
     if (pixel is None) == (ray is None):
         raise ValueError("either a pixel or a ray is traced: give one of them")
     camera = world.view(size)
-    limits = make_limits(world, depth, min_weight, tolerance, max_nodes, model, records=True)
+    pixels = camera.width * camera.height if ray is None else 1
+    max_nodes = image_max_nodes(world, pixels, samples or 1, max_rays, max_nodes)
+    limits = make_limits(world, depth, min_weight, tolerance, max_nodes, model, missing=missing, records=True)
     if pixel is not None:
         x, y = (operator.index(value) for value in pixel)
         if not (0 <= x < camera.width and 0 <= y < camera.height):
@@ -68,8 +79,7 @@ def trace(
     turn = 0.0 if pixel is None else direction_error(camera, world.scene.camera.up, vector(space.table["direction"][0]))
     nodes, details = public_rows(world, space.table, count, limits.model, turn)
     residual = float(space.tree[1])
-    reached = limits.depth if depth is not None or tolerance is None else int(nodes["depth"].max())
-    image_size = (camera.width, camera.height)
+    best_first = limits.tolerance != BREADTH_FIRST
     dx, dy = 0.5, 0.5
     if sample is not None:
         with np.errstate(over="ignore"):  # random bits: products wrap
@@ -79,13 +89,15 @@ def trace(
         nodes,
         details,
         residual,
-        reached,
-        MODELS[limits.model],
-        pixel and (x, y),
-        image_size,
-        tolerance,
-        (x + float(dx), y + float(dy)),
-        None if ray is None else (as_floats(ray[0]), as_floats(ray[1])),
+        depth=int(nodes["depth"].max()) if best_first and depth is None else limits.depth,
+        model=MODELS[limits.model],
+        pixel=pixel and (x, y),
+        size=(camera.width, camera.height),
+        tolerance=limits.tolerance if best_first else None,
+        missing_allowed=missing,
+        max_nodes=limits.max_nodes,
+        image_point=(x + float(dx), y + float(dy)),
+        ray=None if ray is None else (as_floats(ray[0]), as_floats(ray[1])),
     )
 
 

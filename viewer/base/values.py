@@ -11,6 +11,9 @@ from tracer.formats import READERS
 
 MAX_PIXELS = 16384  # across an image
 UP_HELP = "axis of a mesh file that points upwards, y by default"
+MAX_RAYS_HELP = (
+    "limit of rays of the image, 10^10 for each sample of a pixel by default; every tree gets an equal share"
+)
 SCENE_HELP = f"a {', '.join(list(READERS)[:-1])} or {list(READERS)[-1]} file, or a lesson's name"
 
 
@@ -127,6 +130,7 @@ def number(allowed: str, is_allowed: Callable[[float], bool], metavar: str) -> V
 
 
 WEIGHT = number("a number >= 0", lambda x: 0.0 <= x < math.inf, "W")
+LIGHT = number("a number >= 0", lambda x: 0.0 <= x < math.inf, "E")
 POSITIVE = number("a number > 0", lambda x: 0.0 < x < math.inf, "E")
 SHARE = number("a number from 0 to 1", lambda x: 0.0 <= x <= 1.0, "W")
 PIXELS = whole(16, MAX_PIXELS, "PX", f"pixels from 16 to {MAX_PIXELS}")

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import tracer
 from tracer.formats import OTHER_MESHES, READERS, UP_AXES
+from tracer.scene.radiance_bound import MissingBoundError
 from viewer.base.files import Unusable, is_there
 from viewer.base.progress import Progress
 from viewer.lessons import lesson
@@ -33,6 +34,8 @@ def faults() -> Iterator[None]:
         yield
     except tracer.SceneError as error:
         raise Unusable(*error.faults) from None
+    except MissingBoundError as error:
+        raise Unusable(f"raytree: --{error}") from None
     except ValueError as error:
         raise Unusable(f"raytree: {error}") from None
 

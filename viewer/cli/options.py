@@ -8,7 +8,21 @@ from tracer.choices import MODELS, SAMPLERS
 from tracer.formats import UP_AXES
 from viewer.base.options import argument, option, switch
 from viewer.base.pictures import WRITERS
-from viewer.base.values import FILE, PIXEL, POSITIVE, RAY, SCENE_HELP, SIZE, TEXT, UP_HELP, WEIGHT, one_of, whole
+from viewer.base.values import (
+    FILE,
+    LIGHT,
+    MAX_RAYS_HELP,
+    PIXEL,
+    POSITIVE,
+    RAY,
+    SCENE_HELP,
+    SIZE,
+    TEXT,
+    UP_HELP,
+    WEIGHT,
+    one_of,
+    whole,
+)
 from viewer.figures.catalogue import DATA
 
 HEAVIEST = 300  # rays that `trace` prints as text
@@ -30,8 +44,19 @@ def _min_weight() -> Any:
 def _tolerance() -> Any:
     return option(
         WEIGHT, "trace best-first, to any depth, until the weights of the other rays sum up to at most T",
-        metavar="T",
+        metavar="T", group="cut",
     )  # fmt: skip
+
+
+def _missing() -> Any:
+    return option(
+        LIGHT, "trace best-first, to any depth, until the other rays can add no more light than E to any channel",
+        group="cut",
+    )  # fmt: skip
+
+
+def _max_rays() -> Any:
+    return option(whole(1), MAX_RAYS_HELP)
 
 
 def _size(of: str = "of the image, the scene's own by default") -> Any:
@@ -66,6 +91,8 @@ class TraceOptions:
     model: str | None = _model()
     min_weight: float = _min_weight()
     tolerance: float | None = _tolerance()
+    missing: float | None = _missing()
+    max_rays: int | None = _max_rays()
     size: tuple[int, int] | None = _size()
     up: str = _up()
     verify: bool = switch("guaranteed ends of each number and of the colour; needs the extra raytree[verify]")
@@ -87,6 +114,8 @@ class RenderOptions:
     model: str | None = _model()
     min_weight: float = _min_weight()
     tolerance: float | None = _tolerance()
+    missing: float | None = _missing()
+    max_rays: int | None = _max_rays()
     size: tuple[int, int] | None = _size()
     up: str = _up()
     samples: int | None = option(

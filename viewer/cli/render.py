@@ -15,8 +15,9 @@ from typing import Any
 import tracer
 from tracer.image.progressive import MAX_SAMPLES, RoundStats
 from tracer.image.render import Image
+from tracer.kernel.limits import MAX_NODES
 from tracer.tree.digits import number_text
-from tracer.tree.text import missing_light
+from tracer.tree.text import missing_light, within
 from viewer.base.files import Unusable, check_writable, write_atomically
 from viewer.base.pictures import SUFFIXES, check_format, write_picture
 from viewer.base.progress import Progress
@@ -116,6 +117,8 @@ def render_one(
             options.threads,
             min_weight=options.min_weight,
             tolerance=options.tolerance,
+            missing=options.missing,
+            max_rays=options.max_rays,
             model=options.model,
             sampler=options.sampler,
             until_error=options.until_error,
@@ -129,9 +132,11 @@ def render_one(
     name = f"{job.name}: " if share.count > 1 else ""
     if image.stats:
         progress.put(name + summary(image, image.stats, options), sys.stdout)
-    if options.tolerance is not None or (image.stats and image.residual["max"] > 0.0):
+    if image.limited:
+        progress.put(name + limit_reached(image), sys.stdout)
+    if image.tolerance is not None or image.limited or (image.stats and image.residual["max"] > 0.0):
         most = number_text(image.residual["max"])
-        lacks = missing_light(image.bound, image.unbounded)
+        lacks = missing_light(image.bound, image.unbounded) + within(image.bound, image.missing_allowed)
         missing = f"a pixel's rays that were cut carry at most {most} of the weight{lacks}"
         progress.put(name + missing, sys.stdout)
     return {
@@ -144,12 +149,31 @@ def render_one(
         "size": list(image.size),
         "samples": image.stats.samples if image.stats else image.samples,
         "depth": image.depth,
-        "tolerance": image.tolerance,
+        "tolerance": finite(image.tolerance),
+        "missing": image.missing_allowed,
+        "max_rays": image.max_rays,
+        "max_nodes": image.max_nodes,
+        "limited": image.limited,
         "residual": image.residual,
-        "bound": image.bound if math.isfinite(image.bound) else None,
+        "bound": finite(image.bound),
         "left_out": image.left_out,
         **(convergence(image, image.stats) if image.stats else {}),
     }
+
+
+def finite(value: float | None) -> float | None:
+    """A number for JSON, which has no infinity."""
+    return value if value is not None and math.isfinite(value) else None
+
+
+def limit_reached(image: Image) -> str:
+    """A line about the trees that the limit of rays ended."""
+    of = f"{image.limited:,} of {image.trees:,} {'pixels' if image.trees == image.size[0] * image.size[1] else 'trees'}"
+    if image.max_nodes == MAX_NODES:
+        more = "no tree may have more"
+    else:
+        more = f"a --max-rays above {image.max_rays:,} lets them grow"
+    return f"the limit of rays ended {of}, each at {image.max_nodes:,} rays, shadow rays included; {more}"
 
 
 def summary(image: Image, stats: RoundStats, options: RenderOptions) -> str:

@@ -28,6 +28,8 @@ def trace(options: TraceOptions) -> int:
             size=options.size,
             min_weight=options.min_weight,
             tolerance=options.tolerance,
+            missing=options.missing,
+            max_rays=options.max_rays,
             model=options.model,
         )
     most = options.rays or None

@@ -19,6 +19,7 @@ from viewer.figures.figure.hit import hit_row
 from viewer.figures.layout.tree_plan import fitting_size
 from viewer.figures.marks import Figure, Text
 from viewer.figures.pages import pages
+from viewer.figures.ray_lines import MOST_IN_FIGURE
 from viewer.figures.steps import Step, by_color, by_depth, by_ray, without_lights
 from viewer.figures.subject import FigureStyle, Subject
 from viewer.figures.targets import Target, check_pages, grouped, mark_of, stem_of
@@ -76,7 +77,7 @@ def make(
     style = style_of(options, steps)
     stem = stem_of(scene, options.pixel)
     drawn = pages(options.figure, subject, style) if any(FORMATS[name].figures for name in target.formats) else []
-    notes = fold_notes(drawn, options.figure, subject, style)
+    notes = ray_notes(drawn, options.figure, subject) + fold_notes(drawn, options.figure, subject, style)
     files: list[tuple[Path, bytes]] = []
     for name in target.formats:
         kind = FORMATS[name]
@@ -104,7 +105,12 @@ def command_line(options: ExportOptions, format_name: str) -> str:
 def steps_of(world: World, options: ExportOptions, depths: range) -> list[Step]:
     """Trace the trees, and divide them into pages."""
     ray = (options.ray[:3], options.ray[3:]) if options.ray else None
-    how = {"size": options.size, "min_weight": options.min_weight, "model": options.model}
+    how = {
+        "size": options.size,
+        "min_weight": options.min_weight,
+        "max_rays": options.max_rays,
+        "model": options.model,
+    }
     trees = [tracer.trace(world, options.pixel, ray, depth=depth, **how) for depth in depths]
     if options.step == "rays":
         steps = by_ray(trees[-1])
@@ -145,6 +151,14 @@ def orbit_of(numbers: tuple[float, ...] | None, world: World, view: ViewAngles |
     azimuth, elevation, distance, *target = numbers
     steep = math.degrees(STEEPEST)
     return orbit_beside(world, frame, azimuth, min(steep, max(-steep, elevation)), distance, target)
+
+
+def ray_notes(drawn: Sequence[Figure], figure: str, subject: Subject) -> list[str]:
+    """A note on rays that a figure of the scene leaves out because they are too many."""
+    rays = len(subject.steps[-1].tree)
+    if not drawn or figure not in ("both", "scene") or rays <= MOST_IN_FIGURE:
+        return []
+    return [f"{figure}: of {rays:,} rays, the heaviest {MOST_IN_FIGURE:,} are drawn in the scene"]
 
 
 def fold_notes(drawn: Sequence[Figure], figure: str, subject: Subject, style: FigureStyle) -> list[str]:

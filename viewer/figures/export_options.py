@@ -8,6 +8,7 @@ from viewer.base.options import argument, option, switch
 from viewer.base.theme import THEMES
 from viewer.base.values import (
     DEPTHS,
+    MAX_RAYS_HELP,
     ORBIT,
     PIXEL,
     PIXELS,
@@ -22,6 +23,7 @@ from viewer.base.values import (
     WEIGHT,
     one_of,
     some_of,
+    whole,
 )
 from viewer.figures.catalogue import FIGURE_NAMES, FORMATS, STEPS
 
@@ -47,6 +49,7 @@ class ExportOptions:
     )
     model: str | None = option(one_of(MODELS), "the scene's own by default")
     min_weight: float = option(WEIGHT, "do not follow rays of a smaller weight", 0.0)
+    max_rays: int | None = option(whole(1), MAX_RAYS_HELP)
     size: tuple[int, int] | None = option(SIZE, "of the image, the scene's own by default")
     up: str = option(one_of(UP_AXES), UP_HELP, UP_AXES[0])
     format: tuple[str, ...] = option(some_of(tuple(FORMATS)), f"of {', '.join(FORMATS)}; svg by default", ())

@@ -1,15 +1,19 @@
 """The lines that show a ray tree, in the 3D view and for finding the line under the mouse."""
 
 import math
-from collections.abc import Set
+from collections.abc import Sequence, Set
 from dataclasses import dataclass
 
 import numpy as np
 
 from tracer.kernel.nodes import BLOCKED, FILTERED, KINDS, SHADOW
 from tracer.tree.raytree import RayTree
+from tracer.tree.text import heaviest_rows
 from viewer.base.orbit import Frame
 from viewer.base.theme import BLOCKED_DASH, ESCAPE, FILTERED_DASH, STYLES
+
+MOST_DRAWN = 20_000  # rays in the window: the heaviest, if a tree has more
+MOST_IN_FIGURE = 2_000  # the same in a figure of the scene
 
 
 @dataclass(frozen=True)
@@ -25,15 +29,22 @@ class RayLine:
     blocked: bool
 
 
-def ray_lines(tree: RayTree, rows: int, frame: Frame, kinds: Set[str]) -> list[RayLine]:
-    """The lines of the first `rows` rows, of these kinds. A shadow ray that its own surface blocks has no length, and
+def drawn_rows(tree: RayTree, selected: int | None = None) -> list[int]:
+    """The rows that the window draws: the heaviest, and the selected ray with its nearest ancestors."""
+    rows = heaviest_rows(tree, MOST_DRAWN)
+    above = ancestors(tree, selected) if selected is not None else set()
+    return sorted(rows.union(sorted(above)[-MOST_DRAWN:]))
+
+
+def ray_lines(tree: RayTree, rows: Sequence[int], frame: Frame, kinds: Set[str]) -> list[RayLine]:
+    """The lines of these rows, if they are of these kinds. A shadow ray that its own surface blocks has no length, and
     no line.
     """
-    nodes = tree.nodes[:rows]
-    starts = frame.inside(nodes["origin"])
-    points = frame.inside(nodes["point"])
+    nodes = tree.nodes
+    starts = dict(zip(rows, frame.inside(nodes["origin"][rows]), strict=True))
+    points = dict(zip(rows, frame.inside(nodes["point"][rows]), strict=True))
     found = []
-    for i in range(len(nodes)):
+    for i in rows:
         code = nodes["kind"][i]
         kind = KINDS[code]
         if kind not in kinds or (code == SHADOW and nodes["t"][i] == 0.0):
@@ -61,19 +72,22 @@ def _escape(start: np.ndarray, direction: np.ndarray) -> np.ndarray:
     return start + (max(leaving, 0.0) * 0.35 + ESCAPE) * direction
 
 
-def relatives(tree: RayTree, row: int) -> set[int]:
-    """A ray with its ancestors and descendants, which stay bright while it is selected."""
-    kept = set()
-    i = row
-    while i >= 0:
-        kept.add(i)
-        i = int(tree.nodes["parent"][i])
-    waiting = [row]
-    while waiting:
-        i = waiting.pop()
-        kept.add(i)
-        waiting += tree.children[i]
-    return kept
+def ancestors(tree: RayTree, row: int) -> set[int]:
+    """A ray and all rays above it."""
+    found = set()
+    while row >= 0:
+        found.add(row)
+        row = int(tree.nodes["parent"][row])
+    return found
+
+
+def relatives(tree: RayTree, row: int, rows: Sequence[int]) -> set[int]:
+    """A ray with its ancestors, and its descendants among the drawn `rows`: they stay bright while it is selected."""
+    below = {row}
+    for i, parent in zip(rows, tree.nodes["parent"][rows].tolist(), strict=True):
+        if parent in below:
+            below.add(i)
+    return ancestors(tree, row) | below
 
 
 def nearest_row(

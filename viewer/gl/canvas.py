@@ -10,7 +10,8 @@ from imgui_bundle import imgui
 from viewer.base.cached import Cached, Changed
 from viewer.base.colormap import colorize
 from viewer.explain.sections import Section
-from viewer.figures.ray_lines import RayLine, ray_lines
+from viewer.figures.layout.tidy_tree import Place as TreePlace
+from viewer.figures.ray_lines import RayLine, drawn_rows, ray_lines, relatives
 from viewer.gl.magnified import NEAR, Place, magnify
 from viewer.gl.picture_texture import PictureTexture
 from viewer.gl.stage import ImagePlane, Stage
@@ -39,9 +40,12 @@ class Canvas:
         self.stage = Stage(ctx)
         self.image = PictureTexture(ctx)
         self.lines: list[RayLine] = []  # rays in the 3D view
+        self.drawn = 0  # rows of the tree that the 3D view draws, of all kinds
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
         self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)  # left, top, size of a pixel
         self.nodes: dict[int, tuple[float, float]] = {}  # of the tree
+        self.tree_kept: Cached[set[int]] = Cached()  # rows of the tree that stay bright beside the selected one
+        self.tree_places: Cached[dict[int, TreePlace]] = Cached()  # of the tree, in its own units
         self.ray_changed = Changed()  # the ray whose numbers are shown
         self.sections: Cached[list[Section]] = Cached()  # the explanation of that ray
         self._map: Cached[moderngl.Texture | None] = Cached(_release)
@@ -149,11 +153,14 @@ class Canvas:
             self._plane = image_plane(view, session.frame, np.zeros(3))
             marks += frustum_lines(view, session.frame, self._plane, session.appearance.theme)
         if session.tree:
-            rows = len(session.tree)
-            self.lines = ray_lines(session.tree, rows, session.frame, session.shown.kinds)
-            rays = style_rays(self.lines, session.tree, session.selected, session.appearance.theme)
+            tree, selected, theme = session.tree, session.selected, session.appearance.theme
+            rows = drawn_rows(tree, selected)
+            self.drawn = len(rows)
+            kept = relatives(tree, selected, rows) if selected is not None else None
+            self.lines = ray_lines(tree, rows, session.frame, session.shown.kinds)
+            rays = style_rays(self.lines, kept, selected, theme)
             if session.shown.normals:
-                marks += normal_lines(session.tree, rows, session.frame, session.selected, session.appearance.theme)
+                marks += normal_lines(tree, rows, session.frame, kept, theme)
         self.stage.set_lines(StageLines(marks, rays))
 
     def release(self) -> None:

@@ -1,5 +1,6 @@
 """The lines of the 3D view: rays, normals, the camera's frustum, edges of glass."""
 
+from collections.abc import Sequence, Set
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +22,7 @@ from viewer.base.theme import (
     Theme,
     faded,
 )
-from viewer.figures.ray_lines import RayLine, relatives
+from viewer.figures.ray_lines import RayLine
 from viewer.gl.creases import creases
 from viewer.gl.lines import Line
 
@@ -34,9 +35,8 @@ class StageLines:
     rays: list[Line]
 
 
-def style_rays(lines: list[RayLine], tree: RayTree, selected: int | None, theme: Theme) -> list[Line]:
-    """Rays in the styles of their kinds. Rays that are not on the path of the selected one are dimmed."""
-    kept = relatives(tree, selected) if selected is not None else None
+def style_rays(lines: list[RayLine], kept: Set[int] | None, selected: int | None, theme: Theme) -> list[Line]:
+    """Rays in the styles of their kinds. If rows are to be `kept` bright, the others are dimmed."""
     styled = []
     for line in lines:
         style = STYLES[line.kind]
@@ -50,11 +50,10 @@ def style_rays(lines: list[RayLine], tree: RayTree, selected: int | None, theme:
     return styled
 
 
-def normal_lines(tree: RayTree, rows: int, frame: Frame, selected: int | None, theme: Theme) -> list[Line]:
-    """The normal at every hit, on the side of the incoming ray."""
-    nodes = tree.nodes[:rows]
-    kept = relatives(tree, selected) if selected is not None else None
-    hits = np.flatnonzero(np.isfinite(nodes["normal"][:, 0]) & (nodes["kind"] != SHADOW))
+def normal_lines(tree: RayTree, rows: Sequence[int], frame: Frame, kept: Set[int] | None, theme: Theme) -> list[Line]:
+    """The normal at every hit of these rows, on the side of the incoming ray."""
+    nodes = tree.nodes
+    hits = np.array(rows)[np.isfinite(nodes["normal"][rows, 0]) & (nodes["kind"][rows] != SHADOW)]
     feet = frame.inside(nodes["point"][hits])
     lines = []
     for i, foot in zip(hits, feet, strict=True):

@@ -38,6 +38,7 @@ def draw(session: Session, canvas: Canvas) -> None:
     else:
         _waiting(session, canvas_draw, corner, room)
     canvas_draw.pop_clip_rect()
+    _limit_reached(session, canvas_draw, corner, room)
     _progress(session, canvas_draw, corner, room)
 
 
@@ -163,6 +164,19 @@ def _scale(session: Session) -> None:
         pad.add_rect_filled((a, top + 0.1 * size), (b + 0.5, top + size), d.u32(color))
     d.text(pad, (left + bar + 6 * unit, top), session.appearance.theme.text, high, size)
     imgui.new_line()
+
+
+def _limit_reached(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+    """A note at the bottom about the trees that the limit of rays ended."""
+    shown = session.image.picture
+    if shown is None or not shown.limited:
+        return
+    trees = "samples" if shown.is_endless else "pixels"
+    size = SMALL * imgui.get_font_size()
+    content = f"{shown.limited:,} {trees} stopped at the limit of {shown.max_nodes:,} rays"
+    content = d.shortened(content, size, room.x - 12 * d.unit())
+    place = (corner.x + 6 * d.unit(), corner.y + room.y - size - 8 * d.unit())
+    d.text(draw, place, session.appearance.theme.text, content, size, session.appearance.theme.panel)
 
 
 def _progress(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:

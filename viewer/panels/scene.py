@@ -5,7 +5,6 @@ import math
 import numpy as np
 from imgui_bundle import imgui
 
-from tracer.kernel.nodes import SHADOW
 from viewer.base.orbit import project
 from viewer.base.theme import SMALL, faded
 from viewer.figures.labels import ray_label
@@ -39,7 +38,7 @@ def draw(session: Session, canvas: Canvas) -> None:
     end = (corner.x + room.x, corner.y + room.y)
     stage.add_image(texture_ref(texture), corner, end, (0, 1), (1, 0))
     stage.push_clip_rect(corner, end, True)
-    _Overlay(session, stage, corner, room).draw()
+    _Overlay(session, canvas, stage, corner, room).draw()
     stage.pop_clip_rect()
 
 
@@ -77,8 +76,11 @@ def _row_at(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.
 class _Overlay:
     """Texts and signs over the 3D view: lights, the camera, ends of shadow rays, names. No text covers another."""
 
-    def __init__(self, session: Session, stage: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+    def __init__(
+        self, session: Session, canvas: Canvas, stage: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2
+    ) -> None:
         self.session = session
+        self.canvas = canvas
         self.stage = stage
         self.corner = np.array([corner.x, corner.y])
         self.size = (room.x, room.y)
@@ -91,6 +93,7 @@ class _Overlay:
         if session.tree:
             self._selected_hit()
             self._crosses()
+            self._fewer(len(session.tree))
         if session.shown.lights:
             self._lights()
         if session.shown.labels:
@@ -150,18 +153,18 @@ class _Overlay:
 
     def _crosses(self) -> None:
         """Crosses at the ends of blocked shadow rays."""
-        session = self.session
-        if "shadow" not in session.shown.kinds:
-            return
-        assert session.tree
-        color = session.appearance.theme.ray("shadow")
-        for i in range(len(session.tree)):
-            if session.tree.end(i) != "blocked" or session.tree.nodes["t"][i] == 0.0:
-                continue
-            at = self.at(session.frame.inside(session.tree.nodes["point"][i]))
-            if at:
-                d.cross(self.stage, at, 5.0 * self.unit, session.appearance.theme.ground, 5.0 * self.unit)
-                d.cross(self.stage, at, 5.0 * self.unit, color, 2.4 * self.unit)
+        theme = self.session.appearance.theme
+        for line in self.canvas.lines:
+            if line.blocked and (at := self.at(line.end)):
+                d.cross(self.stage, at, 5.0 * self.unit, theme.ground, 5.0 * self.unit)
+                d.cross(self.stage, at, 5.0 * self.unit, theme.ray("shadow"), 2.4 * self.unit)
+
+    def _fewer(self, total: int) -> None:
+        """A note in a corner if not all rays are drawn."""
+        if self.canvas.drawn < total:
+            content = f"the heaviest {self.canvas.drawn:,} of {total:,} rays are drawn"
+            place = (self.corner[0] + 6.0 * self.unit, self.corner[1] + 4.0 * self.unit)
+            d.text(self.stage, place, self.session.appearance.theme.muted, content, SMALL * imgui.get_font_size())
 
     def _ray_names(self) -> None:
         """The label of each ray beside its middle: first the selected one, then the heaviest."""
@@ -169,7 +172,7 @@ class _Overlay:
         tree = session.tree
         assert tree
         nodes = tree.nodes
-        rows = [i for i in range(len(tree)) if nodes["kind"][i] != SHADOW and tree.kind(i) in session.shown.kinds]
+        rows = [line.row for line in self.canvas.lines if line.kind != "shadow"]
         rows.sort(key=lambda i: (i != session.selected, -nodes["weight"][i].max(), i))
         for i in rows[:MOST_LABELS]:
             start = session.frame.inside(nodes["origin"][i])

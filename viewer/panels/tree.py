@@ -7,12 +7,12 @@ import numpy as np
 from imgui_bundle import imgui
 
 from tracer.kernel.nodes import SHADOW
-from tracer.tree.text import cut_summary, heaviest_rows
+from tracer.tree.text import cut_summary
 from viewer.base.srgb import display_color
 from viewer.base.theme import BLOCKED_DASH, DIMMED, SMALL, STYLES, faded
 from viewer.base.wording import format_number
 from viewer.explain.ray import headline
-from viewer.figures.layout.tidy_tree import Place, closed_under_parents, tidy_layout
+from viewer.figures.layout.tidy_tree import Place, heaviest_places
 from viewer.figures.ray_lines import relatives
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
@@ -39,7 +39,7 @@ def draw(session: Session, canvas: Canvas) -> None:
         _hint(session, pad, corner, room)
         return
     pad.push_clip_rect(corner, (corner.x + room.x, corner.y + room.y), True)
-    diagram = _Diagram(session, pad, corner, room)
+    diagram = _Diagram(session, canvas, pad, corner, room)
     diagram.draw()
     canvas.nodes = {i: diagram.at[i] for i in diagram.rows}
     pad.pop_clip_rect()
@@ -54,24 +54,26 @@ def _hint(session: Session, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: i
 
 
 class _Diagram:
-    def __init__(self, session: Session, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+    def __init__(
+        self, session: Session, canvas: Canvas, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2
+    ) -> None:
         assert session.tree and session.full_tree
         self.session = session
         self.tree = session.tree
         self.pad = pad
         self.theme = session.appearance.theme
-        full = session.full_tree
-        wanted = {i for i in range(len(full)) if full.kind(i) in session.shown.kinds or i == 0}
-        wanted = closed_under_parents(full.nodes["parent"], wanted)
-        rows = heaviest_rows(full, MOST_ROWS, wanted)
-        places = tidy_layout(full, rows).places
-        self.folded = len(self.tree) - sum(i < len(self.tree) for i in wanted & rows)
+        full, kinds = session.full_tree, frozenset(session.shown.kinds)
+        places = canvas.tree_places.get((full, kinds), lambda: heaviest_places(full, kinds, MOST_ROWS))
         self._fit(places, corner, room)
-        self.rows = sorted(i for i in rows if i < len(self.tree))
+        self.rows = sorted(i for i in places if i < len(self.tree))
+        self.folded = len(self.tree) - len(self.rows)
         self.levels: dict[float, list[float]] = {}  # positions of hits on each level, left to right
         for x, y in sorted(self.at[i] for i in self.rows if self.tree.nodes["kind"][i] != SHADOW):
             self.levels.setdefault(y, []).append(x)
-        self.kept = relatives(self.tree, session.selected) if session.selected is not None else None
+        self.kept: set[int] | None = None
+        if (selected := session.selected) is not None:
+            key = (self.tree, selected, kinds)
+            self.kept = canvas.tree_kept.get(key, lambda: relatives(self.tree, selected, self.rows))
 
     def _fit(self, places: dict[int, Place], corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
         """Map positions to pixels, as far apart as the room allows, up to WIDEST and TALLEST."""
@@ -118,8 +120,8 @@ class _Diagram:
         return (x, y - 36 * d.unit())
 
     def _levels(self) -> None:
-        """The depths, as faint lines with their numbers."""
-        deepest = int(self.tree.nodes["depth"].max())
+        """The depths of the rays that are drawn, as faint lines with their numbers."""
+        deepest = int(self.tree.nodes["depth"][self.rows].max())
         size = self.text_size
         for depth in range(deepest + 1):
             y = self.at[0][1] + depth * self.step_y

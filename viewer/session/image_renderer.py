@@ -34,6 +34,8 @@ class Picture:
     pixels: np.ndarray  # linear RGB (height, width, 3) with one sample per pixel
     share: float = 0.0  # of its tiles that are finished, over all passes
     seconds: float = 0.0
+    max_nodes: int = 0  # the limit of rows of each of its trees
+    limited: int = 0  # trees that this limit ended
     cancelled: threading.Event = field(default_factory=threading.Event)
     tiles: list[Tile] = field(default_factory=list)  # finished so far, for those who show what is new
     is_endless: bool = False  # it is refined until it is stopped
@@ -65,7 +67,9 @@ class ImageRenderer:
             self.picture = self.kept[key]
             return
         width, height = size
-        picture = Picture(np.full((height, width, 4), BLACK, np.uint8), np.zeros((height, width, 3)))
+        picture = Picture(
+            np.full((height, width, 4), BLACK, np.uint8), np.zeros((height, width, 3)), max_nodes=limits.max_nodes
+        )
         self.picture = picture
         self.running = self.runner.submit(self._render, picture, world, limits, key)
 
@@ -113,6 +117,7 @@ class ImageRenderer:
         def finished(traced: Traced, share: float) -> None:
             _show(picture, traced.tile, pixels[traced.tile.part])
             picture.seconds = time.perf_counter() - began
+            picture.limited += int(traced.counts.limited[0])
             picture.tiles.append(traced.tile)
             picture.share = share
             self.progress()
@@ -144,6 +149,7 @@ class ImageRenderer:
                 _show(picture, traced.tile, sums[..., :3] / counts[..., None])
                 picture.tiles.append(traced.tile)
             picture.seconds = before + time.perf_counter() - began
+            picture.limited = image.totals.limited
             picture.share = min(share, 0.999)
             self.progress()
 

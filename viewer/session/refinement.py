@@ -145,7 +145,7 @@ class Refinement:
             found = None
         if not found:
             image = ProgressiveImage(world, world.view(size), limits, self.strategy.sampler, self.strategy.adaptive)
-            picture = Picture(first.shown.copy(), first.pixels, share=1.0, is_endless=True)
+            picture = Picture(first.shown.copy(), first.pixels, share=1.0, max_nodes=limits.max_nodes, is_endless=True)
             found = Run(limits.depth, model, self.strategy, self._free_number(), image, picture)
             self.runs.append(found)
         kept = [run for run in self.runs if run.image and run is not found]

@@ -11,7 +11,7 @@ import tracer
 from tracer.choices import MODELS
 from tracer.compile.numba_private import NOTE
 from tracer.formats import UP_AXES
-from tracer.kernel.limits import Limits, make_limits
+from tracer.kernel.limits import Limits, image_max_nodes, make_limits
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from viewer.base.clipboard import copy_to_clipboard
@@ -29,7 +29,6 @@ from viewer.session.view_state import Appearance, Notice, OpenDialog, PanZoom, R
 from viewer.session.warmup import Warmup
 
 LAYOUT_DEPTH = 3  # the tree is laid out for at least this depth, so that no node moves when the depth is stepped 0..3
-MAX_ROWS = 20_000  # of a tree in the window. The command line has no such limit
 
 
 class Session:
@@ -141,7 +140,9 @@ class Session:
     def limits(self) -> Limits:
         """The limits of the image's trees."""
         assert self.world
-        return make_limits(self.world, self.depth, model=self.model, records=False)
+        width, height = self.size
+        max_nodes = image_max_nodes(self.world, width * height)
+        return make_limits(self.world, self.depth, max_nodes=max_nodes, model=self.model, records=False)
 
     def pick(self, x: int, y: int) -> None:
         """Show the tree behind a pixel; outside the image, behind the nearest pixel."""
@@ -213,7 +214,7 @@ class Session:
 
     def _trace(self) -> None:
         assert self.world and self.pixel
-        options = {"pixel": self.pixel, "model": self.model, "max_nodes": MAX_ROWS}
+        options = {"pixel": self.pixel, "model": self.model, "max_nodes": self.limits.max_nodes}
         self.tree = tracer.trace(self.world, depth=self.depth, **options)
         deeper = max(self.depth, LAYOUT_DEPTH)
         self.full_tree = self.tree if deeper == self.depth else tracer.trace(self.world, depth=deeper, **options)

@@ -41,6 +41,7 @@ def test_json_has_every_field_and_reads_back_to_the_same_bits(tree: tracer.RayTr
         "radiance",
         "residual",
         "bound",
+        "max_nodes",
         "nodes",
     ]
     assert document["format"] == "raytree-tree/1"

@@ -14,6 +14,7 @@ import numpy as np
 from tracer.kernel.nodes import KINDS, SHADOW
 from tracer.scene import Material
 from tracer.tree.raytree import RayTree
+from tracer.tree.text import heaviest_rows
 from viewer.base.srgb import LUMINANCE, display_color
 from viewer.base.theme import ARROW_AT, HALO, STYLES, Arrow, Color, Theme, faded
 from viewer.figures import signs
@@ -33,7 +34,7 @@ from viewer.figures.marks import (
     clip_shares,
     point_along,
 )
-from viewer.figures.ray_lines import RayLine, ray_lines
+from viewer.figures.ray_lines import MOST_IN_FIGURE, RayLine, ray_lines
 from viewer.figures.steps import Step
 from viewer.figures.subject import FigureStyle, Pages, Subject
 from viewer.figures.visible.outlines import Area
@@ -81,8 +82,8 @@ class _Drawing:
             self._thing(part, 1.0)
         for part in view.seen.glass:
             self._thing(part, GLASS)
-        lines = ray_lines(self.tree, len(self.tree), view.frame, frozenset(KINDS))
-        self.lines = [line for line in lines if line.row in step.rows]
+        rows = sorted(step.rows & heaviest_rows(self.tree, MOST_IN_FIGURE))
+        self.lines = ray_lines(self.tree, rows, view.frame, frozenset(KINDS))
         for line in sorted(self.lines, key=lambda line: -line.row):  # the first rays lie over the later ones
             self._ray(line)
         self.lights = self._lights()

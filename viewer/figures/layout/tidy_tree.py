@@ -5,12 +5,15 @@ them, half a level down, are short stubs to the lights, as in Whitted's figure. 
 distance, and equal subtrees look the same.
 """
 
+from collections.abc import Set
 from dataclasses import dataclass
 
 import numpy as np
 
 from tracer.kernel.nodes import REFRACTION, SHADOW, TIR
 from tracer.tree.raytree import RayTree
+from tracer.tree.text import heaviest_rows
+from viewer.figures.ray_lines import drawn_rows
 
 
 @dataclass(frozen=True)
@@ -147,3 +150,10 @@ def closed_under_parents(parents: np.ndarray, wanted: set[int]) -> set[int]:
         if i == 0 or int(parents[i]) in kept:
             kept.add(i)
     return kept
+
+
+def heaviest_places(tree: RayTree, kinds: Set[str], most: int) -> dict[int, Place]:
+    """The positions of the heaviest rows of these kinds, at most `most`."""
+    wanted = {i for i in drawn_rows(tree) if tree.kind(i) in kinds or i == 0}
+    wanted = closed_under_parents(tree.nodes["parent"], wanted)
+    return tidy_layout(tree, heaviest_rows(tree, most, wanted)).places
