@@ -48,6 +48,32 @@ def exr(pixels: np.ndarray) -> bytes:
         return path.read_bytes()
 
 
+def bounds_npy(low: np.ndarray, high: np.ndarray) -> bytes:
+    """One array (2, height, width, 3): the lower ends, then the upper ends."""
+    import numpy as np
+
+    return npy(np.stack([low, high]))
+
+
+def bounds_exr(low: np.ndarray, high: np.ndarray) -> bytes:
+    """Channels low.R .. low.B and high.R .. high.B, rounded outwards to float32."""
+    import numpy as np
+    import OpenEXR
+
+    header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
+    channels = {}
+    for name, ends, away in (("low", low, -np.inf), ("high", high, np.inf)):
+        with np.errstate(over="ignore"):
+            rounded = np.nextafter(ends.astype(np.float32), np.float32(away))
+        for k, letter in enumerate("RGB"):
+            channels[f"{name}.{letter}"] = np.ascontiguousarray(np.maximum(rounded[..., k], np.float32(0.0)))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "bounds.exr"
+        OpenEXR.File(header, channels).write(str(path))
+        return path.read_bytes()
+
+
+BOUNDS_WRITERS: dict[str, Callable[[np.ndarray, np.ndarray], bytes]] = {"npy": bounds_npy, "exr": bounds_exr}
 WRITERS: dict[str, Callable[[np.ndarray], bytes]] = {"png": png, "npy": npy, "exr": exr}
 SUFFIXES = tuple(f".{name}" for name in WRITERS)
 
@@ -56,6 +82,18 @@ def check_format(path: Path) -> None:
     """Unusable if no writer has this suffix."""
     if path.suffix.lower() not in SUFFIXES:
         raise Unusable(f"{path}: an image must be one of {', '.join(SUFFIXES)}, got {path.suffix or 'no suffix'}")
+
+
+def check_bounds_format(path: Path) -> None:
+    """Unusable if bounds cannot be written in the format of this suffix."""
+    if path.suffix.lower().lstrip(".") not in BOUNDS_WRITERS:
+        names = " or ".join(f".{name}" for name in BOUNDS_WRITERS)
+        raise Unusable(f"{path}: --bounds are written as {names}, got {path.suffix or 'no suffix'}")
+
+
+def write_bounds(path: Path, low: np.ndarray, high: np.ndarray) -> None:
+    """Write the lower and upper ends of an image (height, width, 3) in the format of the file's suffix."""
+    write_atomically(path, BOUNDS_WRITERS[path.suffix.lower().lstrip(".")](low, high))
 
 
 def write_picture(path: Path, pixels: np.ndarray) -> None:

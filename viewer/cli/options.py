@@ -126,6 +126,9 @@ class RenderOptions:
     )
     until_error: float | None = option(POSITIVE, "adaptive sampling, until the estimated error (RMSE) is at most E")
     until_seconds: float | None = option(POSITIVE, "adaptive sampling for S seconds", metavar="S")
+    bounds: bool = switch(
+        "write guaranteed bounds of each pixel, as .npy or .exr, instead of the picture; slow; needs raytree[verify]"
+    )
     threads: int | None = option(whole(1), "the number of processors by default", group="machine")
     dask: str | None = option(
         TEXT, "trace on the Dask cluster of this scheduler", metavar="tcp://HOST:PORT", group="machine"

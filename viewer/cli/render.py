@@ -19,8 +19,9 @@ from tracer.kernel.limits import MAX_NODES
 from tracer.tree.digits import number_text
 from tracer.tree.text import missing_light, within
 from viewer.base.files import Unusable, check_writable, write_atomically
-from viewer.base.pictures import SUFFIXES, check_format, write_picture
+from viewer.base.pictures import SUFFIXES, check_bounds_format, check_format, write_bounds, write_picture
 from viewer.base.progress import Progress
+from viewer.cli.bounds import bounds_of, bounds_stats, check_bounds, put_summary
 from viewer.cli.loading import faults, find
 from viewer.cli.options import RenderOptions
 from viewer.cli.terminal import compile_once
@@ -108,6 +109,14 @@ def render_one(
         for note in world.notes:
             progress.put(f"note: {note}")
         prepared = time.perf_counter()
+        if options.bounds:
+            share.say(f"bounds of {job.name}")
+            bounds = bounds_of(world, options, share)
+            job.target.parent.mkdir(exist_ok=True)
+            write_bounds(job.target, bounds.low, bounds.high)
+            put_summary(progress, f"{job.name}: " if share.count > 1 else "", scene, bounds)
+            seconds = {"load": loaded - began, "prepare": prepared - loaded, "compile": 0.0, "trace": bounds.seconds}
+            return {"scene": str(job.scene), "image": str(job.target), "seconds": seconds, **bounds_stats(bounds)}
         share.say(f"render {job.name}")
         image = tracer.render(
             world,
@@ -221,7 +230,11 @@ def jobs_of(options: RenderOptions) -> list[RenderJob]:
         unusable.append(f"raytree render: --format is for images in a folder; {into} has a suffix")
     if unusable:
         raise Unusable(*unusable)
-    if not folder:
+    check_bounds(options)
+    if options.bounds:
+        for job in jobs:
+            check_bounds_format(job.target)
+    elif not folder:
         check_format(into)
     targets = [into] if folder and not into.is_dir() else [job.target for job in jobs]
     for path in filter(None, (*targets, options.stats)):

@@ -29,7 +29,8 @@ class VerifiedTree(NamedTuple):
     certified: int  # of the decisions
     tested: int  # surfaces that were decided in balls, over all rays
     boxed: int  # surfaces that their boxes exclude, over all rays
-    cut: bool  # whether the tree lacks rays that were cut: the colour is that of the others
+    cut: float  # the weight of the rays that were cut is at most this; the colour is that of the others
+    missing: tuple[float, float, float]  # these rays bring at most so much, linear RGB; inf where no bound is known
     unbounded: str  # the material because of which the colour has no upper end; empty if it has one
 
     @property
@@ -42,6 +43,7 @@ class VerifiedTree(NamedTuple):
         return {
             "bits": self.bits,
             "color": [_ends(part) for part in self.color],
+            "missing": [x if math.isfinite(x) else None for x in self.missing],
             "decisions": self.decisions,
             "certified": self.certified,
             "surfaces_tested": self.tested,

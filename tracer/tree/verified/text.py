@@ -22,7 +22,7 @@ def color_text(verified: VerifiedTree) -> str:
             f"the exact colour is at least {least} (r g b), and has no upper end, because no bound is known for the "
             f'material "{verified.unbounded}"'
         )
-    which = "the exact colour, without the rays that were cut, is " if verified.cut else "the exact colour is "
+    which = "the exact colour, without the rays that were cut, is " if verified.cut > 0.0 else "the exact colour is "
     return which + ", ".join(range_text(part) for part in verified.color) + " (r, g, b)"
 
 

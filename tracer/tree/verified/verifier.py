@@ -56,6 +56,7 @@ class Verifier:
         self.own: list[BallVector | None] = [None] * len(tree)  # local term or background; None: not certain
         self.sent: dict[int, Sent] = {}
         self.undecided: dict[int, Ball] = {}  # rows whose children are not certain: the sum of their factors
+        self.cut = ball(0.0)  # weight of the rays that were not followed
         self.decisions = self.certified = 0
 
     def run(self, bits: int) -> VerifiedTree:
@@ -67,7 +68,13 @@ class Verifier:
         reason = self.tree.radiance_bound.reason
         unbounded = reason if math.isinf(max(high for _, high in self.rows[0].radiance)) else ""
         counts = (self.decisions, self.certified, self.scenery.tested, self.scenery.boxed)
-        return VerifiedTree(self.rows, bits, *counts, self.tree.residual > 0.0, unbounded)
+        cut = bounds(self.cut)[1]
+        red, green, blue = (up_product(cut, most) for most in self.most())
+        return VerifiedTree(self.rows, bits, *counts, cut, (red, green, blue), unbounded)
+
+    def most(self) -> list[float]:
+        """B, the most that a ray can bring, by channel."""
+        return [b * ROUNDING for b in self.tree.radiance_bound.rgb]
 
     def first_state(self) -> State:
         """The camera ray, or the ray by hand."""
@@ -191,18 +198,24 @@ class Verifier:
             self.decide(i, doubt)
         if doubt or rays is None:
             self.rows[i].certified = False
+            factors = ball(material.reflect) + ball(material.transmit)
             if recorded:
-                self.undecided[i] = ball(material.reflect) + ball(material.transmit)
+                self.undecided[i] = factors
+            else:
+                self.cut = self.cut + self.states[i].weight * factors
             return
-        for kind, k in recorded.items():
-            ray = rays[kind]
-            self.sent[k] = ray
+        for kind, ray in rays.items():
             weight = self.states[i].weight * ray.factor
-            self.states[k] = State(p, ray.direction, weight, behind if ray.refracted else before, faces)
+            k = recorded.get(kind)
+            if k is None:
+                self.cut = self.cut + weight
+            else:
+                self.sent[k] = ray
+                self.states[k] = State(p, ray.direction, weight, behind if ray.refracted else before, faces)
 
     def sum_up(self) -> None:
         """Enclose the radiances, from the last row to the first: certain terms in balls, and at most so much more."""
-        most = [b * ROUNDING for b in self.tree.radiance_bound.rgb]
+        most = self.most()
         sums: dict[int, tuple[BallVector, list[float]]] = {}
         for i in range(len(self.tree) - 1, -1, -1):
             if self.tree.nodes["kind"][i] == SHADOW:
