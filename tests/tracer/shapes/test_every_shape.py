@@ -10,6 +10,7 @@ from mpmath import mp, mpf
 
 import tracer
 from tests.exact import SURFACES, exact, unit
+from tests.exact_scene import SHAPES as EXACT_SHAPES
 from tests.judge import exact_step, off
 from tests.povray import WRITERS
 from tests.scenes import DARK, world_of
@@ -47,7 +48,7 @@ def first_hits(shape: Shape, material: Material = DARK) -> list[tracer.RayTree]:
 
 
 def test_tables_of_the_judge_and_of_the_writer_for_povray_name_every_shape() -> None:
-    assert set(SURFACES) == set(SHAPE_NAMES)
+    assert set(SURFACES) == set(EXACT_SHAPES) == set(SHAPE_NAMES)
     assert set(WRITERS) == set(SHAPE_NAMES)
 
 
@@ -155,3 +156,39 @@ def test_image_agrees_with_povray(shape: Shape, tmp_path: Path) -> None:
     camera = Camera((1.5, 2.0, 4.0), (0.0, 0.0, 0.0))
     background = Background((0.2, 0.3, 0.4))
     agrees(Scene((Object(shape, MATTE, "it"),), lights, camera, Image(320, 240), background), tmp_path)
+
+
+def test_trees_are_verified(shape: Shape) -> None:
+    """Rays at the shape are certified, inside and out."""
+    glass = Material("glass", transmit=0.8, reflect=0.1, ior=1.3, diffuse=0.1)
+    world = world_of(Object(shape, glass, "it"), lights=[Light("lamp", position=(3.0, 4.0, 5.0))])
+    met = 0
+    for origin, direction in aimed()[:40]:
+        tree = tracer.trace(world, ray=(origin, direction), depth=3)
+        verified = tracer.verify(world, tree)
+        assert verified.certified == verified.decisions
+        assert verified.tested > 0 or len(tree) == 1
+        met += bool(tree.nodes["object"][0] == 0)
+    assert met > 5
+
+
+def test_rays_at_the_outline_have_small_margins(shape: Shape) -> None:
+    """Between a ray that hits and one beside it that misses, bisected to the last bit, the margin is below 1."""
+    world = world_of(Object(shape, MATTE, "it"))
+    tried = 0
+    for origin, direction in aimed()[:60]:
+        hit, miss = np.array(direction), np.array(direction) + 3.0 * np.roll(direction, 1)
+        if not (meets(world, origin, hit) and not meets(world, origin, miss)):
+            continue
+        for _ in range(70):
+            middle = 0.5 * (hit + miss)
+            hit, miss = (middle, miss) if meets(world, origin, middle) else (hit, middle)
+        for way in (hit, miss):
+            tree = tracer.trace(world, ray=(origin, tuple(way)), depth=0)
+            assert tree.margins.margin[0] < 1.0
+            tried += 1
+    assert tried > 4
+
+
+def meets(world: tracer.World, origin: tuple[float, ...], way: np.ndarray) -> bool:
+    return bool(tracer.trace(world, ray=(origin, tuple(way)), depth=0).nodes["object"][0] == 0)

@@ -66,7 +66,7 @@ def cross(a: BallVector, b: BallVector) -> BallVector:
 
 
 def square(a: BallVector) -> Ball:
-    return a[0] ** 2 + a[1] ** 2 + a[2] ** 2
+    return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]
 
 
 def unit(a: BallVector) -> BallVector:

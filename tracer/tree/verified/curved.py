@@ -75,8 +75,8 @@ class ConeSide(Face):
         s0, f = self._split(subtract(o, self.base))
         s1, g = self._split(d)
         p0, p1 = self.radius + self.slope * s0, self.slope * s1
-        a, b = square(g) - p1**2, dot(f, g) - p0 * p1
-        c = square(f) - p0**2
+        a, b = square(g) - p1 * p1, dot(f, g) - p0 * p1
+        c = square(f) - p0 * p0
         curved = sign(a)
         if starts_here:
             if curved is None:

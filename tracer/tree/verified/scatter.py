@@ -44,7 +44,7 @@ def refracted(d: BallVector, n: BallVector, n1: float, n2: float, root: Ball) ->
 def reflectance(c1: Ball, c2: Ball, n1: Ball, n2: Ball) -> Ball:
     across = (n1 * c1 - n2 * c2) / (n1 * c1 + n2 * c2)
     along = (n2 * c1 - n1 * c2) / (n2 * c1 + n1 * c2)
-    return (across**2 + along**2) / 2
+    return (across * across + along * along) / 2
 
 
 def usable_normal(hit: Hit, shading: BallVector) -> BallVector | None:
