@@ -15,10 +15,10 @@ from tracer.measure.check.scenes import DARK, path, world
 from tracer.scene import Object
 from tracer.shapes.mesh import Geometry, Mesh
 
-# In units of u times the largest coordinate before it is moved, over the cosine of incidence. Each coordinate of a
-# vertex is scaled (1), multiplied by a row of the rotation (3 products and 2 sums), whose entries are products of up
-# to three sines and cosines (5), and moved (1).
-PLACED = 12.0
+# In units of u times the distances of the eye and of the face from the origin and from each other, over the cosine of
+# incidence. Each coordinate of a placed vertex is rounded once (1); the distance to a face is right to 2 (HIT in
+# `tracer.shapes.planar`).
+PLACED = 3.0
 
 
 def sine_and_cosine(degrees: float) -> tuple[Decimal, Decimal]:
@@ -64,15 +64,16 @@ def hits(chance: Draws, count: int) -> Iterator[Reading]:
         normal = exact_shapes.normal(corners)
         facing = abs(float(dot(normal, point(direction)) / dot(normal, normal).sqrt()))
         exact = exact_shapes.plane(eye, direction, corners[0], normal)
-        unit = U * scale * max(math.hypot(*vertex) for vertex in vertices) / facing
+        size = math.hypot(*eye) + float(exact) + max(math.hypot(*map(float, corner)) for corner in corners)
+        unit = U * size / facing
         usual = [textbook_shapes.placed(vertex, scale, rotate, (x, y, z)) for vertex in vertices]
         yield Reading("", exact, float(row["t"]), unit, PLACED, textbook.triangle(eye, direction, usual, 0.0, 0.0))
 
 
 @case("B13", "meshes far from the origin in their file, moved back by their placement")
 def any_placement() -> Iterator[Reading]:
-    """Ours is no better here. The vertices are placed in double precision, as in every tracer: coordinates of 1e9 have
-    errors of 1e-7, which are left when the placement moves them back. The error told with a hit does not include
-    them. The unit is u times the largest coordinate before it is moved, over the cosine of incidence.
+    """The textbook multiplies vertices by the matrix of the placement in double precision: coordinates of 1e9 have
+    errors of 1e-7, which are left when the placement moves them back. Placed in double-double, with sines and cosines
+    of 48 digits, each coordinate is rounded once, however far the placement moves it.
     """
     yield worst_of("t", hits(Draws(55), 200))
