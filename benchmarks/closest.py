@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 import tracer
+from tracer.compile.intrinsics import reference
 from tracer.compile.jit import kernel
 from tracer.formulas.vector import unit, vector
 from tracer.kernel.closest_hit import closest
@@ -19,7 +20,7 @@ def search_all(world: Any, origins: Any, directions: Any, space: Any, surfaces: 
     for k in range(len(surfaces)):
         origin = vector(origins[k])
         reach = abs(origin[0]) + abs(origin[1]) + abs(origin[2])
-        ray = make_ray(origin, unit(vector(directions[k])), -1, 0.0, reach)
+        ray = make_ray(origin, unit(vector(directions[k])), -1, 0.0, reach, reference(space.table[0].history))
         _, surfaces[k], _ = closest(world, ray, 0.0, -1, space)
 
 

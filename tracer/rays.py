@@ -7,9 +7,23 @@ it lies. A corner gets the same two numbers for every face it belongs to, so fac
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tracer.compile.jit import inlined
-from tracer.compile.rows import Numbers
+from tracer.compile.rows import Float3, Numbers, Row, as_rows, dtype_of
 from tracer.formulas.vector import Vector
+
+
+class HistoryRow(Row):
+    """The ways by which a ray's origin was reached. All fields are vectors (`vector_at`)."""
+
+    approach: Float3  # the last ray before it that was longer than rounding
+    before: Float3  # the way before that
+
+
+APPROACH, BEFORE = range(2)  # the fields
+HISTORY = dtype_of(HistoryRow)
+NO_HISTORY = as_rows(np.zeros(1, HISTORY), HistoryRow)[0]  # of a ray from the eye
 
 
 class Ray(NamedTuple):
@@ -27,8 +41,7 @@ class Ray(NamedTuple):
     start: int  # id of the surface it leaves (its `coincident`), -1 for a ray from the eye
     side: float  # +1.0: it leaves on the side that the surface's normal points to; -1.0: on the other
     settles: bool  # whether it carries a set of solids; shadow rays do not
-    approach: Vector  # the way by which its origin was reached: the last ray before it that was longer than rounding
-    before: Vector  # the way before that
+    history: Any  # `reference` to a HistoryRow: few functions read it, and six more numbers in each call take time
 
 
 @inlined
@@ -38,11 +51,10 @@ def make_ray(
     start: int,
     side: float,
     magnitude: float,
-    approach: Vector = (0.0, 0.0, 0.0),
-    before: Vector = (0.0, 0.0, 0.0),
+    history: Any = NO_HISTORY,
     settles: bool = False,
 ) -> Ray:
-    """The ray with all its derived fields; `direction` is a unit vector."""
+    """The ray with all its derived fields; `direction` is a unit vector. Kernels must give the `history`."""
     x, y, z = abs(direction[0]), abs(direction[1]), abs(direction[2])
     inverse = (1.0 / direction[0], 1.0 / direction[1], 1.0 / direction[2])
     # Selects instead of branches: which axis it is cannot be predicted.
@@ -60,9 +72,7 @@ def make_ray(
         select_axis(along_x, along_y, (d[1], d[2], d[0])) * most,
         select_axis(along_x, along_y, (d[2], d[0], d[1])) * most,
     )
-    return Ray(
-        origin, direction, inverse, axis, across, up, permuted, shear, magnitude, start, side, settles, approach, before
-    )
+    return Ray(origin, direction, inverse, axis, across, up, permuted, shear, magnitude, start, side, settles, history)
 
 
 @inlined

@@ -69,6 +69,31 @@ def _prefetch(context: Any, builder: Any, signature: Any, arguments: Any) -> Any
     return context.get_dummy_value()
 
 
+def reference(record: Any) -> Any:
+    """A reference to a record, which a tuple can hold: compiled, its address. The record must outlive it."""
+    return record
+
+
+@lowering(reference, types.int64, types.Record)
+def _reference(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    return builder.ptrtoint(arguments[0], ir.IntType(64))
+
+
+def vector_at(reference: Any, number: int) -> Any:
+    """The three numbers of one field of a record whose fields are all vectors of float64."""
+    x, y, z = reference[number].tolist()
+    return (x, y, z)
+
+
+@lowering(vector_at, types.UniTuple(types.float64, 3), types.Integer, types.Integer)
+def _vector_at(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+    first = builder.inttoptr(arguments[0], ir.DoubleType().as_pointer())
+    number = context.cast(builder, arguments[1], signature.args[1], types.int64)
+    place = builder.mul(number, ir.IntType(64)(3))
+    numbers = [builder.load(builder.gep(first, [builder.add(place, ir.IntType(64)(k))])) for k in range(3)]
+    return context.make_tuple(builder, signature.return_type, numbers)
+
+
 SPLIT = 2.0**27 + 1.0
 
 

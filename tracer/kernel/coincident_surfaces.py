@@ -83,6 +83,8 @@ def cross_surfaces(
     old, new = medium(before), medium(behind)
     if old == new:
         return (sheet, last_t, last)
+    if last == first and last_t == t:  # the only surface crossed has changed the medium
+        return (first, last_t, last)
     seen = max(old, new) if min(old, new) < 0 else min(old, new)
     shown, here = first, t
     while world.surfaces[shown].solid != seen or is_entering(world, shown, ray, here) != contains(behind, seen):

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracer.compile.intrinsics import noinline
+from tracer.compile.intrinsics import noinline, reference
 from tracer.compile.jit import compiled, inlined, kernel
 from tracer.compile.rows import Int32, Numbers, Row, Rows, as_rows, dtype_of
 from tracer.formulas.camera import BATCH, View, center_directions
@@ -182,8 +182,8 @@ def start_camera_ray(
     store(row.direction, direction)
     row.start = -1
     row.side = 0.0
-    store(row.approach, (0.0, 0.0, 0.0))
-    store(row.before, (0.0, 0.0, 0.0))
+    store(row.history.approach, (0.0, 0.0, 0.0))
+    store(row.history.before, (0.0, 0.0, 0.0))
     row.magnitude = abs(eye[0]) + abs(eye[1]) + abs(eye[2])
     for word in range(len(around)):
         space.solids[0, 0, word] = around[word]
@@ -201,7 +201,7 @@ def start_on_surfaces(world: Arrays, touched: Numbers, space: Space) -> None:
     """
     noinline()
     row = space.table[0]
-    ray = make_ray(vector(row.origin), vector(row.direction), -1, 0.0, row.magnitude)
+    ray = make_ray(vector(row.origin), vector(row.direction), -1, 0.0, row.magnitude, reference(row.history))
     for k in range(len(touched)):
         group = eye_group(world, touched[k])
         enters, leaves = -1, -1
@@ -221,7 +221,7 @@ def start_on_surfaces(world: Arrays, touched: Numbers, space: Space) -> None:
     row.start = world.surfaces[touched[0]].coincident
     row.side = -1.0 if is_entering(world, touched[0], ray, 0.0) else 1.0
     # As if it had come from ahead, so that it turns back from all other surfaces there.
-    store(row.approach, scale(-1.0 - row.magnitude, vector(row.direction)))
+    store(row.history.approach, scale(-1.0 - row.magnitude, vector(row.direction)))
 
 
 @inlined

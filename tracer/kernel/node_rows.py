@@ -2,6 +2,7 @@
 
 import math
 
+from tracer.compile.intrinsics import reference, vector_at
 from tracer.compile.jit import compiled, inlined
 from tracer.compile.rows import Rows
 from tracer.formulas.vector import Vector, add, dot, multiply, scale, store, vector
@@ -11,7 +12,7 @@ from tracer.kernel.limits import Limits
 from tracer.kernel.nodes import BLOCKED, FILTERED, LIT, NONE, SHADOW, NodeRow
 from tracer.kernel.shadows import nearest_occluder, transmittance
 from tracer.kernel.workspace import Space
-from tracer.rays import Ray, make_ray
+from tracer.rays import APPROACH, BEFORE, HistoryRow, Ray, make_ray
 from tracer.shapes.outline import PLANE_ERROR
 
 
@@ -87,8 +88,7 @@ def record_unlit(
     own = 1.0 if faces_it else transmit(world, s)
     side = row.hit_side if faces_it else -row.hit_side
     start, size = world.surfaces[s].coincident, rounding_scale(row)
-    approach, earlier = ways_to_hit(row)
-    ray = make_ray(vector(row.point), to_light, start, side, size, approach, earlier)
+    ray = make_ray(vector(row.point), to_light, start, side, size, reference(row.leaving))
     if own == 0.0 or (limits.glass_blocks and not faces_it):
         write_shadow(world, limits, space.table, i, parent, light, ray, 0.0, s, BLOCKED, 0.0, nothing)
         return
@@ -123,8 +123,8 @@ def write_shadow(
     store(row.radiance, share)
     row.end = end
     row.start, row.side, row.magnitude, row.surface = ray.start, ray.side, ray.magnitude, met
-    store(row.approach, ray.approach)
-    store(row.before, ray.before)
+    store(row.history.approach, vector_at(ray.history, APPROACH))
+    store(row.history.before, vector_at(ray.history, BEFORE))
     if met >= 0:
         row.object = world.surfaces[met].object
     if t < math.inf:
@@ -142,11 +142,19 @@ def rounding_scale(row: NodeRow) -> float:
 
 
 @inlined
-def ways_to_hit(row: NodeRow) -> tuple[Vector, Vector]:
-    """`approach` and `before` (`tracer.rays.Ray`) of the rays that leave the hit of a row.
+def remember_way(row: NodeRow) -> None:
+    """Write `leaving` of a row whose hit is known.
 
     A ray shorter than its rounding errors has reached the place of its own origin.
     """
     if row.t > PLANE_ERROR * rounding_scale(row):
-        return (scale(row.t, vector(row.direction)), vector(row.approach))
-    return (vector(row.approach), vector(row.before))
+        store(row.leaving.approach, scale(row.t, vector(row.direction)))
+        store(row.leaving.before, vector(row.history.approach))
+    else:
+        copy_history(row.history, row.leaving)
+
+
+@inlined
+def copy_history(source: HistoryRow, target: HistoryRow) -> None:
+    store(target.approach, vector(source.approach))
+    store(target.before, vector(source.before))

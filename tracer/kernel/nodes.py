@@ -4,7 +4,10 @@ The rays of a level come first, then their shadow rays, then the next level. So 
 tree of depth d + 1, and stepping the depth slices the table. Codes are integers, -1 for none. NaN stands for absent.
 """
 
+from typing import Annotated
+
 from tracer.compile.rows import Float, Float3, Int32, Int64, Row, dtype_of
+from tracer.rays import HISTORY, HistoryRow
 
 KINDS = ("camera", "reflection", "refraction", "tir", "shadow")
 CAMERA, REFLECTION, REFRACTION, TIR, SHADOW = range(5)
@@ -60,8 +63,8 @@ class NodeRow(RecordedRow):
     """The fields of the kernel: what it records for readers, and what only it uses."""
 
     start: Int32  # id of the surface that the ray leaves, -1 for the eye; of coincident surfaces the first
-    approach: Float3  # as in `tracer.rays.Ray`
-    before: Float3  # as in `tracer.rays.Ray`
+    history: Annotated[HistoryRow, HISTORY]  # as in `tracer.rays.Ray`
+    leaving: Annotated[HistoryRow, HISTORY]  # the same of the rays that leave its hit
     magnitude: Float  # scale of the rounding errors in `origin`, as in `tracer.rays.Ray`
     surface: Int32  # id of the surface hit
     side: Float  # +1 or -1: the side of the normal on which the ray leaves its start

@@ -14,7 +14,7 @@ from tracer.formulas.optics import cosine, fresnel_shares, radicand
 from tracer.formulas.vector import Vector, max_component, multiply, store, vector
 from tracer.kernel.arrays import Arrays, MaterialRow
 from tracer.kernel.limits import Limits
-from tracer.kernel.node_rows import rounding_scale, start_row, ways_to_hit
+from tracer.kernel.node_rows import copy_history, rounding_scale, start_row
 from tracer.kernel.nodes import DEPTH, INVALID, NODES, NONE, REFLECTION, REFRACTION, SURFACE, TIR, WEIGHT, NodeRow
 from tracer.kernel.workspace import Space
 
@@ -138,9 +138,7 @@ def start_child(
     row.start = world.surfaces[parent.surface].coincident
     row.side = -parent.hit_side if refracted else parent.hit_side
     row.magnitude = rounding_scale(parent)
-    approach, earlier = ways_to_hit(parent)
-    store(row.approach, approach)
-    store(row.before, earlier)
+    copy_history(parent.leaving, row.history)
     own = 1 if refracted else 0
     for k_word in range(solids.shape[2]):
         solids[count, 0, k_word] = solids[i, own, k_word]

@@ -8,7 +8,7 @@ keeps the radiance of the first row, a click keeps the table.
 
 import math
 
-from tracer.compile.intrinsics import noinline
+from tracer.compile.intrinsics import noinline, reference
 from tracer.compile.jit import compiled, inlined
 from tracer.compile.rows import Rows
 from tracer.formulas.media import index_of, medium
@@ -18,7 +18,7 @@ from tracer.formulas.vector import Vector, add, dot, multiply, scale, store, vec
 from tracer.kernel.arrays import Arrays
 from tracer.kernel.coincident_surfaces import next_interface
 from tracer.kernel.limits import Limits
-from tracer.kernel.node_rows import record_shadow, record_unlit, rounding_scale, ways_to_hit
+from tracer.kernel.node_rows import record_shadow, record_unlit, remember_way, rounding_scale
 from tracer.kernel.nodes import BACKGROUND, SHADOW, NodeRow
 from tracer.kernel.scatter import append_children
 from tracer.kernel.shadows import light_direction, transmittance
@@ -88,8 +88,7 @@ def trace_ray(world: Arrays, space: Space, i: int) -> None:
     row = space.table[i]
     solids = space.solids
     d = vector(row.direction)
-    approach, earlier = vector(row.approach), vector(row.before)
-    ray = make_ray(vector(row.origin), d, row.start, row.side, row.magnitude, approach, earlier, True)
+    ray = make_ray(vector(row.origin), d, row.start, row.side, row.magnitude, reference(row.history), True)
     t, s = 0.0, row.surface  # an opaque one that the eye lies on
     if s < 0:
         t, s = next_interface(world, ray, solids[i], space)
@@ -118,6 +117,7 @@ def trace_ray(world: Arrays, space: Space, i: int) -> None:
         shading_n = n
     store(row.face_normal, n)
     store(row.normal, shading_n)
+    remember_way(row)
 
 
 @compiled
@@ -151,12 +151,11 @@ def direct_light(world: Arrays, limits: Limits, space: Space, i: int, count: int
     if is_lit or limits.records:
         face_n = vector(row.face_normal)
         start, size = world.surfaces[s].coincident, rounding_scale(row)
-        approach, earlier = ways_to_hit(row)
         for j in range(len(world.lights)):
             light = world.lights[j]
             to_light, distance = light_direction(light, point)
             if is_lit and dot(n, to_light) > 0.0 and dot(face_n, to_light) > 0.0:
-                ray = make_ray(point, to_light, start, row.hit_side, size, approach, earlier)
+                ray = make_ray(point, to_light, start, row.hit_side, size, reference(row.leaving))
                 visible, glass = transmittance(world, ray, distance, limits.glass_blocks, space)
                 share = (0.0, 0.0, 0.0)
                 if visible > 0.0:

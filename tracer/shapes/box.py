@@ -1,4 +1,5 @@
-"""Box: all p with low <= p <= high, its faces parallel to the axes. Packed as a = low, b = high.
+"""Box: all p with low <= p <= high, its faces parallel to the axes. Packed as a = low, b = high, r = the largest
+coordinate of both.
 
 The slab test (Kay & Kajiya, SIGGRAPH 1986): the ray is inside between the last of the three planes at which it enters a
 slab and the first at which it leaves one. A direction that is 0 along an axis never crosses that slab's planes: there
@@ -12,11 +13,11 @@ from typing import ClassVar
 import numpy as np
 
 from tracer import fields
-from tracer.compile.intrinsics import noinline
+from tracer.compile.intrinsics import noinline, vector_at
 from tracer.compile.jit import compiled, inlined
 from tracer.formulas.exact import Exact, exact
 from tracer.formulas.vector import Vector, add, scale
-from tracer.rays import Ray
+from tracer.rays import APPROACH, BEFORE, Ray
 from tracer.shapes import planar
 from tracer.shapes.outline import PLANE_ERROR
 from tracer.shapes.polygon import Polygon
@@ -40,6 +41,7 @@ class Box(Shape):
     def pack(self, rows: np.ndarray) -> None:
         rows["a"] = self.min
         rows["b"] = self.max
+        rows["r"] = max(map(abs, (*self.min, *self.max)))
 
     def bounds(self) -> np.ndarray:
         return np.array([self.min, self.max])[None]
@@ -113,12 +115,26 @@ def slab_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
 
 
 @inlined
+def may_touch(surface: SurfaceRow, ray: Ray) -> bool:
+    """Whether the ray may start on the box, by rounding, or runs in the plane of a face.
+
+    A ray that starts in the plane of a face beside the box crosses the planes of other faces first, or misses.
+    """
+    d = ray.direction
+    outside = -math.inf
+    for k in range(3):
+        outside = max(outside, max(surface.a[k] - ray.origin[k], ray.origin[k] - surface.b[k]))
+    parallel = d[0] == 0.0 or d[1] == 0.0 or d[2] == 0.0
+    return parallel or abs(outside) <= PLANE_ERROR * (surface.r + ray.magnitude)
+
+
+@inlined
 def interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
     """As `slab_interval`, for a ray that may start on the box or on a surface that touches it."""
     if ray.start >= 0:
         if ray.start == surface.coincident:
             return (-math.inf, exit_distance(surface, ray)) if ray.side < 0.0 else (math.inf, -math.inf)
-        if is_in_contact(surface, ray):
+        if may_touch(surface, ray) and is_in_contact(surface, ray):
             return contact_interval(surface, ray)
     return slab_interval(surface, ray)
 
@@ -142,9 +158,10 @@ def touches(face: float, ray: Ray, k: int) -> bool:
     return abs(face - ray.origin[k]) <= PLANE_ERROR * (abs(face) + ray.magnitude)
 
 
-@inlined
+@compiled
 def is_in_contact(surface: SurfaceRow, ray: Ray) -> bool:
     """Whether the ray starts in the plane of a face."""
+    noinline()
     found = False
     for k in range(3):
         found = found or touches(surface.a[k], ray, k) or touches(surface.b[k], ray, k)
@@ -155,9 +172,10 @@ def is_in_contact(surface: SurfaceRow, ray: Ray) -> bool:
 def way_along(surface: SurfaceRow, ray: Ray, k: int) -> float:
     """The last way along axis k by which the ray's origin was reached; 0 if rounding cannot tell."""
     error = PLANE_ERROR * (max(abs(surface.a[k]), abs(surface.b[k])) + ray.magnitude)
-    if abs(ray.approach[k]) > error:
-        return ray.approach[k]
-    return ray.before[k] if abs(ray.before[k]) > error else 0.0
+    approach, before = vector_at(ray.history, APPROACH)[k], vector_at(ray.history, BEFORE)[k]
+    if abs(approach) > error:
+        return approach
+    return before if abs(before) > error else 0.0
 
 
 @compiled

@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from tracer.compile.intrinsics import noinline
+from tracer.compile.intrinsics import noinline, vector_at
 from tracer.compile.jit import compiled, inlined
 from tracer.formulas.double_double import (
     DDVector,
@@ -27,7 +27,7 @@ from tracer.formulas.double_double import (
     two_product,
 )
 from tracer.formulas.vector import Vector, add, as_floats, dot, rescale, scale, subtract, vector
-from tracer.rays import Ray
+from tracer.rays import APPROACH, BEFORE, Ray
 from tracer.shapes.outline import (
     IN_PLANE,
     ON_BOTH_SIDES,
@@ -110,7 +110,7 @@ def plane_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: flo
     ):
         t = height / n_dot_d
     else:
-        t = exact_distance(surface, ray)
+        t = exact_distance(surface, ray.origin, ray.direction)
     return t if t_min <= t <= t_max and 0.0 <= t < math.inf else math.inf
 
 
@@ -129,11 +129,11 @@ def dd_normal(surface: SurfaceRow) -> DDVector:
 
 
 @compiled
-def exact_distance(surface: SurfaceRow, ray: Ray) -> float:
+def exact_distance(surface: SurfaceRow, origin: Vector, direction: Vector) -> float:
     """n.(a - o) / n.d in double-double: accurate for grazing rays and for far points of the plane."""
     normal = dd_normal(surface)
-    height = dd_dot(normal, exact_difference(vector(surface.a), ray.origin))
-    n_dot_d = dd_dot(normal, dd_vector(ray.direction))
+    height = dd_dot(normal, exact_difference(vector(surface.a), origin))
+    n_dot_d = dd_dot(normal, dd_vector(direction))
     return dd_divide(height, n_dot_d) if n_dot_d[0] != 0.0 else math.inf
 
 
@@ -145,7 +145,7 @@ def edge_on_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float
     with the outline.
     """
     noinline()
-    t = exact_distance(surface, ray)
+    t = exact_distance(surface, ray.origin, ray.direction)
     if not 0.0 <= t < math.inf:
         return math.inf
     o = ray.origin
@@ -161,15 +161,15 @@ def contact_distance(world: ShapeArrays, surface: SurfaceRow, ray: Ray, n_dot_d:
     if n_dot_d == 0.0:
         return math.inf
     start = world.surfaces[ray.start]
-    t = exact_distance(surface, ray)
+    t = exact_distance(surface, ray.origin, ray.direction)
     if ray.settles and surface.solid >= 0 and surface.solid != start.solid:
         return max(t, 0.0) + 0.0  # whether it crosses the face or turns back, the set of solids is put right
     side = side_of(world, start, surface) if start.count > 0 else ON_BOTH_SIDES
     if side == ON_BOTH_SIDES:  # it has no corners, or crosses the plane
         error = plane_rounding(surface, ray)
-        came = dot(vector(surface.normal), ray.approach)
+        came = dot(vector(surface.normal), vector_at(ray.history, APPROACH))
         if abs(came) <= error:
-            came = dot(vector(surface.normal), ray.before)
+            came = dot(vector(surface.normal), vector_at(ray.history, BEFORE))
         if abs(came) <= error:
             return t if t > 0.0 else math.inf
         if (came > 0.0) != (n_dot_d > 0.0):  # the ray has turned back from the plane

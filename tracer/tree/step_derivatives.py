@@ -5,6 +5,7 @@ origin and its parent's direction do (ray differentials: Igehy, SIGGRAPH 99).
 import math
 from typing import NamedTuple
 
+from tracer.compile.intrinsics import reference
 from tracer.compile.jit import compiled, inlined
 from tracer.compile.rows import Rows
 from tracer.formulas.double_double import U
@@ -46,8 +47,8 @@ def make_step(world: Arrays, table: Rows[NodeRow], i: int) -> Step:
     end_normal = nowhere
     if row.kind == SHADOW:
         if row.end == BLOCKED and row.t > 0.0:
-            approach, earlier = vector(row.approach), vector(row.before)
-            ray = make_ray(vector(row.origin), direction, row.start, row.side, row.magnitude, approach, earlier)
+            history = reference(row.history)
+            ray = make_ray(vector(row.origin), direction, row.start, row.side, row.magnitude, history)
             _, end_normal, _ = interaction(world, world.surfaces[row.surface], ray, row.t)
     elif row.surface >= 0:
         end_normal = vector(row.face_normal)
