@@ -233,9 +233,19 @@ def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> 
     _, across = split_along(axis, f)
     size = length(across)
     if size <= 0.5 * length(f):
-        return (p, negate(axis), negate(axis))
-    n = subtract(scale(cosine / size, across), scale(sine, axis))
+        n = outwards(surface, ray, negate(axis))
+        return (p, n, n)
+    n = outwards(surface, ray, subtract(scale(cosine / size, across), scale(sine, axis)))
     return (subtract(p, scale(height_above_side(surface, ray, t), n)), n, n)
+
+
+@inlined
+def outwards(surface: SurfaceRow, ray: Ray, n: Vector) -> Vector:
+    """The normal at a hit. A ray that has started inside meets the cone from inside. Where rounding says otherwise, as
+    at the tip, its direction is taken, one of the many normals that the tip has.
+    """
+    from_inside = ray.start == surface.coincident and ray.side < 0.0
+    return ray.direction if from_inside and dot(n, ray.direction) <= 0.0 else n
 
 
 @inlined

@@ -96,6 +96,21 @@ def crosses_side(shape: Cone, row: np.void) -> bool:
     return bool(b * b - a * c >= 0)
 
 
+def test_no_ray_leaves_a_room_of_mirrors_through_its_tip() -> None:
+    """Rays aimed within rounding at the tips of cones of any place and slope. The tip has no normal of its own."""
+    random = np.random.default_rng(5)
+    for _ in range(60):
+        base, axis = random.normal(size=3) * 10.0 ** random.uniform(-2, 2), random.normal(size=3)
+        radius = float(10.0 ** random.uniform(-1, 0.5) * np.linalg.norm(axis))
+        cone = Cone(tuple(base.tolist()), radius, tuple((base + axis).tolist()), 0.0, True)
+        world = world_of(Object(cone, MIRROR, "cone"))
+        eye = base + axis * random.uniform(0.1, 0.6)
+        off = random.normal(size=(40, 3)) * 10.0 ** random.uniform(-18, -14, (40, 1)) * np.linalg.norm(axis)
+        trees = tracer.trace_rays(world, eye[None], np.array(cone.apex) - eye + off, depth=6)
+        assert (trees.nodes["object"] == 0).all()
+        assert len(trees.nodes) == 40 * 7
+
+
 def test_silhouette_of_a_cylinder_is_decided_exactly() -> None:
     """Rays that pass the side at 1e-16 to 1e-8 of the radius, from up to 1e7 radii away."""
     random = np.random.default_rng(3)

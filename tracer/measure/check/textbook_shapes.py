@@ -90,14 +90,15 @@ def mesh_walls(corners: Sequence[Sequence[Vector]], tmin: float) -> list[Wall]:
 
 
 def tube_walls(shape: Tube, tmin: float) -> list[Wall]:
-    """The side of a cylinder or frustum and its two discs."""
+    """The side of a cylinder, cone or frustum and its two discs. On the axis the side's normal is 0/0."""
     axis = [y - x for x, y in zip(shape.base, shape.apex, strict=True)]
     slope = (shape.apex_radius - shape.base_radius) / math.sqrt(dot(axis, axis))
     axis = unit(axis)
 
     def out(hit: Vector) -> Vector:
         arm = [x - y for x, y in zip(hit, shape.base, strict=True)]
-        return unit(at(unit(at(arm, axis, -dot(arm, axis))), axis, -slope))
+        across = at(arm, axis, -dot(arm, axis))
+        return unit(at(unit(across), axis, -slope)) if any(across) else [math.nan] * 3
 
     def end(center: Vector, radius: float) -> Wall:
         return (lambda o, d: disc(o, d, center, axis, radius, tmin)), lambda hit: axis
