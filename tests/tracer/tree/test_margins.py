@@ -52,10 +52,11 @@ def test_what_the_judge_decides_otherwise_had_a_margin_below_1(scenes: Callable[
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(1500)
 @pytest.mark.parametrize("scenes", [random_scene, stiff_scene])
 def test_many_planted_rays(scenes: Callable[[int], Scene]) -> None:
-    _, differ, missed = undetected(scenes, range(40_000, 60_000))
-    assert differ > 500
+    _, differ, missed = undetected(scenes, range(40_000, 48_000))
+    assert differ > 200
     assert missed == []
 
 

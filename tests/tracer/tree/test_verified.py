@@ -55,6 +55,7 @@ def test_enclosures_contain_the_exact_tree(scenes: Callable[[int], Scene]) -> No
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(1500)
 @pytest.mark.parametrize("scenes", [random_scene, stiff_scene])
 def test_enclosures_of_ten_thousand_trees(scenes: Callable[[int], Scene]) -> None:
     many(scenes, range(1000, 6000))
