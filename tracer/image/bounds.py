@@ -5,13 +5,15 @@ the sampling error: it can only be estimated, stands beside the bounds, and is n
 """
 
 import math
+import os
 import time
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
+from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -129,7 +131,16 @@ _here: dict[str, Any] = {}  # in a process that makes rows: the function that it
 
 
 def _prepare(scene: Scene, options: dict[str, Any], numbers: tuple[int | None, ...]) -> None:
+    Thread(target=_end_with_parent, daemon=True).start()
     _here["row"] = partial(bound_row, prepare(scene), options, numbers)
+
+
+def _end_with_parent() -> None:
+    """End this process when its parent has ended, however that was."""
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 def _row(y: int) -> Row:

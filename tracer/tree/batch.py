@@ -6,6 +6,7 @@ import numpy as np
 
 from tracer.choices import MODELS
 from tracer.compile.rows import as_rows
+from tracer.fields import LARGEST
 from tracer.formulas.vector import VectorLike, vector
 from tracer.kernel.entry import Batch, trace_rays_in_turn
 from tracer.kernel.limits import MAX_NODES, make_limits
@@ -94,8 +95,8 @@ def trace_rays(
     if not fits:
         shapes = " and ".join(str(array.shape) for array in given)
         raise ValueError(f"origins and directions must have the shape (n, 3), got {shapes}")
-    if not np.isfinite(starts).all():
-        raise ValueError("origins must be finite")
+    if not (np.abs(starts) <= LARGEST).all():
+        raise ValueError(f"origins must be finite, and within {LARGEST:g}")
     rays = np.concatenate([starts, unit_directions(ways)], axis=1)
     limits = make_limits(world, depth, min_weight, None, max_nodes, model, records=True)
     batch = Batch(np.zeros(len(rays) + 1, np.int64), np.zeros(len(rays)), np.zeros(1, np.int64))

@@ -41,6 +41,13 @@ def tree_text(tree: TreeTable, most: int | None = None, verified: VerifiedTree |
         head.append(f"the heaviest {len(shown)} of {len(tree)} rays are shown")
     stems = _stems(tree, shown)
     doubts = tree.doubtful(shown)
+    if verified is not None:
+        sure = [i for i in doubts if verified.rows[i].certified]
+        doubts = {i: doubt for i, doubt in doubts.items() if i not in sure}
+        if sure:
+            head.append(
+                f"{len(sure)} of the rays were closer to going otherwise than rounding can tell, and are certified"
+            )
     if doubts:
         head.append(f"{len(doubts)} of the rays could have gone otherwise: rounding may have decided")
     for i in tree.preorder():

@@ -8,6 +8,7 @@ import numpy as np
 
 from tracer.choices import MODELS, SAMPLERS, SOBOL
 from tracer.compile.rows import as_rows, dtype_of
+from tracer.fields import LARGEST
 from tracer.formulas.camera import View, direction_error
 from tracer.formulas.sampler import PIXEL_CENTER, make_sampler, sample_offset
 from tracer.formulas.vector import as_floats, rescale, unit, vector
@@ -105,6 +106,8 @@ def _ray_view(origin: Sequence[float], direction: Sequence[float]) -> View:
     numbers = [*map(float, origin), *map(float, direction)]
     if len(numbers) != 6 or not all(map(math.isfinite, numbers)):
         raise ValueError(f"a ray must be six finite numbers, got {numbers}")
+    if max(map(abs, numbers[:3])) > LARGEST:
+        raise ValueError(f"a ray's origin must be within {LARGEST:g}, got {numbers[:3]}")
     if not any(numbers[3:]):
         raise ValueError("a ray's direction must not be 0,0,0")
     return ray_view((numbers[0], numbers[1], numbers[2]), unit(rescale(numbers[3:])))

@@ -2,6 +2,7 @@
 
 import math
 import sys
+from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
 import numpy as np
@@ -29,7 +30,7 @@ def check_bounds(options: RenderOptions) -> None:
     }
     given = [name for name, value in others.items() if value is not None]
     if options.bounds and given:
-        raise Unusable(f"raytree render: --bounds do not go with {' and '.join(given)}; give --samples")
+        raise Unusable(f"raytree render: --bounds do not go with {' and '.join(given)}")
 
 
 def bounds_of(world: World, options: RenderOptions, share: Progress) -> Bounds:
@@ -53,6 +54,8 @@ def bounds_of(world: World, options: RenderOptions, share: Progress) -> Bounds:
         )
     except MissingExtra as error:
         raise Unusable(f"raytree render: {error}") from None
+    except BrokenProcessPool:
+        raise Unusable("raytree render: a process that works on the bounds was ended from outside") from None
 
 
 def put_summary(progress: ProgressLine, name: str, scene: Scene, bounds: Bounds) -> None:

@@ -4,6 +4,7 @@ import tracer
 from tracer.tree.verified.balls import MissingExtra
 from tracer.tree.verified.enclosures import VerifiedTree
 from viewer.base.files import Unusable, check_writable, write_atomically
+from viewer.base.progress import Progress
 from viewer.cli.loading import faults, find, prepared
 from viewer.cli.options import TraceOptions
 from viewer.cli.terminal import compile_once, put
@@ -48,6 +49,7 @@ def trace(options: TraceOptions) -> int:
 def verified_tree(world: tracer.World, tree: tracer.RayTree) -> VerifiedTree:
     """The enclosures of a tree. Unusable if the library for them is not installed."""
     try:
-        return tracer.verify(world, tree)
+        with Progress("verify") as progress:
+            return tracer.verify(world, tree, progress)
     except MissingExtra as error:
         raise Unusable(f"raytree trace: {error}") from None

@@ -75,16 +75,19 @@ class Verification:
             return "The tree is being verified …"
         found = self.found
         doubts = found.rows[row].doubts if row < len(found.rows) else ()
-        here = f" Not certain at this ray: {'; '.join(doubts)}." if doubts else ""
-        return f"Verified: {accuracy_text(found)}, {decisions_text(found)}.{here}"
+        if not doubts:
+            others = [(i, one.doubts[0]) for i, one in enumerate(found.rows) if one.doubts]
+            open_ones = f" Not certified: ray {others[0][0]}, {others[0][1]}." if others else ""
+            return f"Verified: {accuracy_text(found)}, {decisions_text(found)}.{open_ones}"
+        return f"Verified: {accuracy_text(found)}, {decisions_text(found)}. Not certified here: {'; '.join(doubts)}."
 
 
 def accuracy_text(found: VerifiedTree) -> str:
     """How exactly the tree's colour is known."""
-    off = max(0.5 * (high - low) for low, high in found.color)
+    off = max(high - low for low, high in found.color)
     if math.isinf(off):
         return f"no upper end for the colour, because of the material {found.unbounded}"
-    return "the colour is exact" if off == 0.0 else f"the colour is known to ±{format_number(off, 2)}"
+    return "the colour is exact" if off == 0.0 else f"the colour is known to within {format_number(off, 2)}"
 
 
 def decisions_text(found: VerifiedTree) -> str:

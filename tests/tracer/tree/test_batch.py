@@ -56,6 +56,7 @@ def test_one_origin_may_stand_for_all() -> None:
         ([(0, 0, 0)], [(0, 0, 0)], "none 0,0,0"),
         ([(0, 0, 0)], [(0, 0, math.inf)], "must be finite"),
         ([(0, math.nan, 0)], [(0, 0, 1)], "must be finite"),
+        ([(0, 1e160, 0)], [(0, 0, 1)], r"within 1e\+150"),
         ((0, 0, 0), (0, 0, 1), "must have the shape"),
         ([(0, 0)], [(0, 1)], "must have the shape"),
         ([(0, 0, 0)] * 2, [(0, 0, 1)] * 3, r"must have the shape \(n, 3\), got \(2, 3\) and \(3, 3\)"),

@@ -56,7 +56,7 @@ def test_render_bounds(scene_file: Callable[..., Path], tmp_path: Path, capsys: 
     capsys.readouterr()
     for wrong, said in (
         (["-o", str(tmp_path / "b.png")], "--bounds are written as .npy or .exr, got .png"),
-        (["-o", str(target), "--until-error", "0.1"], "--bounds do not go with --until-error; give --samples"),
+        (["-o", str(target), "--until-error", "0.1"], "--bounds do not go with --until-error"),
     ):
         assert main(["render", str(scene), "--bounds", *wrong]) == 2
         assert said in capsys.readouterr().err

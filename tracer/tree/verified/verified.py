@@ -7,6 +7,8 @@ only known to be between 0 and B, the most that any ray of the scene can bring (
 enclosure of the colour holds whatever the decision.
 """
 
+from collections.abc import Callable
+
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from tracer.tree.verified.balls import PRECISIONS, precision
@@ -14,18 +16,22 @@ from tracer.tree.verified.enclosures import VerifiedTree
 from tracer.tree.verified.verifier import Verifier
 
 
-def verify(world: World, tree: RayTree) -> VerifiedTree:
+def verify(world: World, tree: RayTree, progress: Callable[[float], None] = lambda share: None) -> VerifiedTree:
     """Guaranteed enclosures of a tree of this world, at the first of PRECISIONS that certifies every decision, or else
     at the last.
 
-    Memory and time are in proportion to the rows, about 0.3 ms each. MissingExtra if python-flint is not installed.
+    Memory and time are in proportion to the rows, about 0.3 ms each; with meshes of 10^5 triangles 6 ms. `progress` is
+    called with the share that is done. MissingExtra if python-flint is not installed, ValueError for a tree of another
+    world.
     """
+    if tree.world is not world:
+        raise ValueError("the tree is not one of this world")
     bits = PRECISIONS[0]
     with precision(bits):
-        found = Verifier(world, tree).run(bits)
+        found = Verifier(world, tree).run(bits, progress)
     for bits in PRECISIONS[1:]:
         if found.certified == found.decisions:
             break
         with precision(bits):
-            found = Verifier(world, tree).run(bits)
+            found = Verifier(world, tree).run(bits, progress)
     return found

@@ -1,7 +1,7 @@
 """Traces a recorded tree again in ball arithmetic, row by row."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from tracer.formulas.camera import View
@@ -32,6 +32,7 @@ from tracer.tree.verified.light import Passage, light_share, surface_color
 from tracer.tree.verified.scatter import Hit, Sent, scattered, usable_normal
 from tracer.tree.verified.scenery import Scenery
 
+REPORTED = 100  # rows between two reports of progress
 ROUNDING = 1.0 + 2.0**-40  # makes up for the rounding of B itself
 
 
@@ -59,11 +60,13 @@ class Verifier:
         self.cut = ball(0.0)  # weight of the rays that were not followed
         self.decisions = self.certified = 0
 
-    def run(self, bits: int) -> VerifiedTree:
+    def run(self, bits: int, progress: Callable[[float], None]) -> VerifiedTree:
         self.states[0] = self.first_state()
         for i in range(len(self.tree)):
             if i in self.states:
                 self.trace(i)
+            if i % REPORTED == 0:
+                progress(i / len(self.tree))
         self.sum_up()
         reason = self.tree.radiance_bound.reason
         unbounded = reason if math.isinf(max(high for _, high in self.rows[0].radiance)) else ""
