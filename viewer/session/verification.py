@@ -46,17 +46,18 @@ class Verification:
             return
 
         def work() -> None:
-            found, failure = None, ""
+            found, failure = None, "not verified: the verification has failed"
             try:
-                found = tracer.verify(world, tree)
+                found, failure = tracer.verify(world, tree), ""
             except MissingExtra:
                 failure = "not verified: needs the extra raytree[verify]"
-            self.post(lambda: self._finish(world, tree, found, failure))
+            finally:
+                self.post(lambda: self._finish(tree, found, failure))
 
         self._running = Thread(target=work, daemon=True, name="verification")
         self._running.start()
 
-    def _finish(self, world: World, tree: RayTree, found: VerifiedTree | None, failure: str) -> None:
+    def _finish(self, tree: RayTree, found: VerifiedTree | None, failure: str) -> None:
         self._running, self.failure = None, failure
         if tree is self.tree:
             self.found = found
@@ -75,11 +76,12 @@ class Verification:
             return "The tree is being verified …"
         found = self.found
         doubts = found.rows[row].doubts if row < len(found.rows) else ()
+        verified = "Verified" if found.certified == found.decisions else "Verified in part"
         if not doubts:
             others = [(i, one.doubts[0]) for i, one in enumerate(found.rows) if one.doubts]
             open_ones = f" Not certified: ray {others[0][0]}, {others[0][1]}." if others else ""
-            return f"Verified: {accuracy_text(found)}, {decisions_text(found)}.{open_ones}"
-        return f"Verified: {accuracy_text(found)}, {decisions_text(found)}. Not certified here: {'; '.join(doubts)}."
+            return f"{verified}: {accuracy_text(found)}, {decisions_text(found)}.{open_ones}"
+        return f"{verified}: {accuracy_text(found)}, {decisions_text(found)}. Not certified here: {'; '.join(doubts)}."
 
 
 def accuracy_text(found: VerifiedTree) -> str:
