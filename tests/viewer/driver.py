@@ -136,3 +136,12 @@ def viewer(size: tuple[int, int] = (1280, 720)) -> Iterator[Driver]:
     finally:
         assert driver.app.surface.ctx.error == "GL_NO_ERROR"
         driver.app.close()
+
+
+@contextmanager
+def viewer_of(path: Path, scene: str) -> Iterator[Driver]:
+    """A viewer on a scene file with this text."""
+    path.write_text(scene)
+    with viewer() as driver:
+        driver.open_file(path)
+        yield driver

@@ -8,6 +8,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 Exact = tuple[Fraction, Fraction, Fraction]
+ExactPlane = tuple[Exact, Exact]  # a point, and a normal of any length above 0
 
 
 def exact(values: Iterable[float]) -> Exact:
@@ -34,6 +35,17 @@ def area(corners: Sequence[Exact]) -> Exact:
     for part in (cross(a, b) for a, b in pairwise(arms[1:])):
         total = (total[0] + part[0], total[1] + part[1], total[2] + part[2])
     return total
+
+
+def plane_of(corners: Sequence[Exact]) -> ExactPlane:
+    """The plane of an outline: through its first corner, with the area vector as normal."""
+    return corners[0], area(corners)
+
+
+def are_one_plane(a: ExactPlane, b: ExactPlane) -> bool:
+    """Whether two planes are the same, whichever way their normals point."""
+    (p, n), (q, m) = a, b
+    return not any(cross(n, m)) and dot(n, minus(q, p)) == 0
 
 
 def is_in_outline(p: Exact, corners: Sequence[Exact]) -> bool:

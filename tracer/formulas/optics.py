@@ -85,6 +85,15 @@ def fresnel_shares(c1: float, s1: float, c2: float, n1: float, n2: float) -> tup
 
 
 @inlined
+def shares(c1: float, s1: float, n1: float, n2: float) -> tuple[float, float]:
+    """`fresnel_shares` for any angle of incidence; (1, 0) on total internal reflection."""
+    root = radicand(s1, n1, n2)
+    if root <= 0.0:
+        return (1.0, 0.0)
+    return fresnel_shares(c1, s1, math.sqrt(root), n1, n2)
+
+
+@inlined
 def angle(a: Vector, b: Vector) -> float:
     """The angle between two vectors in radians, 0 to pi. Accurate at both ends, unlike acos."""
     return math.atan2(length(cross(a, b)), dot(a, b))
@@ -121,11 +130,7 @@ def fresnel(cos1: float, n1: float, n2: float) -> tuple[float, float]:
 
     `cos1`, the cosine of the angle of incidence, is in 0..1. (1.0, 0.0) on total internal reflection.
     """
-    s1 = math.sqrt((1.0 - cos1) * (1.0 + cos1))
-    root = radicand(s1, n1, n2)
-    if root <= 0.0:
-        return (1.0, 0.0)
-    return fresnel_shares(cos1, s1, math.sqrt(root), n1, n2)
+    return shares(cos1, math.sqrt((1.0 - cos1) * (1.0 + cos1)), n1, n2)
 
 
 def critical_angle(n1: float, n2: float) -> float | None:

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from tracer.choices import SAMPLERS, SOBOL
-from tracer.formulas.sampler import make_samples
+from tracer.formulas.sampler import CENTER, make_samples
 from tracer.image.passes import Stopped
 from tracer.image.render import Progress
 from tracer.image.task import Cancelled, never
@@ -74,7 +74,6 @@ def render_bounds(
     began = time.perf_counter()
     view, points = world.view(size), make_samples(samples or 1, sampler)
     max_nodes = image_max_nodes(world, view.width * view.height, points.count, max_rays)
-    is_center = points.sampler.kind < 0
     options: dict[str, Any] = {
         "size": (view.width, view.height),
         "depth": depth,
@@ -86,7 +85,7 @@ def render_bounds(
         "sampler": sampler,
         "samples": points.count,
     }
-    numbers = (None,) if is_center else tuple(range(points.count))
+    numbers = (None,) if points.sampler.kind == CENTER else tuple(range(points.count))
     low, high = (np.zeros((view.height, view.width, 3)) for _ in range(2))
     decisions = certified = 0
     variance = 0.0

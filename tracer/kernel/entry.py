@@ -46,7 +46,7 @@ PIXEL = dtype_of(PixelRow)
 
 
 class Batch(NamedTuple):
-    """What `trace_rays_in_turn` notes about n rays."""
+    """The notes of `trace_rays_in_turn` about n rays."""
 
     starts: np.ndarray  # (n + 1,) the first row of each tree, and the end of the last
     residuals: np.ndarray  # (n,)

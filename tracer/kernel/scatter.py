@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from tracer.choices import WHITTED
 from tracer.compile.jit import compiled, inlined
-from tracer.formulas.optics import cosine, fresnel_shares, radicand
+from tracer.formulas.optics import cosine, shares
 from tracer.formulas.vector import Vector, max_component, multiply, store, vector
 from tracer.kernel.arrays import Arrays, MaterialRow
 from tracer.kernel.limits import Limits
@@ -61,11 +61,7 @@ def dielectric_shares(
     through = d if thin else world.formulas.transmission(d, n, row.n1, n2, c1, math.sqrt(row.radicand))
     if limits.model == WHITTED:
         return (kr, kt, through)
-    s1 = world.formulas.sine(d, n)
-    root = radicand(s1, row.n1, n2)
-    if root <= 0.0:
-        return (kr + kt, 0.0, through)
-    r, t = fresnel_shares(c1, s1, math.sqrt(root), row.n1, n2)
+    r, t = shares(c1, world.formulas.sine(d, n), row.n1, n2)
     return ((kr + kt) * r, (kr + kt) * t, through)
 
 

@@ -115,7 +115,7 @@ def slab_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
 
 
 @inlined
-def may_touch(surface: SurfaceRow, ray: Ray) -> bool:
+def may_start_on(surface: SurfaceRow, ray: Ray) -> bool:
     """Whether the ray may start on the box, by rounding, or runs in the plane of a face.
 
     A ray that starts in the plane of a face beside the box crosses the planes of other faces first, or misses.
@@ -134,7 +134,7 @@ def interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
     if ray.start >= 0:
         if ray.start == surface.coincident:
             return (-math.inf, exit_distance(surface, ray)) if ray.side < 0.0 else (math.inf, -math.inf)
-        if may_touch(surface, ray) and is_in_contact(surface, ray):
+        if may_start_on(surface, ray) and is_in_contact(surface, ray):
             return contact_interval(surface, ray)
     return slab_interval(surface, ray)
 

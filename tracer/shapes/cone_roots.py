@@ -1,4 +1,4 @@
-"""Where a ray crosses a cone: its side |across| = radius(height), and the planes of its two ends, in double-double.
+"""Crossings of a ray with a cone: its side |across| = radius(height), and the planes of its ends, in double-double.
 
 Let w be the axis from the narrow to the wide end, and f the vector from the narrow end to a point. With s = f.w and
 L2 = w.w, the height is s / |w|, and the part of f across the axis, times L2, is F = L2 f - s w. With the radii r and

@@ -12,9 +12,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from tracer import fields
-from tracer.compile.jit import compiled, inlined
+from tracer.compile.jit import inlined
 from tracer.compile.simd import broadcast, lanes_max, lanes_min, load_lanes, mask_less
-from tracer.formulas.double_double import U, dd_cross, exact_difference
+from tracer.formulas.double_double import dd_cross, exact_difference
 from tracer.formulas.exact import Exact, exact, is_in_outline
 from tracer.formulas.vector import (
     LONGEST,
@@ -38,8 +38,6 @@ from tracer.shapes.planar import may_cross, outline_slack, pack_normal, unit_nor
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import BlockRow, ShapeArrays, SurfaceRow
 from tracer.shapes.tessellation import flat
-
-INTERPOLATION = 8.0  # rounding errors of an interpolated normal, in u
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,37 +195,3 @@ def normal_derivative(world: ShapeArrays, surface: SurfaceRow, p: Vector, v: Vec
     change = add(change, scale(w, vector(corners[2])))
     along = scale(1.0 / size, mixed)
     return scale(1.0 / size, subtract(change, scale(dot(change, along), along)))
-
-
-@inlined
-def placement_error(world: Any, s: int) -> float:
-    """Bound on the distance by which rounding has moved the corners of a placed mesh's face; 0 for other surfaces."""
-    if s < 0 or not world.objects[world.surfaces[s].object].placed:
-        return 0.0
-    surface = world.surfaces[s]
-    return U * max(length(vector(surface.a)), max(length(vector(surface.b)), length(vector(surface.c))))
-
-
-@compiled
-def mesh_normal_rounding(world: Any, s: int, p: Vector) -> float:
-    """Bound on the own error of the normal at a point of a mesh's face, in radians; 0 for other surfaces.
-
-    Corners that are moved by e tilt the face by up to 2 e over its smallest height. Interpolation weights change by as
-    much, and add rounding of their own: relative to the interpolated normal, which is shorter than those at the
-    corners.
-    """
-    surface = world.surfaces[s]
-    moved = placement_error(world, s)
-    if surface.smooth < 0 and moved == 0.0:
-        return 0.0
-    a, b, c = vector(surface.a), vector(surface.b), vector(surface.c)
-    ab, bc, ca = subtract(b, a), subtract(c, b), subtract(a, c)
-    longest = max(length(ab), max(length(bc), length(ca)))
-    area = dot(cross(ab, subtract(c, a)), vector(surface.normal))
-    tilt = 2.0 * moved * longest / area
-    if surface.smooth < 0:
-        return tilt
-    f = length_scale(surface)
-    mixed = length(interpolated_normal(world, surface, p))
-    share = f * f * area / mixed if mixed > 0.0 else math.inf  # 1 where all three normals are equal
-    return share * (3.0 * tilt + U * INTERPOLATION)

@@ -32,7 +32,7 @@ from tracer.kernel.arrays import Arrays
 from tracer.kernel.node_rows import rounding_scale
 from tracer.kernel.nodes import SHADOW, NodeRow, PublicRow
 from tracer.shapes.planar import HIT
-from tracer.shapes.triangle import mesh_normal_rounding, placement_error
+from tracer.tree.mesh_rounding import mesh_normal_rounding, placement_error
 from tracer.tree.step_derivatives import Step, make_step, normal_error, outgoing_turn, scattered_turn, transferred
 
 # Bounds on the rounding errors of one step, in u: of the incoming direction as the surface takes it, and of the

@@ -11,10 +11,10 @@ import math
 import numpy as np
 
 from tracer.choices import WHITTED
-from tracer.compile.jit import compiled, inlined, kernel
+from tracer.compile.jit import compiled, kernel
 from tracer.compile.rows import Numbers, Rows
 from tracer.formulas.double_double import U
-from tracer.formulas.optics import fresnel_shares, radicand
+from tracer.formulas.optics import shares
 from tracer.formulas.shading import surface_color
 from tracer.formulas.vector import cross, dot, length, max_component, negate, scale, subtract, vector
 from tracer.kernel.arrays import Arrays
@@ -74,21 +74,12 @@ def factor_error(
     c1, s1 = -dot(d, n), length(cross(d, n))
     wrong = bends[row.parent] + told[row.parent].turn
     change = 0.0
-    here = reflectance(c1, s1, n1, n2)
+    here, _ = shares(c1, s1, n1, n2)
     for side in (-1.0, 1.0):
         angle = min(max(math.atan2(s1, c1) + side * wrong, 0.0), 0.5 * math.pi)
-        change = max(change, abs(reflectance(math.cos(angle), math.sin(angle), n1, n2) - here))
+        beside, _ = shares(math.cos(angle), math.sin(angle), n1, n2)
+        change = max(change, abs(beside - here))
     return (material.reflect + material.transmit) * (change + wrong * wrong) + TERM * U * factor
-
-
-@inlined
-def reflectance(c1: float, s1: float, n1: float, n2: float) -> float:
-    """Fresnel's R; 1 on total internal reflection."""
-    root = radicand(s1, n1, n2)
-    if root <= 0.0:
-        return 1.0
-    r, _ = fresnel_shares(c1, s1, math.sqrt(root), n1, n2)
-    return r
 
 
 @compiled

@@ -15,7 +15,7 @@ from tracer.kernel.nodes import BLOCKED, REFRACTION, SHADOW, NodeRow
 from tracer.kernel.shadows import light_direction
 from tracer.rays import make_ray
 from tracer.shapes import interaction, normal_derivative
-from tracer.shapes.triangle import mesh_normal_rounding
+from tracer.tree.mesh_rounding import mesh_normal_rounding
 
 NORMAL = 1.0  # bound on the rounding error of a normal, in u
 

@@ -15,7 +15,7 @@ from tracer.scene import Scene
 from tracer.scene.radiance_bound import RadianceBound, radiance_bound
 from tracer.tree.digits import significant_digits
 from tracer.tree.ledger import Ledger, make_ledger
-from tracer.tree.margins.margins import DECISIONS, Details, Margins, find_margins
+from tracer.tree.margins.margins import DECISIONS, Details, Margins, faces_away, find_margins
 
 
 class Children(Sequence[list[int]]):
@@ -138,10 +138,11 @@ class TreeTable:
         """Whether ray i is a shadow ray from a surface that faces away from the light. It adds nothing, whatever it
         meets.
         """
-        row = self.nodes[i]
-        if row["kind"] != SHADOW:
-            return False
-        return bool(row["t"] == 0.0 or self.nodes["normal"][row["parent"]] @ row["direction"] <= 0.0)
+        return bool(self._away[i])
+
+    @cached_property
+    def _away(self) -> np.ndarray:
+        return faces_away(self.nodes, self.nodes)
 
     def digits(self, i: int) -> int:
         """The number of correct decimal digits of the hit point, 0 to 15."""

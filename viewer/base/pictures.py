@@ -39,12 +39,18 @@ def npy(pixels: np.ndarray) -> bytes:
 
 def exr(pixels: np.ndarray) -> bytes:
     import numpy as np
+
+    return exr_file({"RGB": np.ascontiguousarray(pixels, np.float32)})
+
+
+def exr_file(channels: dict[str, np.ndarray]) -> bytes:
+    """OpenEXR with these channels of float32."""
     import OpenEXR
 
     header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "image.exr"
-        OpenEXR.File(header, {"RGB": np.ascontiguousarray(pixels, np.float32)}).write(str(path))
+        OpenEXR.File(header, channels).write(str(path))
         return path.read_bytes()
 
 
@@ -58,19 +64,14 @@ def bounds_npy(low: np.ndarray, high: np.ndarray) -> bytes:
 def bounds_exr(low: np.ndarray, high: np.ndarray) -> bytes:
     """Channels low.R .. low.B and high.R .. high.B, rounded outwards to float32."""
     import numpy as np
-    import OpenEXR
 
-    header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
     channels = {}
     for name, ends, away in (("low", low, -np.inf), ("high", high, np.inf)):
         with np.errstate(over="ignore"):
             rounded = np.nextafter(ends.astype(np.float32), np.float32(away))
         for k, letter in enumerate("RGB"):
             channels[f"{name}.{letter}"] = np.ascontiguousarray(np.maximum(rounded[..., k], np.float32(0.0)))
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "bounds.exr"
-        OpenEXR.File(header, channels).write(str(path))
-        return path.read_bytes()
+    return exr_file(channels)
 
 
 BOUNDS_WRITERS: dict[str, Callable[[np.ndarray, np.ndarray], bytes]] = {"npy": bounds_npy, "exr": bounds_exr}

@@ -13,10 +13,10 @@ from tracer.kernel.world import World
 from tracer.scene import Scene
 from tracer.scene.radiance_bound import radiance_bound
 from tracer.tree.digits import number_text
-from tracer.tree.verified.balls import MissingExtra
 from viewer.base.files import Unusable
 from viewer.base.progress import Progress as ProgressLine
-from viewer.cli.options import RenderOptions
+from viewer.cli.loading import extra
+from viewer.cli.options import RenderOptions, limits_of
 
 SMALL = 500  # pixels of an image for which starting processes takes longer than its bounds
 
@@ -38,22 +38,15 @@ def bounds_of(world: World, options: RenderOptions, share: Progress) -> Bounds:
     view = world.view(options.size)
     processes = 1 if view.width * view.height <= SMALL else options.threads or processors()
     try:
-        return render_bounds(
-            world,
-            options.size,
-            options.samples,
-            options.depth,
-            processes,
-            min_weight=options.min_weight,
-            tolerance=options.tolerance,
-            missing=options.missing,
-            max_rays=options.max_rays,
-            model=options.model,
-            sampler=options.sampler,
-            progress=share,
-        )
-    except MissingExtra as error:
-        raise Unusable(f"raytree render: {error}") from None
+        with extra("render"):
+            return render_bounds(
+                world,
+                samples=options.samples,
+                sampler=options.sampler,
+                processes=processes,
+                progress=share,
+                **limits_of(options),
+            )
     except BrokenProcessPool:
         raise Unusable("raytree render: a process that works on the bounds was ended from outside") from None
 

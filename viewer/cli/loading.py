@@ -7,6 +7,7 @@ from pathlib import Path
 import tracer
 from tracer.formats import OTHER_MESHES, READERS, UP_AXES
 from tracer.scene.radiance_bound import MissingBoundError
+from tracer.tree.verified.balls import MissingExtra
 from viewer.base.files import Unusable, is_there
 from viewer.base.progress import Progress
 from viewer.lessons import lesson
@@ -25,6 +26,15 @@ def find(name: str) -> tuple[Path, Lesson | None]:
         raise Unusable(f"{name}: a scene must be one of {', '.join(READERS)} or a lesson's name")
     found = lesson.read(name)
     return found.scene, found
+
+
+@contextlib.contextmanager
+def extra(command: str) -> Iterator[None]:
+    """Turn a missing extra into a line about the command."""
+    try:
+        yield
+    except MissingExtra as error:
+        raise Unusable(f"raytree {command}: {error}") from None
 
 
 @contextlib.contextmanager

@@ -136,6 +136,12 @@ class RenderOptions:
     stats: Path | None = option(FILE, "write times, ray counts and what was left out", metavar="FILE.json")
 
 
+def limits_of(options: TraceOptions | RenderOptions) -> dict[str, Any]:
+    """The arguments of `tracer.trace` and `tracer.render` that say which rays are followed, and their weights."""
+    names = ("depth", "size", "min_weight", "tolerance", "missing", "max_rays", "model")
+    return {name: getattr(options, name) for name in names}
+
+
 @dataclass(frozen=True, kw_only=True)
 class ReportOptions:
     """`raytree report`."""

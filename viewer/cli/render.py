@@ -23,7 +23,7 @@ from viewer.base.pictures import SUFFIXES, check_bounds_format, check_format, wr
 from viewer.base.progress import Progress
 from viewer.cli.bounds import bounds_of, bounds_stats, check_bounds, put_summary
 from viewer.cli.loading import faults, find
-from viewer.cli.options import RenderOptions
+from viewer.cli.options import RenderOptions, limits_of
 from viewer.cli.terminal import compile_once
 
 
@@ -99,6 +99,7 @@ def render_one(
     job: RenderJob, options: RenderOptions, executor: Executor | None, progress: Progress, share: Share
 ) -> dict[str, Any]:
     """Load, prepare, trace and write one image. Returns its part of `--stats`."""
+    name = f"{job.name}: " if share.count > 1 else ""
     with faults():
         began = time.perf_counter()
         share.say(f"load {job.name}")
@@ -114,31 +115,24 @@ def render_one(
             bounds = bounds_of(world, options, share)
             job.target.parent.mkdir(exist_ok=True)
             write_bounds(job.target, bounds.low, bounds.high)
-            put_summary(progress, f"{job.name}: " if share.count > 1 else "", scene, bounds)
+            put_summary(progress, name, scene, bounds)
             seconds = {"load": loaded - began, "prepare": prepared - loaded, "compile": 0.0, "trace": bounds.seconds}
             return {"scene": str(job.scene), "image": str(job.target), "seconds": seconds, **bounds_stats(bounds)}
         share.say(f"render {job.name}")
         image = tracer.render(
             world,
-            options.size,
-            options.samples,
-            options.depth,
-            options.threads,
-            min_weight=options.min_weight,
-            tolerance=options.tolerance,
-            missing=options.missing,
-            max_rays=options.max_rays,
-            model=options.model,
+            samples=options.samples,
+            threads=options.threads,
             sampler=options.sampler,
             until_error=options.until_error,
             until_seconds=options.until_seconds,
             executor=executor,
             progress=share,
+            **limits_of(options),
         )
     share.say(f"write {job.target.name}")
     job.target.parent.mkdir(exist_ok=True)
     write_picture(job.target, image.pixels)
-    name = f"{job.name}: " if share.count > 1 else ""
     if image.stats:
         progress.put(name + summary(image, image.stats, options), sys.stdout)
     if image.limited:

@@ -1,12 +1,10 @@
 """`raytree trace`: the ray tree behind one pixel, as text or as data."""
 
 import tracer
-from tracer.tree.verified.balls import MissingExtra
-from tracer.tree.verified.enclosures import VerifiedTree
 from viewer.base.files import Unusable, check_writable, write_atomically
 from viewer.base.progress import Progress
-from viewer.cli.loading import faults, find, prepared
-from viewer.cli.options import TraceOptions
+from viewer.cli.loading import extra, faults, find, prepared
+from viewer.cli.options import TraceOptions, limits_of
 from viewer.cli.terminal import compile_once, put
 from viewer.figures.catalogue import FORMATS
 
@@ -21,21 +19,11 @@ def trace(options: TraceOptions) -> int:
     with faults():
         world = prepared(path, options.up)
         ray = (options.ray[:3], options.ray[3:]) if options.ray else None
-        tree = tracer.trace(
-            world,
-            options.pixel,
-            ray,
-            depth=options.depth,
-            size=options.size,
-            min_weight=options.min_weight,
-            tolerance=options.tolerance,
-            missing=options.missing,
-            max_rays=options.max_rays,
-            model=options.model,
-        )
+        tree = tracer.trace(world, options.pixel, ray, **limits_of(options))
     most = options.rays or None
     if options.verify:
-        verified = verified_tree(world, tree)
+        with extra("trace"), Progress("verify") as progress:
+            verified = tracer.verify(world, tree, progress)
         text = tree.to_json(verified) if options.format == "json" else tree.to_text(most, verified)
     else:
         text = tree.to_text(most) if options.format == "text" else FORMATS[options.format].text(tree)
@@ -44,12 +32,3 @@ def trace(options: TraceOptions) -> int:
     else:
         put(text)
     return 0
-
-
-def verified_tree(world: tracer.World, tree: tracer.RayTree) -> VerifiedTree:
-    """The enclosures of a tree. Unusable if the library for them is not installed."""
-    try:
-        with Progress("verify") as progress:
-            return tracer.verify(world, tree, progress)
-    except MissingExtra as error:
-        raise Unusable(f"raytree trace: {error}") from None

@@ -89,7 +89,7 @@ def ray_numbers(tree: RayTree, i: int) -> Section:
 
 
 def margin_text(tree: RayTree, i: int) -> str:
-    """How far ray i was from going otherwise, in units of rounding error, and which decision that was."""
+    """The decision margin of ray i, with the decision, in words."""
     margins = tree.margins_of(np.array([i]))
     margin, words = float(margins.margin[0]), tree.decision(margins, 0)
     if not words:

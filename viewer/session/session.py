@@ -115,7 +115,7 @@ class Session:
                 self._trace()
                 news = True
             if self.tree:
-                self.verification.ask(self.world, self.tree)
+                self.verification.ask(self.tree)
             if not self.image.picture:
                 self.render()
                 news = True

@@ -5,17 +5,17 @@ from collections.abc import Callable
 from threading import Thread
 
 import tracer
-from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from tracer.tree.verified.balls import MissingExtra
 from tracer.tree.verified.enclosures import VerifiedTree
+from tracer.tree.verified.text import decisions_text
 from viewer.base.wording import format_number
 
 MOST_ROWS = 2000  # of a tree that the window verifies: about a second
 
 
 class Verification:
-    """What is certain of one tree. Only the window's thread changes it."""
+    """The verified form of one tree. Only the window's thread changes it."""
 
     def __init__(self, post: Callable[[Callable[[], object]], object]) -> None:
         self.post = post
@@ -33,14 +33,14 @@ class Verification:
         if self._running is not None:
             self._running.join()
 
-    def ask(self, world: World, tree: RayTree) -> None:
+    def ask(self, tree: RayTree) -> None:
         """Verify this tree, unless it has been asked for. One tree is verified at a time, the last one asked for."""
         if tree is self.tree:
             return
         self.tree, self.found = tree, None
-        self._start(world)
+        self._start()
 
-    def _start(self, world: World) -> None:
+    def _start(self) -> None:
         tree = self.tree
         if self._running is not None or tree is None or len(tree) > MOST_ROWS:
             return
@@ -48,7 +48,7 @@ class Verification:
         def work() -> None:
             found, failure = None, "not verified: the verification has failed"
             try:
-                found, failure = tracer.verify(world, tree), ""
+                found, failure = tracer.verify(tree.world, tree), ""
             except MissingExtra:
                 failure = "not verified: needs the extra raytree[verify]"
             finally:
@@ -61,8 +61,8 @@ class Verification:
         self._running, self.failure = None, failure
         if tree is self.tree:
             self.found = found
-        elif not failure and self.tree is not None:
-            self._start(self.tree.world)
+        elif not failure:
+            self._start()
 
     def text(self, row: int) -> str:
         """The state in a sentence, with what is not certain of this row."""
@@ -85,14 +85,8 @@ class Verification:
 
 
 def accuracy_text(found: VerifiedTree) -> str:
-    """How exactly the tree's colour is known."""
+    """The width of the colour's enclosure, in words."""
     off = max(high - low for low, high in found.color)
     if math.isinf(off):
         return f"no upper end for the colour, because of the material {found.unbounded}"
     return "the colour is exact" if off == 0.0 else f"the colour is known to within {format_number(off, 2)}"
-
-
-def decisions_text(found: VerifiedTree) -> str:
-    if found.certified == found.decisions:
-        return f"all {found.decisions} decisions are certified"
-    return f"{found.certified} of {found.decisions} decisions are certified"

@@ -46,7 +46,7 @@ def test_light_counts_not_weight() -> None:
 
 
 def test_bound_is_never_above_what_was_asked_for_by_rounding() -> None:
-    """Where tracing stops at the very tolerance, and the bound has any bits."""
+    """Scenes in which tracing stops at the very tolerance, and the bound has any bits."""
     random = np.random.default_rng(5)
     for _ in range(200):
         k, light, depth = random.uniform(0.3, 0.9), random.uniform(0.1, 9.0), int(random.integers(0, 12))

@@ -8,11 +8,12 @@ from itertools import islice
 import pytest
 from mpmath import mp, mpf
 
+from tracer.formulas.vector import scale, subtract
 from tracer.measure.check import exact_shapes
 from tracer.measure.check.case import DIGITS, Case, Reading, U, compare, run, worst_of
 from tracer.measure.check.check import CASES
 from tracer.measure.check.distribution import quantiles
-from tracer.measure.check.draws import Draws, minus, plus, times
+from tracer.measure.check.draws import Draws, plus
 from tracer.measure.check.exact_shapes import DECIDING, Tube
 from tracer.measure.check.families import boxes, cones, faces, placed_meshes, refraction, rooms, spheres
 from tracer.measure.check.families.judged import Decision, Hit, distances, wrong_of
@@ -103,7 +104,7 @@ def test_hits_of_a_cone_lie_on_it() -> None:
         for _ in range(60):
             shape, _ = cones.tube(chance, chance.random(), chance.size(-2, 2))
             eye = plus(shape.base, chance.place(shape.base_radius * 3.0))
-            way = minus(plus(times(0.3, shape.base), times(0.7, shape.apex)), eye)
+            way = subtract(plus(scale(0.3, shape.base), scale(0.7, shape.apex)), eye)
             for t in exact_shapes.tube(eye, way, shape):
                 count += 1
                 p = [mpf(str(Decimal(o) + t * Decimal(d))) for o, d in zip(eye, way, strict=True)]

@@ -12,12 +12,14 @@ from tests.compared_trees import compared, judged_pixel, judged_ray
 from tests.planted_rays import planted_ray
 from tests.random_scenes import random_scene, stiff_scene
 from tests.scenes import GLASS, MATTE, MIRROR, OPEN, ball, box, plane, polygon, world_of
+from tracer.formulas.double_double import U
 from tracer.kernel.nodes import SHADOW
 from tracer.scene import Light, Material, Scene
 from tracer.tree.raytree import RayTree
 from tracer.tree.verified.balls import MissingExtra
 from tracer.tree.verified.enclosures import VerifiedTree
 from tracer.tree.verified.text import verified_text
+from tracer.tree.verified.verifier import ROUNDING
 
 
 def pixel_tree(scene: Scene, seed: int) -> RayTree:
@@ -76,7 +78,7 @@ def many(scenes: Callable[[int], Scene], seeds: range) -> None:
 
 @pytest.mark.parametrize("scenes", [random_scene, stiff_scene])
 def test_rays_aimed_at_outlines(scenes: Callable[[int], Scene]) -> None:
-    """Where a decision is not certified, or was recorded otherwise, the enclosure is wide, and still holds."""
+    """The enclosure of a decision that is not certified, or was recorded otherwise, is wide, and still holds."""
     open_ones = 0
     for seed in range(400):
         scene = scenes(seed)
@@ -116,6 +118,21 @@ def test_a_tie_is_enclosed_by_all_that_could_be() -> None:
         assert low == 0.0
         assert high == pytest.approx(1.0, rel=1e-9)
         assert high >= 1.0
+
+
+def test_only_what_hangs_on_an_open_decision_is_wide() -> None:
+    """At the critical angle, sin = 4/5 for n = 5/4, the rays sent out are not certain, the surface's own light is."""
+    glass = Material("glass", ambient=0.25, transmit=0.5, ior=1.25)
+    world = world_of(plane((0, 0, 0), (0, 1, 0), glass, "glass"))
+    tree = tracer.trace(world, ray=((0, -1, 0), (4, 3, 0)), depth=1)
+    verified = tracer.verify(world, tree)
+    assert verified.rows[0].doubts == ("total internal reflection or not",)
+    assert verified.decisions - verified.certified == 1
+    for low, high in verified.color:
+        assert low == 0.25
+        # Half of what any ray can bring, 0.25 / (1 - 0.5), is added, and both ends are rounded outwards.
+        most = 0.25 + 0.25 * ROUNDING
+        assert most <= high <= most + 4.0 * U
 
 
 def test_without_a_bound_there_is_no_upper_end_and_the_text_says_why() -> None:

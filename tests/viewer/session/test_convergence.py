@@ -10,7 +10,7 @@ import pytest
 from imgui_bundle import imgui
 
 import tracer
-from tests.viewer.driver import Driver, viewer
+from tests.viewer.driver import Driver, viewer_of
 from tests.viewer.panels.test_panels import window
 from tracer.image.progressive import RoundStats
 from viewer.base.colormap import RANGES, colorize, gradient
@@ -37,9 +37,7 @@ object = [
 
 @pytest.fixture
 def room(tmp_path: Path) -> Iterator[Driver]:
-    (tmp_path / "mirrors.toml").write_text(SCENE)
-    with viewer() as driver:
-        driver.open_file(tmp_path / "mirrors.toml")
+    with viewer_of(tmp_path / "mirrors.toml", SCENE) as driver:
         yield driver
 
 
@@ -163,12 +161,11 @@ def test_what_is_cut_is_worth_no_more_than_the_flat_line_says(room: Driver) -> N
 
 
 def test_nothing_more_to_gain(tmp_path: Path) -> None:
-    (tmp_path / "sky.toml").write_text(
+    sky = (
         'format = 1\nobject = [{ shape = "sphere", center = [0, 0, 99], radius = 1 }]\n'
         "image = { width = 32, height = 24 }\ncamera = { position = [0, 0, 0], look_at = [0, 0, -1] }\n"
     )
-    with viewer() as driver:
-        driver.open_file(tmp_path / "sky.toml")
+    with viewer_of(tmp_path / "sky.toml", sky) as driver:
         driver.type("r")
         until(driver, lambda: not driver.session.refinement.is_running)
         assert current(driver).ended

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.viewer.driver import Driver, viewer
+from tests.viewer.driver import Driver, viewer_of
 from viewer.session import verification
 
 SCENE = """
@@ -24,14 +24,12 @@ object = [
 
 @pytest.fixture
 def room(tmp_path: Path) -> Iterator[Driver]:
-    (tmp_path / "ball.toml").write_text(SCENE)
-    with viewer() as driver:
-        driver.open_file(tmp_path / "ball.toml")
+    with viewer_of(tmp_path / "ball.toml", SCENE) as driver:
         yield driver
 
 
 def said(driver: Driver, row: int = 0) -> str:
-    """What the window says when the verification has come."""
+    """The window's sentence when the verification has come."""
     driver.session.verification.wait()
     driver.frames(1)
     return driver.session.verification.text(row)

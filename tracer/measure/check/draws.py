@@ -4,7 +4,7 @@ import math
 import random
 from collections.abc import Sequence
 
-from tracer.formulas.vector import Vector
+from tracer.formulas.vector import Vector, cross, scale
 
 
 class Draws(random.Random):
@@ -27,24 +27,12 @@ class Draws(random.Random):
 
     def place(self, size: float) -> Vector:
         """A point in a random direction, at a distance of the given size."""
-        return times(size, self.direction())
-
-
-def times(s: float, a: Sequence[float]) -> Vector:
-    return (s * a[0], s * a[1], s * a[2])
+        return scale(size, self.direction())
 
 
 def plus(*all: Sequence[float]) -> Vector:
     x, y, z = (math.fsum(column) for column in zip(*all, strict=True))
     return (x, y, z)
-
-
-def minus(a: Sequence[float], b: Sequence[float]) -> Vector:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 def perpendicular(u: Sequence[float], v: Sequence[float]) -> Vector:

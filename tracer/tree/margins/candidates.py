@@ -27,7 +27,7 @@ class Rays(NamedTuple):
     size: np.ndarray  # of the numbers that the origin was computed from
 
     def error(self, k: np.ndarray, t: np.ndarray) -> np.ndarray:
-        """How far rays k may be off, sideways, at distance t."""
+        """Bound on the sideways error of rays k at distance t."""
         t = np.abs(t)
         return self.off[k] + t * self.turn[k] + OWN * U * (self.size[k] + t)
 

@@ -4,7 +4,7 @@ met first is no decision.
 
 import numpy as np
 
-from tracer.formulas.exact import Exact, area, cross, dot, exact, minus
+from tracer.formulas.exact import ExactPlane, are_one_plane, exact, minus, plane_of
 from tracer.shapes.box import Box
 from tracer.shapes.cone import Cone
 from tracer.shapes.disc import Disc
@@ -14,21 +14,16 @@ from tracer.shapes.polygon import Polygon
 from tracer.shapes.shape import Shape
 from tracer.shapes.triangle import Triangle
 
-Planes = list[tuple[Exact, Exact]]  # (point, normal)
-
 
 def in_one_plane(a: Shape, row_a: int, b: Shape, row_b: int, near: np.ndarray) -> bool:
     """Whether surface `row_a` of a shape and surface `row_b` of another have faces in one plane through a point that is
     near both.
     """
-    return any(
-        not any(cross(n, m)) and dot(n, minus(q, p)) == 0
-        for p, n in planes_of(a, row_a, near)
-        for q, m in planes_of(b, row_b, near)
-    )
+    others = planes_of(b, row_b, near)
+    return any(are_one_plane(one, other) for one in planes_of(a, row_a, near) for other in others)
 
 
-def planes_of(shape: Shape, row: int, near: np.ndarray) -> Planes:
+def planes_of(shape: Shape, row: int, near: np.ndarray) -> list[ExactPlane]:
     """The planes of a surface's flat faces; of a box, of the faces near a point."""
     match shape:
         case Plane():
@@ -36,7 +31,7 @@ def planes_of(shape: Shape, row: int, near: np.ndarray) -> Planes:
         case Disc():
             return [(exact(shape.center), exact(shape.normal))]
         case Polygon() | Triangle():
-            return [outlined([exact(corner) for corner in shape.vertices])]
+            return [plane_of([exact(corner) for corner in shape.vertices])]
         case Box():
             faces = [(end, k) for end in (shape.min, shape.max) for k in range(3)]
             size = max(map(abs, (*shape.min, *shape.max)))
@@ -45,9 +40,5 @@ def planes_of(shape: Shape, row: int, near: np.ndarray) -> Planes:
             axis = minus(exact(shape.apex), exact(shape.base))
             return [(exact(end), axis) for end in (shape.base, shape.apex)]
         case Mesh():
-            return [outlined([exact(corner) for corner in shape.placed()[row].tolist()])]
+            return [plane_of([exact(corner) for corner in shape.placed()[row].tolist()])]
     return []
-
-
-def outlined(corners: list[Exact]) -> tuple[Exact, Exact]:
-    return corners[0], area(corners)

@@ -67,16 +67,14 @@ def to_spheres(o: np.ndarray, d: np.ndarray, center: np.ndarray, radius: np.ndar
 
 
 def sphere_roots(o: np.ndarray, d: np.ndarray, center: np.ndarray, radius: np.ndarray) -> Roots:
-    """Where the ray's line meets a sphere."""
+    """The hits of the ray's line on a sphere."""
     f, way = exact_difference(columns_of(o), columns_of(center)), dd_vector(columns_of(d))
     across, b = dd_cross(f, way), dd_dot(f, way)[0]
     discriminant = dd_subtract(_squared(radius), dd_dot(across, across))[0]
-    root = np.sqrt(np.where(discriminant >= 0.0, discriminant, np.nan))
-    q = np.where(b < 0.0, root - b, -root - b)
     c = dd_subtract(dd_dot(f, f), _squared(radius))[0]
-    other = np.divide(c, q, out=np.full_like(q, np.nan), where=q != 0.0)
-    slant = np.divide(radius, root, out=np.full_like(q, np.inf), where=root > 0.0)
-    return ((q, slant), (other, slant))
+    one, other, root = _roots(np.ones_like(b), b, c, discriminant)
+    slant = np.divide(radius, root, out=np.full_like(b, np.inf), where=root > 0.0)
+    return ((one, slant), (other, slant))
 
 
 def to_sides(
@@ -100,7 +98,7 @@ def to_sides(
 def side_roots(
     o: np.ndarray, d: np.ndarray, narrow: np.ndarray, axis: np.ndarray, r: np.ndarray, c: np.ndarray, height: np.ndarray
 ) -> Roots:
-    """Where the ray's line meets a cone's side between its ends."""
+    """The hits of the ray's line on a cone's side, between its ends."""
     cosine, sine = c[:, 0], c[:, 1]
     arm = o - narrow
     s0, s1 = _dot(axis, arm), _dot(axis, d)
@@ -108,17 +106,13 @@ def side_roots(
     slope = np.divide(sine, cosine, out=np.zeros_like(sine), where=cosine > 0.0)
     rho, rise = r + slope * s0, slope * s1
     a, b, cc = _dot(g, g) - rise * rise, _dot(f, g) - rho * rise, _dot(f, f) - rho * rho
-    discriminant = b * b - a * cc
-    root = np.sqrt(np.where(discriminant >= 0.0, discriminant, np.nan))
-    q = np.where(b < 0.0, root - b, -root - b)
-    one = np.divide(cc, q, out=np.full_like(q, np.nan), where=q != 0.0)
-    other = np.divide(q, a, out=np.full_like(q, np.nan), where=a != 0.0)
+    one, other, root = _roots(a, b, cc, b * b - a * cc)
     slack = 1e-9 * height
     found = []
     for t in (one, other):
         between = (s0 + t * s1 >= -slack) & (s0 + t * s1 <= height + slack)
         steep = np.abs(rho + t * rise) * np.sqrt(1.0 + slope * slope)
-        slant = np.divide(steep, root, out=np.full_like(q, np.inf), where=root > 0.0)
+        slant = np.divide(steep, root, out=np.full_like(b, np.inf), where=root > 0.0)
         found.append((np.where(between, t, np.nan), np.maximum(slant, 1.0)))
     return (found[0], found[1])
 
@@ -133,6 +127,15 @@ def to_planes(
     flat = np.asarray(speed[0]) == 0.0
     safe: Any = (np.where(flat, 1.0, speed[0]), speed[1])
     return np.where(flat, np.nan, dd_quotient(height, safe)[0]), np.asarray(speed[0])
+
+
+def _roots(a: Any, b: Any, c: Any, discriminant: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(both roots of a t^2 + 2 b t + c = 0, root of the discriminant b^2 - a c); nan for none. Neither root cancels."""
+    root = np.sqrt(np.where(discriminant >= 0.0, discriminant, np.nan))
+    q = np.where(b < 0.0, root - b, -root - b)
+    one = np.divide(c, q, out=np.full_like(q, np.nan), where=q != 0.0)
+    other = np.divide(q, a, out=np.full_like(q, np.nan), where=a != 0.0)
+    return one, other, root
 
 
 def _squared(radius: Any) -> Any:

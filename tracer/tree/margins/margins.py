@@ -31,7 +31,7 @@ TIR, CHECKER, HORIZON = range(5, 8)
 
 
 class Details(NamedTuple):
-    """What the kernel knows of rows and readers do not, one entry a row."""
+    """Fields of rows that only the kernel knows, and the errors of normals, one entry a row."""
 
     start: np.ndarray  # id of the surface that the ray leaves, -1 for the eye
     surface: np.ndarray  # id of the surface hit, -1 for none

@@ -1,4 +1,4 @@
-"""What the decisions about hits depend on: edges, rims, silhouettes and planes of all surfaces, as arrays by kind."""
+"""Edges, rims, silhouettes and planes of surfaces, on which decisions about hits depend, as arrays by kind."""
 
 from dataclasses import dataclass
 from typing import Any, NamedTuple

@@ -27,7 +27,7 @@ class Doubt(NamedTuple):
 
 
 class Ends(NamedTuple):
-    """Where rays start and end, one entry each."""
+    """The surfaces at which rays start and end, one entry each."""
 
     start: np.ndarray  # id of the surface, -1 for the eye
     start_normal: np.ndarray  # (n, 3) of the face; nan for the eye

@@ -1,4 +1,4 @@
-"""What a verified tree says of the recorded one."""
+"""The enclosures of a recorded tree that a verified tree consists of."""
 
 import math
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ UNKNOWN: RGBRange = ((0.0, math.inf), (0.0, math.inf), (0.0, math.inf))
 
 @dataclass
 class VerifiedRow:
-    """What is certain of a recorded row."""
+    """The certified part of a recorded row."""
 
     doubts: tuple[str, ...] = ()  # its own decisions that are not certified
     certified: bool = False  # neither it nor a row above it has doubts
@@ -52,7 +52,7 @@ class VerifiedTree(NamedTuple):
         }
 
     def row_to_dict(self, i: int) -> dict[str, Any]:
-        """What JSON says of row i."""
+        """The enclosures of row i for JSON."""
         row = self.rows[i]
         return {
             "certified": row.certified,

@@ -1,5 +1,6 @@
 """A face of a surface, and where a line of balls crosses it."""
 
+from abc import ABC, abstractmethod
 from typing import NamedTuple
 
 from tracer.tree.verified.balls import Ball, BallVector, anywhere, dot, nowhere, sign
@@ -15,14 +16,14 @@ class Crossing(NamedTuple):
     entering: bool | None  # None: not known
 
 
-class Face:
+class Face(ABC):
     """A part of a surface. `surface` is its id in the world."""
 
     surface: int
 
+    @abstractmethod
     def crossings(self, o: BallVector, d: BallVector) -> list[Crossing]:
         """All crossings of the line o + t d with unit d that are not surely absent, for any t."""
-        raise NotImplementedError
 
     def next_crossings(self, o: BallVector, d: BallVector) -> list[Crossing]:
         """The same for a line whose origin surely lies on this face, without the crossing there."""

@@ -7,12 +7,10 @@ needs a class like those in `curved` and a line in `faces_of`. Until then no ray
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
 
-import numpy as np
-
-from tracer.formulas import exact
+from tracer.formulas.exact import exact, minus, plane_of
 from tracer.formulas.rotation import rotation
+from tracer.formulas.vector import Vector
 from tracer.shapes.box import Box
 from tracer.shapes.cone import Cone
 from tracer.shapes.disc import Disc
@@ -27,11 +25,13 @@ from tracer.tree.verified.curved import ConeSide, SphereFace
 from tracer.tree.verified.face import Face
 from tracer.tree.verified.flat import Flat
 
+Matrix = list[list[Ball]]
 
-def faces_of(shape: Shape, surface: int, row: int, cache: dict[int, Any]) -> list[Face] | None:
+
+def faces_of(shape: Shape, surface: int, row: int, turns: dict[int, Matrix]) -> Sequence[Face] | None:
     """The faces of surface number `row` of a shape; None for a kind of shape that is not known.
 
-    `cache` keeps what the faces of one mesh share.
+    `turns` keeps the rotations of meshes, by their identity: all faces of a mesh share one.
     """
     match shape:
         case Sphere():
@@ -43,42 +43,39 @@ def faces_of(shape: Shape, surface: int, row: int, cache: dict[int, Any]) -> lis
         case Disc():
             return [_flat(surface, shape.center, shape.normal, ball(shape.radius))]
         case Box():
-            return [_box_face(surface, shape, k, side) for k in range(3) for side in (-1, 1)]
+            return _box_faces(surface, shape)
         case Cone():
             return [ConeSide(surface, shape), *_end_discs(surface, shape)]
         case Mesh():
-            return [_mesh_face(surface, shape, row, cache)]
+            return [_mesh_face(surface, shape, row, turns)]
     return None
 
 
 def _flat(surface: int, point: Sequence[float], normal: Sequence[float], radius: Ball = None) -> Flat:
-    def rational() -> tuple[exact.Exact, exact.Exact]:
-        return exact.exact(point), exact.exact(normal)
-
-    return Flat(surface, balls(point), balls(normal), (), radius, rational)
+    return Flat(surface, balls(point), balls(normal), (), radius, lambda: (exact(point), exact(normal)))
 
 
 def _end_discs(surface: int, shape: Cone) -> list[Flat]:
     """The end discs of a closed cone. Its axis is the exact difference of two points."""
-    found = []
-    for end, other, radius in (
-        (shape.base, shape.apex, shape.base_radius),
-        (shape.apex, shape.base, shape.apex_radius),
-    ):
-        if shape.closed and radius > 0.0:
-            point, normal = exact.exact(end), exact.minus(exact.exact(end), exact.exact(other))
-            outwards = subtract(balls(end), balls(other))
-            found.append(Flat(surface, balls(end), outwards, (), ball(radius), lambda plane=(point, normal): plane))
-    return found
+
+    def disc(end: Vector, other: Vector, radius: float) -> Flat:
+        outwards = subtract(balls(end), balls(other))
+        plane = (exact(end), minus(exact(end), exact(other)))
+        return Flat(surface, balls(end), outwards, (), ball(radius), lambda: plane)
+
+    base, apex = (shape.base, shape.apex, shape.base_radius), (shape.apex, shape.base, shape.apex_radius)
+    return [disc(*end) for end in (base, apex) if shape.closed and end[2] > 0.0]
+
+
+def _box_faces(surface: int, shape: Box) -> list[Flat]:
+    """The sides of a box, counter-clockwise from outside. In `Box.faces` lower and upper sides alternate."""
+    corners = [side.vertices for (side,) in shape.faces() if isinstance(side, Polygon)]
+    return [_outlined(surface, own if k % 2 else own[::-1]) for k, own in enumerate(corners)]
 
 
 def _outlined(surface: int, corners: Sequence[Sequence[float]]) -> Flat:
-    def rational() -> tuple[exact.Exact, exact.Exact]:
-        points = [exact.exact(corner) for corner in corners]
-        return points[0], exact.area(points)
-
     points = [balls(corner) for corner in corners]
-    return Flat(surface, points[0], area(points), points, None, rational)
+    return Flat(surface, points[0], area(points), points, None, lambda: plane_of([exact(corner) for corner in corners]))
 
 
 def area(corners: Sequence[BallVector]) -> BallVector:
@@ -90,40 +87,23 @@ def area(corners: Sequence[BallVector]) -> BallVector:
     return total
 
 
-def _box_face(surface: int, shape: Box, k: int, side: int) -> Flat:
-    low, high = np.array(shape.min), np.array(shape.max)
-    end = high if side > 0 else low
-    u, v = (k + 1) % 3, (k + 2) % 3
-    corners = np.tile(end, (4, 1))
-    corners[:, u] = (low[u], high[u], high[u], low[u])
-    corners[:, v] = (low[v], low[v], high[v], high[v])
-    return _outlined(surface, corners.tolist() if side > 0 else corners[::-1].tolist())
-
-
-def _mesh_face(surface: int, shape: Mesh, row: int, cache: dict[int, Any]) -> Flat:
+def _mesh_face(surface: int, shape: Mesh, row: int, turns: dict[int, Matrix]) -> Flat:
     geometry = shape.geometry
     own = geometry.faces[row].tolist()
-    normals = ()
-    if not shape.is_placed():
-        corners = geometry.vertices[own].tolist()
-        flat = _outlined(surface, corners)
-        turn = None
-    else:
-        flat = None
-        turn = cache.get(id(shape))
-        if turn is None:
-            turn = cache[id(shape)] = rotation(shape.rotate)
-    matrix = [[_of_fraction(x) for x in line] for line in turn] if turn else None
-    if matrix is not None:
-        move, factor = balls(shape.translate), ball(shape.scale)
-        points = [add(scale(factor, _turned(matrix, balls(v))), move) for v in geometry.vertices[own].tolist()]
-        flat = Flat(surface, points[0], area(points), points)
-    assert flat is not None
+    corners = geometry.vertices[own].tolist()
+    normals: list[BallVector] = []
     if geometry.normals is not None:
         indices = own if geometry.normal_faces is None else geometry.normal_faces[row].tolist()
         normals = [balls(n) for n in geometry.normals[indices].tolist()]
-        flat.smooth = [_turned(matrix, n) for n in normals] if matrix is not None else normals
-    return flat
+    if not shape.is_placed():
+        face = _outlined(surface, corners)
+        face.smooth = normals
+        return face
+    if id(shape) not in turns:
+        turns[id(shape)] = [[_of_fraction(x) for x in line] for line in rotation(shape.rotate)]
+    turn, move, factor = turns[id(shape)], balls(shape.translate), ball(shape.scale)
+    points = [add(scale(factor, _turned(turn, balls(v))), move) for v in corners]
+    return Flat(surface, points[0], area(points), points, smooth=[_turned(turn, n) for n in normals])
 
 
 def _of_fraction(x: Fraction) -> Ball:
@@ -132,6 +112,6 @@ def _of_fraction(x: Fraction) -> Ball:
     return value if x.denominator == 1 else value + flint().arb(0, 2.0**-150)
 
 
-def _turned(matrix: list[list[Ball]], v: BallVector) -> BallVector:
+def _turned(matrix: Matrix, v: BallVector) -> BallVector:
     x, y, z = (row[0] * v[0] + row[1] * v[1] + row[2] * v[2] for row in matrix)
     return (x, y, z)

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from functools import cached_property
 
-from tracer.formulas import exact
+from tracer.formulas.exact import ExactPlane, are_one_plane
 from tracer.tree.verified.balls import (
     Ball,
     BallVector,
@@ -34,19 +34,19 @@ class Flat(Face):
         normal: BallVector,
         corners: Sequence[BallVector] = (),
         radius: Ball = None,
-        rational: Callable[[], tuple[exact.Exact, exact.Exact] | None] = lambda: None,
+        plane: Callable[[], ExactPlane | None] = lambda: None,
         smooth: Sequence[BallVector] = (),
     ) -> None:
         self.surface = surface
         self.point, self.normal = point, unit(normal)
         self.corners, self.radius = corners, radius
-        self._rational = rational
+        self._plane = plane
         self.smooth = smooth
 
     @cached_property
-    def plane(self) -> tuple[exact.Exact, exact.Exact] | None:
-        """(point, normal) as fractions; None where they are none."""
-        return self._rational()
+    def plane(self) -> ExactPlane | None:
+        """Its plane in fractions; None where its numbers are none."""
+        return self._plane()
 
     def crossings(self, o: BallVector, d: BallVector) -> list[Crossing]:
         speed = dot(self.normal, d)
@@ -83,8 +83,7 @@ class Flat(Face):
     def is_same(self, other: Face) -> bool:
         if not isinstance(other, Flat) or self.plane is None or other.plane is None:
             return other is self
-        (p, n), (q, m) = self.plane, other.plane
-        return not any(exact.cross(n, m)) and exact.dot(n, exact.minus(q, p)) == 0
+        return are_one_plane(self.plane, other.plane)
 
     def shading_normal(self, p: BallVector, n: BallVector) -> BallVector:
         if not self.smooth:

@@ -1,4 +1,4 @@
-"""Which interface a ray meets first, and the media before and behind it (as `tracer.kernel.coincident_surfaces`)."""
+"""The first interface on a ray, and the media before and behind it (as `tracer.kernel.coincident_surfaces`)."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -11,7 +11,7 @@ Solids = frozenset[int]  # ranks
 
 
 class Interface(NamedTuple):
-    """What a ray meets: `shown` is None if it meets nothing."""
+    """An interface on a ray; `shown` is None if it meets nothing."""
 
     shown: Crossing | None
     faces: tuple[Face, ...]  # all that lie there

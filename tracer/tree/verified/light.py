@@ -28,7 +28,7 @@ from tracer.tree.verified.scenery import Scenery
 
 
 class Passage(NamedTuple):
-    """What of a light passes all surfaces on the way."""
+    """The fraction of a light that passes all surfaces on the way."""
 
     low: Ball
     high: Ball
@@ -36,14 +36,14 @@ class Passage(NamedTuple):
 
     @property
     def doubt(self) -> str:
-        """What is not certain; empty if all is."""
+        """The part that is not certain; empty if all is."""
         if self.low != self.high:
             return "in shadow or not"
         return "through glass or past it" if self.through_glass is None else ""
 
 
 class Share(NamedTuple):
-    """What a light adds to the local term."""
+    """The contribution of a light to the local term."""
 
     rgb: BallVector
     passage: Passage | None  # None: the surface faces away
@@ -89,7 +89,7 @@ def to_light(light: Light, p: BallVector) -> tuple[BallVector, Ball | None]:
 def transmittance(
     scenery: Scenery, p: BallVector, towards: BallVector, distance: Ball | None, start: Sequence[Face]
 ) -> Passage:
-    """What of a light passes all surfaces on the way."""
+    """The fraction of a light that passes all surfaces on the way."""
     low = high = ball(1.0)
     crossings = scenery.crossings(p, towards, start)
     if crossings is None:

@@ -6,8 +6,6 @@ from tracer.choices import MODELS, WHITTED
 from tracer.scene import Object
 from tracer.tree.verified.balls import Ball, BallVector, add, ball, cross, dot, scale, sign, square, subtract
 
-UNDECIDED = "total internal reflection or not"
-
 
 class Sent(NamedTuple):
     """A ray that a hit sends out."""

@@ -6,7 +6,6 @@ when they are first needed.
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from tracer.kernel.world import World
 from tracer.scene import Material
 from tracer.tree.verified.balls import BallVector, bounds
 from tracer.tree.verified.face import Crossing, Face
-from tracer.tree.verified.faces import faces_of
+from tracer.tree.verified.faces import Matrix, faces_of
 
 
 class Scenery:
@@ -27,23 +26,23 @@ class Scenery:
         self.owners = np.asarray(world.arrays.surfaces["object"])
         self.solids = np.asarray(world.arrays.surfaces["solid"])
         self.tested = self.boxed = 0
-        self._faces: dict[int, list[Face] | None] = {}
-        self._meshes: dict[int, Any] = {}
+        self._faces: dict[int, Sequence[Face] | None] = {}
+        self._turns: dict[int, Matrix] = {}
 
     def material(self, s: int) -> Material:
         return self.world.scene.objects[self.owners[s]].material
 
-    def faces(self, s: int) -> list[Face] | None:
+    def faces(self, s: int) -> Sequence[Face] | None:
         """The faces of surface s; None if its shape is not known."""
         if s not in self._faces:
             owner = self.owners[s]
             row = s - int(np.searchsorted(self.owners, owner))
-            self._faces[s] = faces_of(self.world.scene.objects[owner].shape, s, row, self._meshes)
+            self._faces[s] = faces_of(self.world.scene.objects[owner].shape, s, row, self._turns)
         return self._faces[s]
 
     def crossings(self, o: BallVector, d: BallVector, start: Sequence[Face]) -> list[Crossing] | None:
-        """Where a ray with unit direction d crosses surfaces, or may; nearest first. `start` are the faces that its
-        origin lies on. None if a surface in its way is of a kind that is not known.
+        """Crossings of a ray with surfaces, certain or not, nearest first. d is a unit vector; `start` are the faces
+        that the ray's origin lies on. None if a surface in its way is of a kind that is not known.
         """
         near = np.flatnonzero(may_meet(self.world.boxes, o, d)).tolist()
         self.tested += len(near)

@@ -40,12 +40,16 @@ def range_text(part: Range) -> str:
     return f"{shown} ± {math.nextafter(off, math.inf):.1e}"
 
 
-def decision_lines(verified: VerifiedTree) -> list[str]:
-    """How many decisions are certified, how, and which are not."""
-    surfaces = f"{verified.tested} surfaces were decided in ball arithmetic, {verified.boxed} excluded by their boxes"
+def decisions_text(verified: VerifiedTree) -> str:
+    """The number of decisions that are certified."""
     if verified.certified == verified.decisions:
-        return [f"all {verified.decisions} decisions are certified; {surfaces}"]
+        return f"all {verified.decisions} decisions are certified"
+    return f"{verified.certified} of {verified.decisions} decisions are certified"
+
+
+def decision_lines(verified: VerifiedTree) -> list[str]:
+    """The number of decisions that are certified, the ways they were, and the others."""
+    surfaces = f"{verified.tested} surfaces were decided in ball arithmetic, {verified.boxed} excluded by their boxes"
     doubts = [f"ray {i}: {doubt}" for i, row in enumerate(verified.rows) for doubt in row.doubts]
     listed = "; ".join(doubts[:MOST]) + (f"; and {len(doubts) - MOST} more" if len(doubts) > MOST else "")
-    counts = f"{verified.certified} of {verified.decisions} decisions are certified; {surfaces}"
-    return [counts, f"not certified: {listed}"]
+    return [f"{decisions_text(verified)}; {surfaces}", *([f"not certified: {listed}"] if doubts else [])]

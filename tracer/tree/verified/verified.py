@@ -28,10 +28,10 @@ def verify(world: World, tree: RayTree, progress: Callable[[float], None] = lamb
         raise ValueError("the tree is not one of this world")
     bits = PRECISIONS[0]
     with precision(bits):
-        found = Verifier(world, tree).run(bits, progress)
+        found = Verifier(tree).run(bits, progress)
     for bits in PRECISIONS[1:]:
         if found.certified == found.decisions:
             break
         with precision(bits):
-            found = Verifier(world, tree).run(bits, progress)
+            found = Verifier(tree).run(bits, progress)
     return found

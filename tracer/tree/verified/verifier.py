@@ -7,7 +7,6 @@ from typing import NamedTuple
 from tracer.formulas.camera import View
 from tracer.formulas.media import VACUUM, WORD
 from tracer.kernel.nodes import BACKGROUND, BLOCKED, FILTERED, LIT, SHADOW
-from tracer.kernel.world import World
 from tracer.scene import Camera
 from tracer.scene.cameras import placed_camera
 from tracer.tree.raytree import RayTree
@@ -49,9 +48,9 @@ class State(NamedTuple):
 class Verifier:
     """The work on one tree at one precision."""
 
-    def __init__(self, world: World, tree: RayTree) -> None:
-        self.world, self.tree = world, tree
-        self.scenery = Scenery(world)
+    def __init__(self, tree: RayTree) -> None:
+        self.world, self.tree = tree.world, tree
+        self.scenery = Scenery(tree.world)
         self.rows = [VerifiedRow() for _ in range(len(tree))]
         self.states: dict[int, State] = {}
         self.own: list[BallVector | None] = [None] * len(tree)  # local term or background; None: not certain
@@ -126,26 +125,27 @@ class Verifier:
             return
         p = add(state.o, scale(shown.t, state.d))
         row.point = (bounds(p[0]), bounds(p[1]), bounds(p[2]))
-        outward = shown.normal
-        side = 1 if shown.entering else -1
-        item = self.world.scene.objects[owner]
-        n = scale(ball(side), outward)
-        n2 = n1 if item.thin else self.index(found.behind)
-        hit = Hit(item, state.d, n, n, n1, n2)
-        shading = scale(ball(side), shown.face.shading_normal(p, outward))
-        if shading is not n and shown.entering is not None:
-            usable = usable_normal(hit, shading)
-            hit = hit._replace(normal=usable if usable is not None else shading)
-            if usable is None:
-                self.decide(i, "which normal it is shaded with")
-                row.certified = False
-                return
         if shown.entering is None:
-            self.decide(i, "from which side it meets the surface")
-            row.certified = False
+            self.doubt(i, "from which side it meets the surface")
             return
-        self.light(i, hit, outward, p, found.faces)
+        side = ball(1 if shown.entering else -1)
+        item = self.world.scene.objects[owner]
+        n = scale(side, shown.normal)
+        hit = Hit(item, state.d, n, n, n1, n1 if item.thin else self.index(found.behind))
+        interpolated = shown.face.shading_normal(p, shown.normal)
+        if interpolated is not shown.normal:
+            usable = usable_normal(hit, scale(side, interpolated))
+            if usable is None:
+                self.doubt(i, "which normal it is shaded with")
+                return
+            hit = hit._replace(normal=usable)
+        self.light(i, hit, shown.normal, p, found.faces)
         self.scatter(i, hit, p, found.faces, found.before, found.behind)
+
+    def doubt(self, i: int, doubt: str) -> None:
+        """Count a decision of row i that is not certified, without which the row is not."""
+        self.decide(i, doubt)
+        self.rows[i].certified = False
 
     def differs_behind(self, found: Interface, owner: int, recorded: float) -> bool:
         """Whether another medium was recorded behind the interface."""

@@ -5,9 +5,10 @@ from collections.abc import Iterator
 from decimal import Decimal
 from typing import NamedTuple
 
+from tracer.formulas.vector import scale, subtract, vector
 from tracer.measure.check import exact_shapes, textbook
 from tracer.measure.check.case import Reading, U, case, worst_of
-from tracer.measure.check.draws import Draws, minus, plus, times
+from tracer.measure.check.draws import Draws, plus
 from tracer.measure.check.scenes import MATTE, box, paths, world
 
 # In units of u times the distance. The distance to a face, (face - origin) / direction, is rounded twice.
@@ -44,9 +45,9 @@ def crossings(chance: Draws) -> Iterator[Crossing]:
         size = chance.size(-6, 6)
         low = chance.place(size * chance.size(-3, 3))
         high = plus(low, [size * chance.size(-1, 0) for _ in range(3)])
-        targets = [[coordinate(chance, *ends) for ends in zip(low, high, strict=True)] for _ in range(10)]
-        eyes = [plus(target, times(2.0 * size * chance.size(0, 4), chance.direction())) for target in targets]
-        ways = [minus(target, eye) for target, eye in zip(targets, eyes, strict=True)]
+        targets = [vector([coordinate(chance, *ends) for ends in zip(low, high, strict=True)]) for _ in range(10)]
+        eyes = [plus(target, scale(2.0 * size * chance.size(0, 4), chance.direction())) for target in targets]
+        ways = [subtract(target, eye) for target, eye in zip(targets, eyes, strict=True)]
         for row, eye in zip(paths(world(box(low, high, MATTE)), eyes, ways).hits, eyes, strict=True):
             direction = row["direction"].tolist()
             near, far = exact_shapes.box(eye, direction, low, high)

@@ -4,10 +4,10 @@ import math
 from collections.abc import Iterator
 from decimal import localcontext
 
-from tracer.formulas.vector import Vector
+from tracer.formulas.vector import Vector, scale, subtract
 from tracer.measure.check import exact_shapes, textbook_shapes
 from tracer.measure.check.case import Reading, case
-from tracer.measure.check.draws import Draws, minus, perpendicular, plus, times
+from tracer.measure.check.draws import Draws, perpendicular, plus
 from tracer.measure.check.exact_shapes import DECIDING, Tube
 from tracer.measure.check.families.judged import Decision, Hit, distances, wrong_of
 from tracer.measure.check.scenes import MATTE, path, paths, world
@@ -19,7 +19,7 @@ def tube(chance: Draws, narrowing: float, length: float) -> tuple[Tube, Vector]:
     """A cone or cylinder of any size in any place, and the unit vector along its axis."""
     radius = chance.size(-9, 9)
     base, axis = chance.place(radius * chance.size(-3, 6)), chance.direction()
-    return Tube(base, radius, plus(base, times(radius * length, axis)), radius * narrowing), axis
+    return Tube(base, radius, plus(base, scale(radius * length, axis)), radius * narrowing), axis
 
 
 def hits(chance: Draws, count: int, cylinder: bool) -> Iterator[Hit]:
@@ -29,11 +29,11 @@ def hits(chance: Draws, count: int, cylinder: bool) -> Iterator[Hit]:
         share = chance.random()
         radius = shape.base_radius + (shape.apex_radius - shape.base_radius) * share
         out = perpendicular(axis, chance.direction())
-        aim = plus(times(1.0 - share, shape.base), times(share, shape.apex), times(radius, out))
-        steep = times(chance.choice((-1.0, 1.0)) * chance.size(-9, 0), out)
+        aim = plus(scale(1.0 - share, shape.base), scale(share, shape.apex), scale(radius, out))
+        steep = scale(chance.choice((-1.0, 1.0)) * chance.size(-9, 0), out)
         away = plus(steep, perpendicular(out, chance.direction()))
-        eye = plus(aim, times(shape.base_radius * chance.size(-6, 6), away))
-        row = path(world(Object(Cone(*shape), MATTE)), eye, minus(aim, eye)).nodes[0]
+        eye = plus(aim, scale(shape.base_radius * chance.size(-6, 6), away))
+        row = path(world(Object(Cone(*shape), MATTE)), eye, subtract(aim, eye)).nodes[0]
         direction = row["direction"].tolist()
         if exact := exact_shapes.tube(eye, direction, shape):
             count -= 1
@@ -57,20 +57,20 @@ def silhouettes(chance: Draws, cylinder: bool) -> Iterator[Decision]:
     for _ in range(50):
         shape, axis = tube(chance, 1.0 if cylinder else chance.uniform(0.5, 1.0), length)
         radius = 0.5 * (shape.base_radius + shape.apex_radius)
-        middle = plus(times(0.5, shape.base), times(0.5, shape.apex))
+        middle = plus(scale(0.5, shape.base), scale(0.5, shape.apex))
         slope = (shape.apex_radius / shape.base_radius - 1.0) / length
         eyes, aims, margins = [], [], []
         for _ in range(10):
             across = perpendicular(axis, chance.direction())
-            normal = plus(across, times(-slope, axis))
+            normal = plus(across, scale(-slope, axis))
             margins.append(chance.choice((-1.0, 1.0)) * 2.0 ** -chance.uniform(1, 52))
             tangent = perpendicular(
-                times(1.0 / math.hypot(*normal), normal),
-                plus(perpendicular(axis, chance.direction()), times(0.5, axis)),
+                scale(1.0 / math.hypot(*normal), normal),
+                plus(perpendicular(axis, chance.direction()), scale(0.5, axis)),
             )
-            touched = plus(middle, times(radius * (1.0 + margins[-1]), across))
-            eyes.append(plus(touched, times(radius * chance.size(0.5, 4), tangent)))
-            aims.append(times(-1.0, tangent))
+            touched = plus(middle, scale(radius * (1.0 + margins[-1]), across))
+            eyes.append(plus(touched, scale(radius * chance.size(0.5, 4), tangent)))
+            aims.append(scale(-1.0, tangent))
         found = paths(world(Object(Cone(*shape), MATTE)), eyes, aims).hits
         for row, eye, margin in zip(found, eyes, margins, strict=True):
             direction = row["direction"].tolist()

@@ -4,10 +4,10 @@ import math
 from collections.abc import Iterator
 from decimal import localcontext
 
-from tracer.formulas.vector import Vector
+from tracer.formulas.vector import Vector, cross, scale, subtract
 from tracer.measure.check import exact_shapes, textbook, textbook_shapes
 from tracer.measure.check.case import Reading, U, case, decimal, exactly, worst_of
-from tracer.measure.check.draws import Draws, cross, minus, perpendicular, plus, times
+from tracer.measure.check.draws import Draws, perpendicular, plus
 from tracer.measure.check.exact_optics import along, dot, point
 from tracer.measure.check.exact_shapes import DECIDING
 from tracer.measure.check.families.judged import Decision, Hit, distances, wrong_of
@@ -36,11 +36,11 @@ def corners_of(chance: Draws) -> tuple[float, Corners]:
 def in_plane(corners: Corners, u: float, v: float) -> Vector:
     """A point of the plane, up to rounding."""
     a, b, c = corners
-    return plus(a, times(u, minus(b, a)), times(v, minus(c, a)))
+    return plus(a, scale(u, subtract(b, a)), scale(v, subtract(c, a)))
 
 
 def beside(hit: list[float] | None, corners: Corners) -> float:
-    """How far a hit is off the face; 0 for a miss."""
+    """The distance of a hit from the face; 0 for a miss."""
     return float(exact_shapes.distance_to_face(hit, corners)) if hit else 0.0
 
 
@@ -50,7 +50,7 @@ def edge_on(kind: Face, chance: Draws) -> Iterator[Reading]:
     for _ in range(50):
         _, corners = corners_of(chance)
         eye = in_plane(corners, chance.uniform(-9, 9), chance.uniform(-9, 9))
-        aims = [minus(in_plane(corners, chance.uniform(-1, 2), chance.uniform(-1, 2)), eye) for _ in range(10)]
+        aims = [subtract(in_plane(corners, chance.uniform(-1, 2), chance.uniform(-1, 2)), eye) for _ in range(10)]
         unit = U * max(abs(x) for x in (*eye, *corners[0], *corners[1], *corners[2]))
         for row in paths(world(Object(kind(corners), DARK, "face")), [eye], aims).hits:
             direction = row["direction"].tolist()
@@ -69,11 +69,11 @@ def nearly_edge_on(chance: Draws, count: int) -> Iterator[Hit]:
         size, corners = corners_of(chance)
         u = chance.uniform(0.1, 0.8)
         target = in_plane(corners, u, chance.uniform(0.1, 0.9 - u))
-        n = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]))
-        n = times(1.0 / math.hypot(*n), n)
-        away = plus(perpendicular(n, chance.direction()), times(chance.size(-8, 0), n))
-        eye = plus(target, times(size * chance.size(-2, 2), away))
-        row = path(world(Object(Triangle(corners), DARK, "face")), eye, minus(target, eye)).nodes[0]
+        n = cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0]))
+        n = scale(1.0 / math.hypot(*n), n)
+        away = plus(perpendicular(n, chance.direction()), scale(chance.size(-8, 0), n))
+        eye = plus(target, scale(size * chance.size(-2, 2), away))
+        row = path(world(Object(Triangle(corners), DARK, "face")), eye, subtract(target, eye)).nodes[0]
         direction = row["direction"].tolist()
         exact = exact_shapes.plane(eye, direction, corners[0], exact_shapes.normal(corners))
         usual = textbook.triangle(eye, direction, corners, least=0.0, tmin=0.0)
@@ -99,10 +99,10 @@ def rims(chance: Draws) -> Iterator[Decision]:
         eyes, aims = [], []
         for _ in range(10):
             margin = chance.choice((-1.0, 1.0)) * 2.0 ** -chance.uniform(1, 52)
-            target = plus(center, times(radius * (1.0 + margin), perpendicular(normal, chance.direction())))
-            away = plus(chance.direction(), times(chance.choice((-1.0, 1.0)), normal))
-            eyes.append(plus(target, times(radius * chance.size(-2, 4), away)))
-            aims.append(minus(target, eyes[-1]))
+            target = plus(center, scale(radius * (1.0 + margin), perpendicular(normal, chance.direction())))
+            away = plus(chance.direction(), scale(chance.choice((-1.0, 1.0)), normal))
+            eyes.append(plus(target, scale(radius * chance.size(-2, 4), away)))
+            aims.append(subtract(target, eyes[-1]))
         found = paths(world(Object(Disc(center, normal, radius), DARK, "disc")), eyes, aims).hits
         for row, eye in zip(found, eyes, strict=True):
             direction = row["direction"].tolist()

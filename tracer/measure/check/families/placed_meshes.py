@@ -6,10 +6,10 @@ from decimal import Decimal
 
 import numpy as np
 
-from tracer.formulas.vector import Vector
+from tracer.formulas.vector import Vector, subtract
 from tracer.measure.check import exact_shapes, textbook, textbook_shapes
 from tracer.measure.check.case import Reading, U, case, decimal, worst_of
-from tracer.measure.check.draws import Draws, minus, plus
+from tracer.measure.check.draws import Draws, plus
 from tracer.measure.check.exact_optics import Point, dot, pi, point
 from tracer.measure.check.scenes import DARK, path, world
 from tracer.scene import Object
@@ -53,13 +53,14 @@ def hits(chance: Draws, count: int) -> Iterator[Reading]:
         x, y, z = (-float(x) for x in placed(far, scale, rotate, (0.0, 0.0, 0.0)))
         corners = [placed(vertex, scale, rotate, (x, y, z)) for vertex in vertices]
         shares = [decimal(share) for share in (0.2, 0.3, 0.5)]
-        goal = [
+        x_goal, y_goal, z_goal = (
             float(sum((s * c for s, c in zip(shares, column, strict=True)), Decimal(0)))
             for column in zip(*corners, strict=True)
-        ]
+        )
+        goal = (x_goal, y_goal, z_goal)
         eye = plus(goal, chance.place(3.0 * scale))
         mesh = Mesh(Geometry(np.array(vertices), np.array([[0, 1, 2]])), "mesh", scale, rotate, (x, y, z))
-        row = path(world(Object(mesh, DARK, "mesh")), eye, minus(goal, eye)).nodes[0]
+        row = path(world(Object(mesh, DARK, "mesh")), eye, subtract(goal, eye)).nodes[0]
         direction = row["direction"].tolist()
         normal = exact_shapes.normal(corners)
         facing = abs(float(dot(normal, point(direction)) / dot(normal, normal).sqrt()))

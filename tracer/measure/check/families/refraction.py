@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from decimal import Decimal
 from typing import NamedTuple
 
-from tracer.formulas.vector import Vector
+from tracer.formulas.vector import Vector, scale
 from tracer.measure.check import textbook
 from tracer.measure.check.case import Reading, U, case, decimal, root, worst_of
-from tracer.measure.check.draws import Draws, perpendicular, plus, times
+from tracer.measure.check.draws import Draws, perpendicular, plus
 from tracer.measure.check.exact_optics import Point, along, dot, unit
 from tracer.measure.check.families.judged import Decision, wrong_of
 from tracer.measure.check.scenes import glass, path, plane, world
@@ -36,10 +36,10 @@ class Passage(NamedTuple):
 def passage(chance: Draws, sine: float, n: float, into: bool) -> Passage:
     size = chance.size(-6, 6)
     place, up = chance.place(size * chance.size(-3, 3)), chance.direction()
-    facing = up if into else times(-1.0, up)
-    aside = times(sine, perpendicular(facing, chance.direction()))
-    way = plus(times(-math.sqrt((1.0 - sine) * (1.0 + sine)), facing), aside)
-    tree = path(world(plane(place, up, glass(n))), plus(place, times(-size, way)), way, 1)
+    facing = up if into else scale(-1.0, up)
+    aside = scale(sine, perpendicular(facing, chance.direction()))
+    way = plus(scale(-math.sqrt((1.0 - sine) * (1.0 + sine)), facing), aside)
+    tree = path(world(plane(place, up, glass(n))), plus(place, scale(-size, way)), way, 1)
     direction, n1, n2 = tree.nodes["direction"][0].tolist(), *((1.0, n) if into else (n, 1.0))
     d, normal = unit(direction), unit(facing)
     c1 = -dot(d, normal)

@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tracer.formulas.vector import Vector
+from tracer.formulas.vector import Vector, scale, subtract
 from tracer.kernel.world import World
 from tracer.measure.check.case import Reading, case, exactly
-from tracer.measure.check.draws import Draws, minus, perpendicular, plus, times
+from tracer.measure.check.draws import Draws, perpendicular, plus
 from tracer.measure.check.exact_shapes import Tube
 from tracer.measure.check.scenes import MIRROR, box, paths, world
 from tracer.measure.check.textbook_shapes import Wall, box_walls, leaves, mesh_walls, tube_walls
@@ -44,7 +44,7 @@ def blend(low: Sequence[float], high: Sequence[float], shares: Sequence[float]) 
 
 def inside(low: Vector, sides: Sequence[Vector], shares: Sequence[float]) -> Vector:
     """A point of a box with one corner and three edges given."""
-    return plus(low, *(times(share, side) for share, side in zip(shares, sides, strict=True)))
+    return plus(low, *(scale(share, side) for share, side in zip(shares, sides, strict=True)))
 
 
 def aims(chance: Draws, corners: Sequence[Vector], count: int) -> Iterator[Vector]:
@@ -76,7 +76,7 @@ def turned(chance: Draws, rooms: int, rays: int) -> Iterator[Room]:
     for _ in range(rooms):
         size = chance.size(-6, 6)
         low = chance.place(size * chance.size(-3, 3))
-        sides = [times(e, axis) for e, axis in zip(extents(chance, size), chance.frame(), strict=True)]
+        sides = [scale(e, axis) for e, axis in zip(extents(chance, size), chance.frame(), strict=True)]
         corners = [inside(low, sides, (k >> 2 & 1, k >> 1 & 1, k & 1)) for k in range(8)]
         faces = [three for a, b, c, d in QUADS for three in ((a, b, c), (a, c, d))]
         mesh = Mesh(Geometry(np.array(corners), np.array(faces)))
@@ -100,25 +100,25 @@ def drums(chance: Draws, kind: str, rooms: int, rays: int) -> Iterator[Room]:
         length = radius * chance.size(-1, 1)
         narrowing = {"cylinders": 1.0, "cones": 0.0}.get(kind)
         narrow = radius * (chance.size(-1, 0) if narrowing is None else narrowing)
-        shape = Tube(base, radius, plus(base, times(length, axis)), narrow)
+        shape = Tube(base, radius, plus(base, scale(length, axis)), narrow)
         eyes, targets = [], []
         for _ in range(rays):
             out, aside = (perpendicular(axis, chance.direction()) for _ in range(2))
             share = chance.uniform(0.1, 0.9)
             beside = chance.uniform(0.0, 0.8) * (shape.base_radius * (1.0 - share) + shape.apex_radius * share)
-            eyes.append(plus(base, times(share * length, axis), times(beside, aside)))
+            eyes.append(plus(base, scale(share * length, axis), scale(beside, aside)))
             center, rim = chance.choice(((shape.base, shape.base_radius), (shape.apex, shape.apex_radius)))
-            targets.append(plus(center, times(rim, out)))
+            targets.append(plus(center, scale(rim, out)))
         size = min(shape.apex_radius or radius, length)
         scene = world(Object(Cone(*shape, closed=True), MIRROR))
         yield Room([scene], tube_walls(shape, OFFSET * size), size, eyes, targets)
 
 
 def escapes(rooms: Iterator[Room], names: Sequence[str]) -> Iterator[Reading]:
-    """How many rays leave after any of the first bounces, for each shape of the rooms."""
+    """The number of rays that leave after any of the first bounces, for each shape of the rooms."""
     found, usual, count = np.zeros(len(names), int), 0, 0
     for room in rooms:
-        ways = [minus(target, eye) for eye, target in zip(room.eyes, room.targets, strict=True)]
+        ways = [subtract(target, eye) for eye, target in zip(room.eyes, room.targets, strict=True)]
         for k, scene in enumerate(room.scenes):
             trees = paths(scene, room.eyes, ways, depth=BOUNCES)
             gone = np.flatnonzero(trees.nodes["object"] < 0)

@@ -4,9 +4,10 @@ import math
 from collections.abc import Iterator
 from decimal import localcontext
 
+from tracer.formulas.vector import scale, subtract
 from tracer.measure.check import exact_shapes, textbook
 from tracer.measure.check.case import Reading, case, decimal
-from tracer.measure.check.draws import Draws, minus, perpendicular, plus, times
+from tracer.measure.check.draws import Draws, perpendicular, plus
 from tracer.measure.check.exact_shapes import DECIDING
 from tracer.measure.check.families.judged import Decision, Hit, distances, wrong_of
 from tracer.measure.check.scenes import MATTE, ball, path, paths, world
@@ -18,9 +19,9 @@ def hits(chance: Draws, count: int) -> Iterator[Hit]:
         radius = chance.size(-9, 9)
         center = chance.place(radius * chance.size(-3, 6))
         away = chance.direction()
-        eye = plus(center, times(radius * (1.0 + chance.size(-9, 6)), away))
-        beside = times(radius * (1.0 - chance.size(-12, 0)), perpendicular(away, chance.direction()))
-        row = path(world(ball(center, radius, MATTE)), eye, minus(plus(center, beside), eye)).nodes[0]
+        eye = plus(center, scale(radius * (1.0 + chance.size(-9, 6)), away))
+        beside = scale(radius * (1.0 - chance.size(-12, 0)), perpendicular(away, chance.direction()))
+        row = path(world(ball(center, radius, MATTE)), eye, subtract(plus(center, beside), eye)).nodes[0]
         direction = row["direction"].tolist()
         if exact := exact_shapes.sphere(eye, direction, center, radius):
             count -= 1
@@ -43,11 +44,11 @@ def silhouettes(chance: Draws) -> Iterator[Decision]:
         center = chance.place(radius * chance.size(-3, 3))
         away = chance.direction()
         far = 1.0 + chance.size(-2, 4)
-        eye, aims = plus(center, times(radius * far, away)), []
+        eye, aims = plus(center, scale(radius * far, away)), []
         for _ in range(10):
             sine = min((1.0 + chance.choice((-1.0, 1.0)) * 2.0 ** -chance.uniform(1, 52)) / far, 1.0)
-            beside = times(sine, perpendicular(away, chance.direction()))
-            aims.append(plus(times(-math.sqrt((1.0 - sine) * (1.0 + sine)), away), beside))
+            beside = scale(sine, perpendicular(away, chance.direction()))
+            aims.append(plus(scale(-math.sqrt((1.0 - sine) * (1.0 + sine)), away), beside))
         for row in paths(world(ball(center, radius, MATTE)), [eye], aims).hits:
             direction = row["direction"].tolist()
             exact = exact_shapes.sphere(eye, direction, center, radius)
