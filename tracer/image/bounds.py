@@ -7,12 +7,13 @@ the sampling error: it can only be estimated, stands beside the bounds, and is n
 import math
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing import get_context, parent_process
+from multiprocessing.synchronize import Event
 from threading import Thread
 from typing import Any
 
@@ -89,7 +90,7 @@ def render_bounds(
     low, high = (np.zeros((view.height, view.width, 3)) for _ in range(2))
     decisions = certified = 0
     variance = 0.0
-    with row_maker(world, processes, options, numbers) as rows:
+    with row_maker(world, processes, options, numbers, cancelled) as rows:
         for y, row in enumerate(rows(view.height)):
             low[y], high[y] = row.low, row.high
             decisions, certified = decisions + row.decisions, certified + row.certified
@@ -113,25 +114,30 @@ class Row:
 
 
 @contextmanager
-def row_maker(world: World, processes: int, options: dict[str, Any], numbers: tuple[int | None, ...]) -> Iterator[Any]:
+def row_maker(
+    world: World, processes: int, options: dict[str, Any], numbers: tuple[int | None, ...], cancelled: Cancelled
+) -> Iterator[Any]:
     """A function of the image's height that gives its rows in order, made here or in other processes."""
     if processes == 1:
-        yield lambda height: map(partial(bound_row, world, options, numbers), range(height))
+        yield lambda height: map(partial(bound_row, world, options, numbers, cancelled), range(height))
         return
-    with ProcessPoolExecutor(processes, get_context("spawn"), _prepare, (world.scene, options, numbers)) as pool:
+    processes_of = get_context("spawn")
+    stop = processes_of.Event()
+    with ProcessPoolExecutor(processes, processes_of, _prepare, (world.scene, options, numbers, stop)) as pool:
         try:
             yield lambda height: pool.map(_row, range(height))
         except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
+            stop.set()  # a row may take minutes
+            pool.shutdown(cancel_futures=True)
             raise
 
 
 _here: dict[str, Any] = {}  # in a process that makes rows: the function that its calls share
 
 
-def _prepare(scene: Scene, options: dict[str, Any], numbers: tuple[int | None, ...]) -> None:
+def _prepare(scene: Scene, options: dict[str, Any], numbers: tuple[int | None, ...], stop: Event) -> None:
     Thread(target=_end_with_parent, daemon=True).start()
-    _here["row"] = partial(bound_row, prepare(scene), options, numbers)
+    _here["row"] = partial(bound_row, prepare(scene), options, numbers, stop.is_set)
 
 
 def _end_with_parent() -> None:
@@ -146,11 +152,18 @@ def _row(y: int) -> Row:
     return _here["row"](y)
 
 
-def bound_row(world: World, options: dict[str, Any], numbers: tuple[int | None, ...], y: int) -> Row:
-    """The bounds of row y: of each pixel, the means of its samples' lowest and highest colours, rounded outwards."""
+def bound_row(
+    world: World, options: dict[str, Any], numbers: tuple[int | None, ...], stopped: Cancelled, y: int
+) -> Row:
+    """The bounds of row y: of each pixel, the means of its samples' lowest and highest colours, rounded outwards.
+
+    Stopped if `stopped` returns true.
+    """
     width = options["size"][0]
     row = Row(np.zeros((width, 3)), np.zeros((width, 3)), 0, 0, 0.0)
     for x in range(width):
+        if stopped():
+            raise Stopped
         lows, highs, colors = [], [], []
         for number in numbers:
             tree = trace(world, (x, y), sample=number, **options)
@@ -161,9 +174,19 @@ def bound_row(world: World, options: dict[str, Any], numbers: tuple[int | None, 
             pairs = zip(found.color, found.missing, strict=True)
             highs.append([math.nextafter(high + more, math.inf) for (_, high), more in pairs])
             colors.append(tree.radiance)
-        row.low[x] = [math.nextafter(math.fsum(c) / len(numbers), -math.inf) for c in zip(*lows, strict=True)]
-        row.high[x] = [math.nextafter(math.fsum(c) / len(numbers), math.inf) for c in zip(*highs, strict=True)]
+        row.low[x] = [mean_beyond(c, -math.inf) for c in zip(*lows, strict=True)]
+        row.high[x] = [mean_beyond(c, math.inf) for c in zip(*highs, strict=True)]
         if len(numbers) > 1:
             row.variance += float(np.var(colors, axis=0, ddof=1).sum()) / len(numbers)
     np.maximum(row.low, 0.0, out=row.low)
     return row
+
+
+def mean_beyond(numbers: Sequence[float], side: float) -> float:
+    """The mean, rounded towards `side`, which is infinite: never short of the exact mean.
+
+    Sum and quotient are each rounded by half a unit of their own last place, in all by less than two units of the
+    mean's.
+    """
+    mean = math.fsum(numbers) / len(numbers)
+    return math.nextafter(math.nextafter(mean, side), side)

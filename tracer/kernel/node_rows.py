@@ -88,7 +88,7 @@ def record_unlit(
     own = 1.0 if faces_it else transmit(world, s)
     side = row.hit_side if faces_it else -row.hit_side
     start, size = world.surfaces[s].coincident, rounding_scale(row)
-    ray = make_ray(vector(row.point), to_light, start, side, size, reference(row.leaving))
+    ray = make_ray(vector(row.point), to_light, start, side, size, reference(space.way[0]))
     if own == 0.0 or (limits.glass_blocks and not faces_it):
         write_shadow(world, limits, space.table, i, parent, light, ray, 0.0, s, BLOCKED, 0.0, nothing)
         return
@@ -142,19 +142,13 @@ def rounding_scale(row: NodeRow) -> float:
 
 
 @inlined
-def remember_way(row: NodeRow) -> None:
-    """Write `leaving` of a row whose hit is known.
+def write_way(row: NodeRow, way: HistoryRow) -> None:
+    """Write the way by which the hit of a row was reached: the `history` of the rays that leave it.
 
     A ray shorter than its rounding errors has reached the place of its own origin.
     """
+    approach, before = vector(row.history.approach), vector(row.history.before)
     if row.t > PLANE_ERROR * rounding_scale(row):
-        store(row.leaving.approach, scale(row.t, vector(row.direction)))
-        store(row.leaving.before, vector(row.history.approach))
-    else:
-        copy_history(row.history, row.leaving)
-
-
-@inlined
-def copy_history(source: HistoryRow, target: HistoryRow) -> None:
-    store(target.approach, vector(source.approach))
-    store(target.before, vector(source.before))
+        approach, before = scale(row.t, vector(row.direction)), approach
+    store(way.approach, approach)
+    store(way.before, before)

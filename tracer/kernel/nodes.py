@@ -64,7 +64,6 @@ class NodeRow(RecordedRow):
 
     start: Int32  # id of the surface that the ray leaves, -1 for the eye; of coincident surfaces the first
     history: Annotated[HistoryRow, HISTORY]  # as in `tracer.rays.Ray`
-    leaving: Annotated[HistoryRow, HISTORY]  # the same of the rays that leave its hit
     magnitude: Float  # scale of the rounding errors in `origin`, as in `tracer.rays.Ray`
     surface: Int32  # id of the surface hit
     side: Float  # +1 or -1: the side of the normal on which the ray leaves its start

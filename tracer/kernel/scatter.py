@@ -14,7 +14,7 @@ from tracer.formulas.optics import cosine, shares
 from tracer.formulas.vector import Vector, max_component, multiply, store, vector
 from tracer.kernel.arrays import Arrays, MaterialRow
 from tracer.kernel.limits import Limits
-from tracer.kernel.node_rows import copy_history, rounding_scale, start_row
+from tracer.kernel.node_rows import rounding_scale, start_row, write_way
 from tracer.kernel.nodes import DEPTH, INVALID, NODES, NONE, REFLECTION, REFRACTION, SURFACE, TIR, WEIGHT, NodeRow
 from tracer.kernel.workspace import Space
 
@@ -134,7 +134,7 @@ def start_child(
     row.start = world.surfaces[parent.surface].coincident
     row.side = -parent.hit_side if refracted else parent.hit_side
     row.magnitude = rounding_scale(parent)
-    copy_history(parent.leaving, row.history)
+    write_way(parent, row.history)
     own = 1 if refracted else 0
     for k_word in range(solids.shape[2]):
         solids[count, 0, k_word] = solids[i, own, k_word]

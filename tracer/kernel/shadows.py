@@ -31,12 +31,19 @@ def light_direction(light: LightRow, point: Vector) -> tuple[Vector, float]:
     to_light = subtract(vector(light.position), point)
     distance = length(to_light)
     if distance < SHORTEST or distance > LONGEST:
-        scaled, exponent = near_one(to_light)
-        distance = length(scaled)
-        if distance == 0.0:
-            return (to_light, 0.0)
-        return (scale(1.0 / distance, scaled), math.ldexp(distance, exponent))
+        return scaled_direction(to_light)
     return (scale(1.0 / distance, to_light), distance)
+
+
+@compiled
+def scaled_direction(v: Vector) -> tuple[Vector, float]:
+    """(unit direction, length) of a vector whose squares underflow or overflow; (0, 0) for the zero vector."""
+    noinline()
+    scaled, exponent = near_one(v)
+    distance = length(scaled)
+    if distance == 0.0:
+        return (v, 0.0)
+    return (scale(1.0 / distance, scaled), math.ldexp(distance, exponent))
 
 
 @inlined

@@ -18,7 +18,7 @@ from tracer.formulas.vector import Vector, add, dot, multiply, scale, store, vec
 from tracer.kernel.arrays import Arrays
 from tracer.kernel.coincident_surfaces import next_interface
 from tracer.kernel.limits import Limits
-from tracer.kernel.node_rows import record_shadow, record_unlit, remember_way, rounding_scale
+from tracer.kernel.node_rows import record_shadow, record_unlit, rounding_scale, write_way
 from tracer.kernel.nodes import BACKGROUND, SHADOW, NodeRow
 from tracer.kernel.scatter import append_children
 from tracer.kernel.shadows import light_direction, transmittance
@@ -117,7 +117,6 @@ def trace_ray(world: Arrays, space: Space, i: int) -> None:
         shading_n = n
     store(row.face_normal, n)
     store(row.normal, shading_n)
-    remember_way(row)
 
 
 @compiled
@@ -150,12 +149,13 @@ def direct_light(world: Arrays, limits: Limits, space: Space, i: int, count: int
     is_lit = material.diffuse > 0.0 or material.specular > 0.0
     if is_lit or limits.records:
         face_n = vector(row.face_normal)
+        write_way(row, space.way[0])
         start, size = world.surfaces[s].coincident, rounding_scale(row)
         for j in range(len(world.lights)):
             light = world.lights[j]
             to_light, distance = light_direction(light, point)
             if is_lit and dot(n, to_light) > 0.0 and dot(face_n, to_light) > 0.0:
-                ray = make_ray(point, to_light, start, row.hit_side, size, reference(row.leaving))
+                ray = make_ray(point, to_light, start, row.hit_side, size, reference(space.way[0]))
                 visible, glass = transmittance(world, ray, distance, limits.glass_blocks, space)
                 share = (0.0, 0.0, 0.0)
                 if visible > 0.0:

@@ -11,6 +11,7 @@ from tracer.compile.rows import Bool, Float, Int64, Numbers, Row, Rows, dtype_of
 from tracer.compile.simd import WIDTH
 from tracer.formulas.camera import BATCH
 from tracer.kernel.nodes import KINDS, NODE, NodeRow
+from tracer.rays import HISTORY, HistoryRow
 
 MAX_CROSSINGS = 32  # transparent surfaces on the way to a light, before the slower search is used
 
@@ -61,6 +62,7 @@ class Space(NamedTuple):
     stack: Rows[StackRow]  # of a traversal
     near: Numbers  # distances at which the ray enters the boxes of one node
     crossed: Rows[CrossingRow]  # transparent surfaces on the way to a light
+    way: Rows[HistoryRow]  # (1,): by which the hit was reached whose shadow rays are traced
     directions: Numbers  # (3, BATCH) of the next camera rays
     rays: Numbers  # traced in this call, by kind
     tests: Numbers  # (1,): ray-surface intersection tests in this call; a block of eight triangles counts as eight
@@ -82,6 +84,7 @@ class Workspace:
             stack=zero_rows(MAX_STACK, STACK, StackRow),
             near=np.zeros(WIDTH),
             crossed=zero_rows(MAX_CROSSINGS, CROSSING, CrossingRow),
+            way=zero_rows(1, HISTORY, HistoryRow),
             directions=np.zeros((3, BATCH)),
             rays=np.zeros(len(KINDS), np.int64),
             tests=np.zeros(1, np.int64),

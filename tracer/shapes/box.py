@@ -130,13 +130,23 @@ def may_start_on(surface: SurfaceRow, ray: Ray) -> bool:
 
 @inlined
 def interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
-    """As `slab_interval`, for a ray that may start on the box or on a surface that touches it."""
+    """As `slab_interval`, for a ray that may start on another surface, one that touches the box."""
+    enter, leave = slab_interval(surface, ray)
     if ray.start >= 0:
-        if ray.start == surface.coincident:
-            return (-math.inf, exit_distance(surface, ray)) if ray.side < 0.0 else (math.inf, -math.inf)
-        if may_start_on(surface, ray) and is_in_contact(surface, ray):
-            return contact_interval(surface, ray)
-    return slab_interval(surface, ray)
+        steepest = max(abs(ray.inverse[0]), max(abs(ray.inverse[1]), abs(ray.inverse[2])))
+        reach = steepest * PLANE_ERROR * (surface.r + ray.magnitude)
+        if enter <= reach and leave >= -reach:  # else it starts off the box
+            return start_interval(surface, ray, enter, leave)
+    return (enter, leave)
+
+
+@compiled
+def start_interval(surface: SurfaceRow, ray: Ray, enter: float, leave: float) -> tuple[float, float]:
+    """As `interval`, where the ray may start on the box; `enter` and `leave` are the `slab_interval`."""
+    noinline()
+    if may_start_on(surface, ray) and is_in_contact(surface, ray):
+        return contact_interval(surface, ray)
+    return (enter, leave)
 
 
 @inlined
@@ -158,10 +168,9 @@ def touches(face: float, ray: Ray, k: int) -> bool:
     return abs(face - ray.origin[k]) <= PLANE_ERROR * (abs(face) + ray.magnitude)
 
 
-@compiled
+@inlined
 def is_in_contact(surface: SurfaceRow, ray: Ray) -> bool:
     """Whether the ray starts in the plane of a face."""
-    noinline()
     found = False
     for k in range(3):
         found = found or touches(surface.a[k], ray, k) or touches(surface.b[k], ray, k)
@@ -178,7 +187,7 @@ def way_along(surface: SurfaceRow, ray: Ray, k: int) -> float:
     return before if abs(before) > error else 0.0
 
 
-@compiled
+@inlined
 def contact_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
     """`slab_interval` for a ray that starts in the plane of a face, on another surface.
 
@@ -189,7 +198,6 @@ def contact_interval(surface: SurfaceRow, ray: Ray) -> tuple[float, float]:
     A ray that is in a set of solids crosses the face of a solid also if it turns back: whatever the set has been, the
     crossing puts it right.
     """
-    noinline()
     enter, leave = -math.inf, math.inf
     settles = ray.settles and surface.solid >= 0
     outside = entered_here = left_here = False
@@ -240,14 +248,22 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t
 @inlined
 def next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
     """A ray that starts on the box and goes inwards meets it once more, where it leaves."""
-    return interval(surface, ray)[1] if ray.side < 0.0 else math.inf
+    return exit_distance(surface, ray) if ray.side < 0.0 else math.inf
+
+
+@inlined
+def enters_at(surface: SurfaceRow, ray: Ray, t: float) -> bool:
+    """Whether the ray enters the box at distance t, at which it meets it."""
+    enter, leave = slab_interval(surface, ray)
+    if t == 0.0 or enter == leave:
+        enter, leave = interval(surface, ray)
+    return enter == t and not t == leave == 0.0
 
 
 @inlined
 def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
     """The hit point, exactly on the face whose plane is crossed at t, and that face's normal twice."""
-    enter, leave = interval(surface, ray)
-    entering = enter == t and not t == leave == 0.0
+    entering = ray.start != surface.coincident and enters_at(surface, ray, t)
     p = add(ray.origin, scale(t, ray.direction))
     for k in range(3):
         if ray.direction[k] != 0.0:

@@ -13,7 +13,8 @@ from typing import ClassVar
 import numpy as np
 
 from tracer import fields
-from tracer.compile.jit import inlined
+from tracer.compile.intrinsics import noinline
+from tracer.compile.jit import compiled, inlined
 from tracer.formulas.exact import Exact, exact, is_in_outline
 from tracer.formulas.vector import Vector, as_floats, unit
 from tracer.rays import Ray, sheared
@@ -104,7 +105,6 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t
     """The distance to the plane if the ray crosses it inside the outline, else inf."""
     if not may_cross(surface, ray, t_max):
         return math.inf
-    slack = outline_slack(world, surface, ray)
     inside = False
     x0, y0 = sheared(ray, world.corners[surface.first + surface.count - 1])
     for k in range(surface.count):
@@ -117,10 +117,25 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t
                 return world.formulas.plane_distance(world, surface, ray, t_min, t_max, exact)
             if (turn > 0.0) == (y1 > y0):
                 inside = not inside
-        if slack > 0.0 and is_near_edge(x0, y0, x1, y1, slack):
-            return world.formulas.plane_distance(world, surface, ray, t_min, t_max, exact)
         x0, y0 = x1, y1
-    return world.formulas.plane_distance(world, surface, ray, t_min, t_max, exact) if inside else math.inf
+    if not inside:
+        slack = outline_slack(world, surface, ray)
+        if slack == 0.0 or not is_beside_outline(world, surface, ray, slack):
+            return math.inf
+    return world.formulas.plane_distance(world, surface, ray, t_min, t_max, exact)
+
+
+@compiled
+def is_beside_outline(world: ShapeArrays, surface: SurfaceRow, ray: Ray, slack: float) -> bool:
+    """Whether the ray passes an edge of the outline no farther than `slack`."""
+    noinline()
+    beside = False
+    x0, y0 = sheared(ray, world.corners[surface.first + surface.count - 1])
+    for k in range(surface.count):
+        x1, y1 = sheared(ray, world.corners[surface.first + k])
+        beside = beside or is_near_edge(x0, y0, x1, y1, slack)
+        x0, y0 = x1, y1
+    return beside
 
 
 next_hit = planar.no_next_hit

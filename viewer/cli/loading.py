@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import tracer
+from tracer.extras import MissingExtra
 from tracer.formats import OTHER_MESHES, READERS, UP_AXES
 from tracer.scene.radiance_bound import MissingBoundError
-from tracer.tree.verified.balls import MissingExtra
 from viewer.base.files import Unusable, is_there
 from viewer.base.progress import Progress
 from viewer.lessons import lesson

@@ -83,7 +83,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return run(command, chosen)
     except Interrupted as asked:
         print("stopped", file=sys.stderr, flush=True)
-        os._exit(asked.status)  # at once: Python would wait for threads in C code of libraries
+        status = asked.status
+    # The exception is gone, and with its frames what they held, like the semaphores of worker processes.
+    os._exit(status)  # at once: Python would wait for threads in C code of libraries
 
 
 def parse(arguments: Sequence[str]) -> tuple[Command, Any]:

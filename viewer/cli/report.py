@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tracer.compile.kernel_cache import versions
+from tracer.extras import MissingExtra
 from tracer.image.render import processors
 from viewer.base.files import Unusable, check_folder, collect, write_atomically
 from viewer.base.options import words
@@ -78,4 +79,4 @@ def target(output: str) -> Path:
 
 def check_libraries() -> None:
     if importlib.util.find_spec("matplotlib") is None:
-        raise Unusable("raytree report: plots need the extra raytree[report]: pip install 'raytree[report]'")
+        raise Unusable(f"raytree report: {MissingExtra('plots need', 'report')}")

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from threading import Thread
 
 import tracer
+from tracer.extras import MissingExtra
 from tracer.tree.raytree import RayTree
-from tracer.tree.verified.balls import MissingExtra
 from tracer.tree.verified.enclosures import VerifiedTree
 from tracer.tree.verified.text import decisions_text
 from viewer.base.wording import format_number

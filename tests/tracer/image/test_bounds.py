@@ -1,6 +1,7 @@
 """Bounds of images: they contain the exact colours, and what deeper trees add."""
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ import tracer
 from tests.exact_tracer import Judge, camera_ray
 from tests.random_scenes import random_scene
 from tests.scenes import OPEN, ball, plane, world_of
-from tracer.image.bounds import render_bounds
+from tracer.image.bounds import mean_beyond, render_bounds
 from tracer.scene import Camera, Image, Material
 
 SIZE = (8, 6)
@@ -73,3 +74,16 @@ def test_a_tie_is_as_wide_as_what_it_could_bring() -> None:
     width = (bounds.high - bounds.low)[1, 1]
     assert bounds.certified == bounds.decisions - 1
     assert width == pytest.approx(np.ones(3), rel=1e-9)
+
+
+def test_the_mean_of_samples_is_rounded_outwards() -> None:
+    """The sum and the quotient are both rounded: one float outwards is not always enough."""
+    rng = np.random.default_rng(18)
+    one_is_too_few = 0
+    for _ in range(20_000):
+        numbers = rng.uniform(0.0, 2.0 ** rng.integers(-3, 3), rng.integers(1, 40)).tolist()
+        exact = sum(map(Fraction, numbers)) / len(numbers)
+        low, high = mean_beyond(numbers, -math.inf), mean_beyond(numbers, math.inf)
+        assert low <= exact <= high
+        one_is_too_few += not math.nextafter(low, math.inf) <= exact <= math.nextafter(high, -math.inf)
+    assert one_is_too_few > 0

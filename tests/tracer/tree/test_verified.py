@@ -12,11 +12,11 @@ from tests.compared_trees import compared, judged_pixel, judged_ray
 from tests.planted_rays import planted_ray
 from tests.random_scenes import random_scene, stiff_scene
 from tests.scenes import GLASS, MATTE, MIRROR, OPEN, ball, box, plane, polygon, world_of
+from tracer.extras import MissingExtra
 from tracer.formulas.double_double import U
 from tracer.kernel.nodes import SHADOW
 from tracer.scene import Light, Material, Scene
 from tracer.tree.raytree import RayTree
-from tracer.tree.verified.balls import MissingExtra
 from tracer.tree.verified.enclosures import VerifiedTree
 from tracer.tree.verified.text import verified_text
 from tracer.tree.verified.verifier import ROUNDING

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from tracer.extras import install_command
 from viewer.cli import main
 from viewer.figures.catalogue import FIGURE_NAMES, FORMATS
 
@@ -191,7 +192,6 @@ def test_without_the_extra_pptx_is_one_line(
 
     monkeypatch.setitem(sys.modules, "pptx", None)
     assert main.main(["export", "glass-ball", "-o", str(tmp_path / "a.pptx")]) == 2
-    assert capsys.readouterr().err.strip() == (
-        "raytree export: PPTX needs the extra raytree[pptx]: pip install 'raytree[pptx]'"
-    )
+    said = f"raytree export: PPTX needs the extra raytree[pptx]: {install_command('pptx')}"
+    assert capsys.readouterr().err.strip() == said
     assert names(tmp_path) == set()

@@ -20,6 +20,7 @@ CASES = {
     "image, SIGTERM": (["render", "glass-ball", "-o", "old.png", *BIG], r"render glass-ball \d+ %", TERM),
     "several": (["render", "two-lights", "glass-ball", "-o", "new/", *BIG], r"two-lights \(1 of 2\) \d+ %", INT),
     "one tile": (["render", "glass-ball", "-o", "old.npy", *ENDLESS], r"render glass-ball \(\d s\)", TERM),
+    "bounds": (["render", "mirror-balls", "--bounds", "-o", "old.npy"], r"bounds of mirror-balls \d+ %", TERM),
     "long file": (["trace", "long.nff", "--pixel", "1,1", "-o", "old.png"], r"load long.nff \d+ %, \d+ s left", INT),
     "measuring": (["plan", "glass-ball", "--measure"], r"measuring \d+ %, \d+ s left", TERM),
     "screenshot": (["view", "large.toml", "--screenshot", "old.png"], r"render the image \d+ %", INT),

@@ -9,14 +9,12 @@ from collections.abc import Iterable
 from contextlib import AbstractContextManager
 from typing import Any
 
+from tracer.extras import MissingExtra
+
 Ball = Any  # flint.arb
 BallVector = tuple[Ball, Ball, Ball]
 
 PRECISIONS = (128, 512)  # bits; the next is tried where decisions are left open
-
-
-class MissingExtra(ImportError):
-    """python-flint is not installed."""
 
 
 def flint() -> Any:
@@ -24,7 +22,7 @@ def flint() -> Any:
     try:
         import flint
     except ImportError as error:
-        raise MissingExtra("verified trees need the extra raytree[verify]: pip install 'raytree[verify]'") from error
+        raise MissingExtra("verified trees need", "verify") from error
     return flint
 
 
