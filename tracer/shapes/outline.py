@@ -31,14 +31,21 @@ def corner(world: ShapeArrays, surface: SurfaceRow, k: int) -> Vector:
 
 @compiled
 def side_of(world: ShapeArrays, face: SurfaceRow, plane: SurfaceRow) -> int:
-    """The side of the plane on which all of a face or sphere lies: +1, -1, IN_PLANE or ON_BOTH_SIDES."""
+    """The side of the plane on which all of a face or sphere lies: +1, -1, IN_PLANE or ON_BOTH_SIDES.
+
+    The corners of the plane's own face are rounded too, so it is known only to the error of the farthest one.
+    """
     above = below = False
+    reach = plane.r
+    for k in range(plane.count):
+        p = corner(world, plane, k)
+        reach = max(reach, abs(p[0]) + abs(p[1]) + abs(p[2]))
     normal, a = vector(plane.normal), vector(plane.a)
     radius = face.r if face.count == SPHERE_COUNT else 0.0
     for k in range(face.count):
         p = corner(world, face, k)
         height = dot(normal, subtract(p, a))
-        error = PLANE_ERROR * (plane.r + radius + abs(p[0]) + abs(p[1]) + abs(p[2]))
+        error = PLANE_ERROR * (reach + radius + abs(p[0]) + abs(p[1]) + abs(p[2]))
         above = above or height + radius > error
         below = below or height - radius < -error
     if above:

@@ -45,6 +45,10 @@ EDGE_ON = 2.0**-40
 # on the face: a hit may lie outside.
 OBLIQUE = 0.125
 
+# The distance, in rounding errors, within which a ray in a corner meets the corner's faces, at a slant of 1 : CLOSE or
+# more.
+CLOSE = 2.0**16
+
 # Rounding error of a hit point in units of `tracer.kernel.node_rows.rounding_scale`, divided by |n.d|.
 HIT = 2.0
 
@@ -82,13 +86,14 @@ def outline_slack(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
     face.
 
     Such a ray crosses the plane where it starts, or so near the plane of the face that it leaves that rounding cannot
-    tell. The slack is 0 for other rays.
+    tell. In a corner the neighbour may be a face that it has met before. So the slack also holds where the ray crosses
+    the plane close to its start. It is 0 for other rays.
     """
     if ray.start < 0:
         return 0.0
     height, n_dot_d = height_and_n_dot_d(surface, ray)
     error = plane_rounding(surface, ray)
-    if abs(height) <= error:
+    if abs(height) <= max(error, CLOSE * error * abs(n_dot_d)):
         return 2.0 * error
     start = world.surfaces[ray.start]
     climb = dot(vector(start.normal), ray.direction)

@@ -67,12 +67,17 @@ def test_bad_rays_are_refused(origins: list, directions: list, said: str) -> Non
         tracer.trace_rays(world_of(ball()), origins, directions)
 
 
-def rooms(random: np.random.Generator, rays: int, count: int) -> list[tuple[tracer.World, np.ndarray, np.ndarray]]:
-    """Rooms of mirrors (boxes, turned meshes, closed cylinders) with eyes inside, and targets on edges and corners."""
+def rooms(
+    random: np.random.Generator, rays: int, count: int, decades: float = 1.5
+) -> list[tuple[tracer.World, np.ndarray, np.ndarray]]:
+    """Rooms of mirrors (boxes, turned meshes, closed cylinders) with eyes inside, and targets on edges and corners.
+
+    The sides of boxes and meshes are 10^-decades to 10^decades long.
+    """
     found = []
     for k in range(count):
-        low = random.uniform(-2, 0, 3) * 10.0 ** random.uniform(-1.5, 1.5, 3)
-        high = low + random.uniform(0.5, 3, 3) * 10.0 ** random.uniform(-1.5, 1.5, 3)
+        low = random.uniform(-2, 0, 3) * 10.0 ** random.uniform(-decades, decades, 3)
+        high = low + random.uniform(0.5, 3, 3) * 10.0 ** random.uniform(-decades, decades, 3)
         targets = np.where(random.random((rays, 3)) < 0.5, low, high)
         on_edge = random.random(rays) < 0.7
         axis = random.integers(3, size=rays)
@@ -96,9 +101,9 @@ def rooms(random: np.random.Generator, rays: int, count: int) -> list[tuple[trac
     return found
 
 
-def leavers(rays: int, count: int, seed: int) -> int:
+def leavers(rays: int, count: int, seed: int, decades: float = 1.5) -> int:
     random, left = np.random.default_rng(seed), 0
-    for world, eyes, ways in rooms(random, rays, count):
+    for world, eyes, ways in rooms(random, rays, count, decades):
         trees = tracer.trace_rays(world, eyes, ways, depth=12)
         left += int((trees.nodes["end"] == BACKGROUND).sum())
     return left
@@ -111,3 +116,13 @@ def test_no_ray_at_an_edge_or_a_corner_leaves_a_room() -> None:
 @pytest.mark.slow
 def test_of_a_million_rays_at_edges_and_corners_none_leaves() -> None:
     assert leavers(rays=4000, count=100, seed=2) == 0
+
+
+def test_no_ray_leaves_a_room_like_a_needle_or_a_sheet() -> None:
+    """Of sides up to 10^6 : 1. A ray in a corner then runs far along a wall that it has met before."""
+    assert leavers(rays=1000, count=12, seed=5, decades=3.0) == 0
+
+
+@pytest.mark.slow
+def test_of_a_million_rays_none_leaves_a_room_like_a_needle_or_a_sheet() -> None:
+    assert leavers(rays=4000, count=100, seed=3, decades=3.0) == 0
