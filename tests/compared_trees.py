@@ -5,6 +5,8 @@ from typing import Any, NamedTuple
 import tracer
 from tests.exact_tracer import Judge, Ray, camera_ray, given_ray
 from tracer.kernel.nodes import SHADOW
+from tracer.shapes.box import Box
+from tracer.shapes.cone import Cone
 
 
 class Pair(NamedTuple):
@@ -34,7 +36,8 @@ def compared(tree: tracer.RayTree, ray: Ray, i: int = 0) -> list[Pair]:
     row = tree.nodes[i]
     kinds = tree.nodes["kind"]
     below = [k for k in tree.children[i] if kinds[k] != SHADOW]
-    agrees = bool(row["object"] == ray.object) and [tree.kind(k) for k in below] == [one.kind for one in ray.children]
+    same_surface = bool(row["object"] == ray.object) and is_same_face(tree, i, ray)
+    agrees = same_surface and [tree.kind(k) for k in below] == [one.kind for one in ray.children]
     if not agrees:
         return [Pair(i, ray, False, False)]
     pairs: list[Pair] = []
@@ -45,6 +48,14 @@ def compared(tree: tracer.RayTree, ray: Ray, i: int = 0) -> list[Pair]:
     for k, one in zip(below, ray.children, strict=True):
         pairs += compared(tree, one, k)
     return [Pair(i, ray, True, all(pair.whole for pair in pairs)), *pairs]
+
+
+def is_same_face(tree: tracer.RayTree, i: int, ray: Ray) -> bool:
+    """Whether a box or a cone was hit on the judge's face of it: its faces stand at an angle."""
+    if ray.normal is None or not isinstance(tree.scene.objects[ray.object].shape, Box | Cone):
+        return True
+    cosine = sum(float(a) * float(b) for a, b in zip(tree.nodes["normal"][i], ray.normal, strict=True))
+    return abs(cosine) > 0.99
 
 
 def shadow_agrees(tree: tracer.RayTree, k: int, ray: Ray) -> bool:

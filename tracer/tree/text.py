@@ -42,7 +42,7 @@ def tree_text(tree: TreeTable, most: int | None = None, verified: VerifiedTree |
     stems = _stems(tree, shown)
     doubts = tree.doubtful(shown)
     if verified is not None:
-        sure = [i for i in doubts if verified.rows[i].certified]
+        sure = [i for i in doubts if verified.rows[i].is_sure]
         doubts = {i: doubt for i, doubt in doubts.items() if i not in sure}
         if sure:
             head.append(

@@ -18,6 +18,7 @@ from viewer.base.progress import Progress as ProgressLine
 from viewer.cli.loading import extra
 from viewer.cli.options import RenderOptions, limits_of
 
+WIDE = 1e-9  # wider pixels are counted: they hang on an open decision, or rays were cut
 SMALL = 500  # pixels of an image for which starting processes takes longer than its bounds
 
 
@@ -57,11 +58,15 @@ def put_summary(progress: ProgressLine, name: str, scene: Scene, bounds: Bounds)
     reason = radiance_bound(scene).reason
     endless = int(np.count_nonzero(np.isinf(width)))
     shown = number_text(float(np.median(width)))
+    wide = width[np.isfinite(width) & (width > WIDE)]
     parts = [
         f"{bounds.certified:,} of {bounds.decisions:,} decisions certified",
         f"the median pixel is known to {shown}" if math.isfinite(np.median(width)) else "",
         f'{endless:,} of {width.size:,} pixels have no upper end, because of the material "{reason}"'
         if endless
+        else "",
+        f"{wide.size:,} have bounds more than {WIDE:g} apart, the worst {number_text(float(wide.max()))}"
+        if wide.size
         else "",
     ]
     progress.put(name + "bounds: " + "; ".join(part for part in parts if part), sys.stdout)

@@ -89,4 +89,5 @@ def accuracy_text(found: VerifiedTree) -> str:
     off = max(high - low for low, high in found.color)
     if math.isinf(off):
         return f"no upper end for the colour, because of the material {found.unbounded}"
-    return "the colour is exact" if off == 0.0 else f"the colour is known to within {format_number(off, 2)}"
+    colour = "the colour, without the rays that were cut," if found.cut > 0.0 else "the colour"
+    return f"{colour} is exact" if off == 0.0 else f"{colour} is known to within {format_number(off, 2)}"

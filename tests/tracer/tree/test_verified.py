@@ -3,6 +3,8 @@
 import math
 import sys
 from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -12,13 +14,16 @@ from tests.compared_trees import compared, judged_pixel, judged_ray
 from tests.planted_rays import planted_ray
 from tests.random_scenes import random_scene, stiff_scene
 from tests.scenes import GLASS, MATTE, MIRROR, OPEN, ball, box, plane, polygon, world_of
+from tests.tracer.kernel.test_touching_solids import cube_mesh
 from tracer.extras import MissingExtra
 from tracer.formulas.double_double import U
 from tracer.kernel.nodes import SHADOW
-from tracer.scene import Light, Material, Scene
+from tracer.scene import Checker, Light, Material, Object, Scene
+from tracer.shapes.cone import Cone
 from tracer.tree.raytree import RayTree
+from tracer.tree.text import tree_text
 from tracer.tree.verified.enclosures import VerifiedTree
-from tracer.tree.verified.text import verified_text
+from tracer.tree.verified.text import range_text, verified_text
 from tracer.tree.verified.verifier import ROUNDING
 
 
@@ -184,3 +189,75 @@ def test_without_the_library_the_error_names_the_extra(monkeypatch: pytest.Monke
     world = world_of(ball())
     with pytest.raises(MissingExtra, match=r"raytree\[verify\]"):
         tracer.verify(world, tracer.trace(world, (5, 5)))
+
+
+SOLIDS = {
+    "box": box((-0.6, 0.0, -0.6), (0.6, 1.2, 0.6), GLASS),
+    "cylinder": Object(Cone((0.0, 0.0, 0.0), 0.6, (0.0, 1.2, 0.0), 0.6, True), GLASS, "cylinder"),
+    "mesh": Object(cube_mesh(np.array([-0.6, 0.0, -0.6]), np.array([0.6, 1.2, 0.6])), GLASS, "cube"),
+}
+
+
+@pytest.mark.parametrize("name", SOLIDS)
+def test_another_face_of_the_same_object_is_not_certified(name: str) -> None:
+    """Rays aimed at an edge: rounding takes one face, the exact ray may meet the other. Where all is certified, the
+    recorded colour is the exact one but for its told error.
+    """
+    world = world_of(SOLIDS[name], lights=(Light(position=(3.0, 6.0, 5.0)),), background=(0.3, 0.4, 0.6), depth=1)
+    random, certified = np.random.default_rng(4), 0
+    for _ in range(100):
+        turn = random.uniform(-0.8, 0.8)
+        edge = np.array([0.6 * math.sin(turn), 1.2, 0.6 * math.cos(turn)] if name == "cylinder" else [turn, 1.2, 0.6])
+        eye = edge + random.uniform(0.1, 3.0, 3) * (1, 1, 2)
+        tree = tracer.trace(world, ray=(eye.tolist(), (edge - eye).tolist()))
+        verified = tracer.verify(world, tree)
+        check(tree, verified)
+        if verified.certified < verified.decisions:
+            continue
+        certified += 1
+        error = tree.nodes["radiance_error"][0] + 1e-15
+        for (low, high), shown in zip(verified.color, tree.radiance, strict=True):
+            assert low - error <= shown <= high + error
+    assert 10 < certified < 90
+
+
+def test_a_ray_along_a_face_that_it_does_not_reach_is_certified() -> None:
+    """Down the axis of a closed cylinder, and over a mirror to a wall: neither may go otherwise."""
+    world = world_of(SOLIDS["cylinder"], plane((0.0, -1.0, 0.0), (0.0, 1.0, 0.0), MATTE), background=(0.3, 0.4, 0.6))
+    for ray in (((0.0, 5.0, 0.0), (0.0, -1.0, 0.0)), ((0.1, 5.0, 0.05), (0.0, -1.0, 0.0))):
+        tree = tracer.trace(world, ray=ray)
+        verified = tracer.verify(world, tree)
+        assert len(tree) == 3
+        assert verified.certified == verified.decisions
+        assert (tree.margins.margin > 1e12).all()
+    floor = plane((0.0, 0.0, 0.0), (0.0, 1.0, 0.0), MIRROR, "floor")
+    world = world_of(floor, polygon([(-9, -9, -9), (9, -9, -9), (9, 9, -9), (-9, 9, -9)], MATTE))
+    tree = tracer.trace(world, ray=((0.0, 0.5, 6.0), (0.0, 0.0, -1.0)))
+    verified = tracer.verify(world, tree)
+    assert verified.certified == verified.decisions
+    assert tree.margins.margin[0] > 1e12
+
+
+def test_a_colour_in_doubt_is_not_called_certified() -> None:
+    """A wall that stands on a border of its checker: the way of the ray is certified, its colour is not."""
+    squares = replace(OPEN, checker=Checker((0.2, 0.2, 0.2), 0.5))
+    world = world_of(box((-2.0, -2.0, -3.0), (2.0, 2.0, -2.0), squares))
+    tree = tracer.trace(world, ray=((0.3, 0.3, 5.0), (0.1, 0.03, -1.0)))
+    verified = tracer.verify(world, tree)
+    assert verified.rows[0].doubts == ("which colour of the checker",)
+    assert verified.row_to_dict(0)["certified"] is False
+    said = tree_text(tree, verified=verified)
+    assert "and are certified" not in said
+    assert "not certain: the border of two colours of the checker" in said
+
+
+def test_a_printed_range_contains_its_ends() -> None:
+    """Read as decimals: the digits, plus or minus the error that is rounded up."""
+    random = np.random.default_rng(18)
+    for _ in range(3000):
+        low = float(random.random() * 10.0 ** random.integers(-20, 3))
+        high = low + float(random.random() * low * 10.0 ** random.integers(-17, -3))
+        shown, _, off = range_text((low, high)).partition(" ± ")
+        middle, most = Fraction(shown), Fraction(off or 0)
+        assert middle - most <= Fraction(low) <= Fraction(high) <= middle + most
+    assert range_text((0.5, 0.5)) == "0.5"

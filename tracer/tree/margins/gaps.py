@@ -51,6 +51,7 @@ def to_circles(o: np.ndarray, d: np.ndarray, center: np.ndarray, axis: np.ndarra
     tangent = np.cross(axis, radial)
     across = np.cross(d, tangent)
     slant = np.abs(_dot(radial, across)) / np.maximum(_length(across), 1e-300)
+    slant = np.where(size > 1e-12 * radius, slant, np.abs(speed))  # at the centre no tangent is nearest
     gap = np.where(along, np.abs(height), np.abs(size - radius) * slant)
     point = radius == 0.0
     return np.where(point, _length(np.cross(center - o, d)), gap), np.where(point, _dot(center - o, d), t)
@@ -92,7 +93,9 @@ def to_sides(
     slope = cosine * (_length(g) + np.abs(rise)) + np.abs(sine) * _length(g)
     a, b = _dot(g, g) - rise * rise, _dot(f, g) - rho * rise
     t = np.divide(-b, a, out=np.zeros_like(a), where=a != 0.0)
-    return np.abs(beside - bend) / np.maximum(slope, 1e-300), t
+    # A ray along the axis of a cylinder keeps its distance from it.
+    level = np.abs(_length(f) - np.abs(rho))
+    return np.where(slope > 0.0, np.abs(beside - bend) / np.maximum(slope, 1e-300), level), t
 
 
 def side_roots(
@@ -119,14 +122,16 @@ def side_roots(
 
 def to_planes(
     o: np.ndarray, d: np.ndarray, point: np.ndarray, normal: np.ndarray, low: np.ndarray, _: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """(distance along the ray, cosine of the angle to the normal); nan for a parallel ray."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(distance along the ray, nan for a parallel one, cosine of the angle to the normal, height of the plane above the
+    ray's origin).
+    """
     n = dd_columns(normal, low)
     height = dd_dot(n, exact_difference(columns_of(point), columns_of(o)))
     speed = dd_dot(n, dd_vector(columns_of(d)))
     flat = np.asarray(speed[0]) == 0.0
     safe: Any = (np.where(flat, 1.0, speed[0]), speed[1])
-    return np.where(flat, np.nan, dd_quotient(height, safe)[0]), np.asarray(speed[0])
+    return np.where(flat, np.nan, dd_quotient(height, safe)[0]), np.asarray(speed[0]), np.asarray(height[0])
 
 
 def _roots(a: Any, b: Any, c: Any, discriminant: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

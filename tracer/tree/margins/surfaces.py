@@ -65,11 +65,14 @@ def order_margins(
     """The margins of which surface comes first: of all crossings with their distance from the ray's end and start."""
     k, item = expand(ray, surface, items.planes)
     point, normal, low, infinite = (column[item] for column in items.planes.columns)
-    t, speed = gaps.to_planes(rays.o[k], rays.d[k], point, normal, low, infinite)
+    t, speed, height = gaps.to_planes(rays.o[k], rays.d[k], point, normal, low, infinite)
     own = items.planes.surface[item]
     error = (rays.error(k, t) + OUTLINE * U * np.abs(point).sum(axis=1)) / np.abs(speed)
     level = infinite & ~(t > rays.end[k]) & ~is_face(own, normal, ends.start[k], ends.start_normal[k])
-    yield Doubt(PARALLEL, k[level], (np.abs(speed) / (rays.turn[k] + 4.0 * U))[level], own[level])
+    # A ray that does not cross the plane before its end would have to turn farther, by an angle that takes it there.
+    there = np.where((t > 0.0) | (height == 0.0), 0.0, np.abs(height) / rays.end[k])
+    turned = np.abs(speed) + there
+    yield Doubt(PARALLEL, k[level], (turned / (rays.turn[k] + 4.0 * U))[level], own[level])
     for decision, margin, where in against_ends(rays, ends, k, t, error):
         faces = is_face(own, normal, where[0], where[1])
         near = np.flatnonzero(~faces & (margin < REACH))

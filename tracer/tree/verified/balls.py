@@ -5,7 +5,7 @@ A ball is a `flint.arb`. A comparison of balls is true only if it holds for all 
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
@@ -14,6 +14,7 @@ from tracer.extras import MissingExtra
 Ball = Any  # flint.arb
 BallVector = tuple[Ball, Ball, Ball]
 
+PARALLEL = 1e-9  # sine of the angle between normals that may be equal but for rounding
 PRECISIONS = (128, 512)  # bits; the next is tried where decisions are left open
 
 
@@ -70,6 +71,11 @@ def square(a: BallVector) -> Ball:
 def unit(a: BallVector) -> BallVector:
     """nan if the vector may be 0."""
     return scale(1 / square(a).sqrt(), a)
+
+
+def is_parallel(a: BallVector, n: Sequence[float]) -> bool:
+    """Whether two unit vectors, the second of which has rounding errors, are parallel or opposite."""
+    return all(max(map(abs, bounds(x))) < PARALLEL for x in cross(a, balls(n)))
 
 
 def sign(x: Ball) -> int | None:

@@ -1,5 +1,7 @@
 """Curved faces: spheres, and the sides of cones."""
 
+from collections.abc import Sequence
+
 from tracer.shapes.cone import Cone
 from tracer.shapes.sphere import Sphere
 from tracer.tree.verified.balls import (
@@ -8,8 +10,10 @@ from tracer.tree.verified.balls import (
     add,
     ball,
     balls,
+    between,
     cross,
     dot,
+    is_parallel,
     scale,
     sign,
     square,
@@ -71,6 +75,9 @@ class ConeSide(Face):
         along = dot(self.axis, v)
         return along, subtract(v, scale(along, self.axis))
 
+    def may_have_normal(self, n: Sequence[float]) -> bool:
+        return not is_parallel(self.axis, n)  # as the end discs have it
+
     def crossings(self, o: BallVector, d: BallVector, starts_here: bool = False) -> list[Crossing]:
         s0, f = self._split(subtract(o, self.base))
         s1, g = self._split(d)
@@ -109,6 +116,13 @@ class ConeSide(Face):
 
     def next_crossings(self, o: BallVector, d: BallVector) -> list[Crossing]:
         return self.crossings(o, d, starts_here=True)
+
+    def avoids(self, o: BallVector, d: BallVector, end: Ball) -> bool:
+        s0, f = self._split(subtract(o, self.base))
+        s1, g = self._split(d)
+        t = between(ball(0.0), end)
+        radius = self.radius + self.slope * (s0 + t * s1)
+        return bool(sign(square(add(f, scale(t, g))) - radius**2))
 
     def is_same(self, other: Face) -> bool:
         return isinstance(other, ConeSide) and other.shape == self.shape

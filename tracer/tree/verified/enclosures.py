@@ -14,10 +14,15 @@ class VerifiedRow:
     """The certified part of a recorded row."""
 
     doubts: tuple[str, ...] = ()  # its own decisions that are not certified
-    certified: bool = False  # neither it nor a row above it has doubts
+    certified: bool = False  # its way, and those of the rows above it; a colour of a checker may still be in doubt
     point: tuple[Range, Range, Range] | None = None  # None: it meets nothing, or it is not certain what
     weight: Range | None = None
     radiance: RGBRange = UNKNOWN
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether neither its way nor anything decided at its hit is in doubt."""
+        return self.certified and not self.doubts
 
 
 class VerifiedTree(NamedTuple):
@@ -55,7 +60,7 @@ class VerifiedTree(NamedTuple):
         """The enclosures of row i for JSON."""
         row = self.rows[i]
         return {
-            "certified": row.certified,
+            "certified": row.is_sure,
             "doubts": list(row.doubts),
             "point": None if row.point is None else [_ends(part) for part in row.point],
             "weight": None if row.weight is None else _ends(row.weight),

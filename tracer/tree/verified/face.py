@@ -1,6 +1,7 @@
 """A face of a surface, and where a line of balls crosses it."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from tracer.tree.verified.balls import Ball, BallVector, anywhere, dot, nowhere, sign
@@ -29,9 +30,21 @@ class Face(ABC):
         """The same for a line whose origin surely lies on this face, without the crossing there."""
         return []
 
+    def avoids(self, o: BallVector, d: BallVector, end: Ball) -> bool:
+        """Whether the line surely does not cross the face at any t from 0 to `end`, as one that is nearly parallel to
+        it: then `crossings` only says that it may cross it somewhere.
+        """
+        return False
+
     def is_same(self, other: "Face") -> bool:
         """Whether the other face lies in the same plane, or is the same sphere or cone, decided exactly."""
         return False
+
+    def may_have_normal(self, n: Sequence[float]) -> bool:
+        """Whether a unit normal n, with rounding errors and of either sign, may be one of this face. Tells apart the
+        faces of one surface.
+        """
+        return True
 
     def shading_normal(self, p: BallVector, n: BallVector) -> BallVector:
         """The outward normal to shade with, at a point with the outward unit normal n."""

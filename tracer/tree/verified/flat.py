@@ -8,8 +8,11 @@ from tracer.tree.verified.balls import (
     Ball,
     BallVector,
     add,
+    ball,
+    between,
     cross,
     dot,
+    is_parallel,
     nowhere,
     scale,
     sign,
@@ -48,6 +51,9 @@ class Flat(Face):
         """Its plane in fractions; None where its numbers are none."""
         return self._plane()
 
+    def may_have_normal(self, n: Sequence[float]) -> bool:
+        return is_parallel(self.normal, n)
+
     def crossings(self, o: BallVector, d: BallVector) -> list[Crossing]:
         speed = dot(self.normal, d)
         height = dot(self.normal, subtract(self.point, o))
@@ -58,6 +64,10 @@ class Flat(Face):
         t = height / speed
         inside = self.contains(add(o, scale(t, d)))
         return [] if inside is False else [self.crossing(t, self.normal, d, inside is True)]
+
+    def avoids(self, o: BallVector, d: BallVector, end: Ball) -> bool:
+        climb = dot(self.normal, d) * between(ball(0.0), end)
+        return bool(sign(dot(self.normal, subtract(self.point, o)) - climb))
 
     def contains(self, p: BallVector) -> bool | None:
         """Whether a point of the plane lies within the outline; None if it may lie on it."""

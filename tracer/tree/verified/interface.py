@@ -36,14 +36,14 @@ def first_interface(
         if not certain:
             return None
         nearest = min(certain, key=lambda t: t.upper())
-        here = [c for c in crossings if not c.t > nearest]
+        here = [c for c in crossings if not c.t > nearest and (c.certain or not c.face.avoids(o, d, nearest))]
         if not all(c.certain and (c is here[0] or c.face.is_same(here[0].face)) for c in here):
             return None
         found = cross(scenery, here, inside)
         if found is None or found.shown:
             return found
         inside = found.behind
-        crossings = [c for c in crossings if c.t > nearest]
+        crossings = [c for c in crossings if not any(c is one for one in here)]
     return Interface(None, (), inside, inside)
 
 

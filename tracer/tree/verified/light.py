@@ -98,7 +98,7 @@ def transmittance(
     blocks = scenery.world.scene.tracing.shadows == SHADOWS[BLOCK]
     last: Crossing | None = None
     for c in crossings:
-        if distance is not None and c.t > distance:
+        if distance is not None and (c.t > distance or (not c.certain and c.face.avoids(p, towards, distance))):
             continue
         passes = ball(0.0 if blocks else scenery.material(c.face.surface).transmit)
         if last and scenery.owners[last.face.surface] == scenery.owners[c.face.surface] and not c.t > last.t:

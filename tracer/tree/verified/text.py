@@ -1,6 +1,7 @@
 """A verified tree in words."""
 
 import math
+from decimal import ROUND_CEILING, Decimal, localcontext
 
 from tracer.tree.digits import number_text
 from tracer.tree.verified.enclosures import Range, VerifiedTree
@@ -27,17 +28,16 @@ def color_text(verified: VerifiedTree) -> str:
 
 
 def range_text(part: Range) -> str:
-    """A range with the digits that both ends share, and how far off they may be; or both ends."""
+    """A range with the digits that both ends share, and how far the ends are from these at most; or both ends."""
     low, high = part
-    if low == high:
-        return f"{low:.17g}"
     width, middle = high - low, 0.5 * (low + high)
     if width > 1e-3 * high:
         return f"{number_text(low)} to {number_text(high)}"
-    digits = max(1, min(17, math.floor(math.log10(middle) - math.log10(width))))
-    shown = f"{middle:.{digits}g}"
-    off = max(high - float(shown), float(shown) - low)
-    return f"{shown} ± {math.nextafter(off, math.inf):.1e}"
+    digits = max(1, min(17, math.floor(math.log10(middle) - math.log10(width)))) if width > 0.0 else 17
+    shown = repr(middle) if width == 0.0 else f"{middle:.{digits}g}"
+    with localcontext(prec=1100, rounding=ROUND_CEILING):  # so many digits that every difference of floats is exact
+        off = max(Decimal(high) - Decimal(shown), Decimal(shown) - Decimal(low))
+        return f"{shown} ± {off:.1e}" if off > 0 else shown
 
 
 def decisions_text(verified: VerifiedTree) -> str:
@@ -49,7 +49,7 @@ def decisions_text(verified: VerifiedTree) -> str:
 
 def decision_lines(verified: VerifiedTree) -> list[str]:
     """The number of decisions that are certified, the ways they were, and the others."""
-    surfaces = f"{verified.tested} surfaces were decided in ball arithmetic, {verified.boxed} excluded by their boxes"
+    surfaces = f"surfaces: {verified.tested} decided in ball arithmetic, {verified.boxed} excluded by their boxes"
     doubts = [f"ray {i}: {doubt}" for i, row in enumerate(verified.rows) for doubt in row.doubts]
     listed = "; ".join(doubts[:MOST]) + (f"; and {len(doubts) - MOST} more" if len(doubts) > MOST else "")
     return [f"{decisions_text(verified)}; {surfaces}", *([f"not certified: {listed}"] if doubts else [])]

@@ -112,6 +112,8 @@ class Verifier:
             doubt = "which surface it meets"
         elif owner != recorded["object"] or (owner < 0) != (recorded["end"] == BACKGROUND):
             doubt = "it meets another surface than recorded"
+        elif not self.is_recorded(i, found):
+            doubt = "it meets another face than recorded"
         elif n1 != recorded["n1"] or self.differs_behind(found, owner, recorded["n2"]):
             doubt = "it runs in another medium than recorded"
         else:
@@ -141,6 +143,16 @@ class Verifier:
             hit = hit._replace(normal=usable)
         self.light(i, hit, shown.normal, p, found.faces)
         self.scatter(i, hit, p, found.faces, found.before, found.behind)
+
+    def is_recorded(self, i: int, found: Interface) -> bool:
+        """Whether the face on which row i was recorded lies at the interface, or in one plane with it."""
+        s, details = int(self.tree.details.surface[i]), self.tree.details
+        if s < 0:
+            return found.shown is None
+        faces = self.scenery.faces(s) or ()
+        if len(faces) > 1:
+            faces = [face for face in faces if face.may_have_normal(details.face_normal[i].tolist())]
+        return any(face is own or face.is_same(own) for face in faces for own in found.faces)
 
     def doubt(self, i: int, doubt: str) -> None:
         """Count a decision of row i that is not certified, without which the row is not."""
