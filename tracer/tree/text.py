@@ -161,6 +161,8 @@ def _row(tree: TreeTable, i: int, stem: str, doubt: str) -> tuple[str, ...]:
 
 def end_reason(tree: TreeTable, i: int) -> str:
     """The reason why no ray follows ray i; for a shadow ray, whether it reaches its light."""
+    if tree.end(i) == "tolerance" and tree.missing_allowed is not None:
+        return "cut: within the light that may be missing"
     return "adds nothing: the surface faces away" if tree.faces_away(i) else END_REASONS[tree.end(i)]
 
 

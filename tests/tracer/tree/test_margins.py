@@ -99,7 +99,7 @@ def test_a_ray_at_the_outline(item: Object, aim: tuple[float, float], expected: 
 
 def test_a_ray_along_a_plane() -> None:
     tree = tracer.trace(world_of(plane((0, 0, 0), (0, 1, 0), MATTE, "floor")), ray=((0, 1, 0), (1, 0, 0)), depth=0)
-    assert decision(tree) == "floor, along which the ray runs"
+    assert decision(tree) == "whether the ray runs towards floor or away"
 
 
 def test_two_surfaces_at_one_distance() -> None:

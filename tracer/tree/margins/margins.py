@@ -20,7 +20,7 @@ from tracer.tree.margins.surfaces import Doubt, Ends, surface_margins
 DECISIONS = (
     "the edge of {}",
     "the silhouette of {}",
-    "{}, along which the ray runs",
+    "whether the ray runs towards {} or away",
     "which surface comes first, here or {}",
     "whether the ray starts before or behind {}",
     "total internal reflection or not",
@@ -111,7 +111,7 @@ def hit_margins(world: World, nodes: np.ndarray, details: Details, rows: np.ndar
     none = np.full(len(rows), -1)
     found = []
     thin = np.array([item.thin for item in scene.objects])
-    glass = np.flatnonzero(np.isfinite(of["radicand"]) & (of["n1"] != of["n2"]))
+    glass = np.flatnonzero(np.isfinite(of["radicand"]) & (of["n1"] > of["n2"]))  # else it is never total
     glass = glass[~thin[of["object"][glass]]]
     eta = of["n1"][glass] / of["n2"][glass]
     c1 = -(of["direction"][glass] * of["normal"][glass]).sum(axis=1)
