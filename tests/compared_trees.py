@@ -2,6 +2,8 @@
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 import tracer
 from tests.exact_tracer import Judge, Ray, camera_ray, given_ray
 from tracer.kernel.nodes import SHADOW
@@ -51,11 +53,19 @@ def compared(tree: tracer.RayTree, ray: Ray, i: int = 0) -> list[Pair]:
 
 
 def is_same_face(tree: tracer.RayTree, i: int, ray: Ray) -> bool:
-    """Whether a box or a cone was hit on the judge's face of it: its faces stand at an angle."""
-    if ray.normal is None or not isinstance(tree.scene.objects[ray.object].shape, Box | Cone):
+    """Whether a box or a cone was hit on the judge's face of it; of a cone, on its side or on an end disc."""
+    shape, recorded = tree.scene.objects[ray.object].shape, tree.nodes["normal"][i]
+    if ray.normal is None or not isinstance(shape, Box | Cone):
         return True
-    cosine = sum(float(a) * float(b) for a, b in zip(tree.nodes["normal"][i], ray.normal, strict=True))
-    return abs(cosine) > 0.99
+    exact = np.array([float(x) for x in ray.normal])
+    if isinstance(shape, Box):
+        return abs(float(recorded @ exact)) > 0.99
+    axis = np.subtract(shape.apex, shape.base) / np.linalg.norm(np.subtract(shape.apex, shape.base))
+    return is_parallel(recorded, axis) == is_parallel(exact, axis)
+
+
+def is_parallel(a: np.ndarray, b: np.ndarray) -> bool:
+    return bool(np.abs(np.cross(a, b)).max() < 1e-9)
 
 
 def shadow_agrees(tree: tracer.RayTree, k: int, ray: Ray) -> bool:

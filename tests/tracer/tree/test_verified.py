@@ -261,3 +261,16 @@ def test_a_printed_range_contains_its_ends() -> None:
         middle, most = Fraction(shown), Fraction(off or 0)
         assert middle - most <= Fraction(low) <= Fraction(high) <= middle + most
     assert range_text((0.5, 0.5)) == "0.5"
+
+
+@pytest.mark.parametrize("seed", [500540, 500844, 501375, 500885, 501740])
+def test_a_colour_or_a_light_that_was_recorded_otherwise_is_not_certified(seed: int) -> None:
+    """Rays at borders of checkers, and surfaces that face a light by no more than rounding."""
+    scene = (random_scene, stiff_scene)[seed % 2](seed)
+    world = tracer.prepare(scene)
+    ray = planted_ray(seed, scene, world)
+    assert ray is not None
+    tree = tracer.trace(world, ray=ray)
+    verified = tracer.verify(world, tree)
+    check(tree, verified)
+    assert any("recorded" in doubt for row in verified.rows for doubt in row.doubts)

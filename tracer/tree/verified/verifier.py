@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from tracer.formulas.camera import View
 from tracer.formulas.media import VACUUM, WORD
+from tracer.formulas.shading import surface_color as recorded_color
 from tracer.kernel.nodes import BACKGROUND, BLOCKED, FILTERED, LIT, SHADOW
 from tracer.scene import Camera
 from tracer.scene.cameras import placed_camera
@@ -180,7 +181,8 @@ class Verifier:
         scene = self.world.scene
         color, sure = surface_color(hit.item, outward, p)
         if hit.item.material.checker:
-            self.decide(i, "" if sure else "which colour of the checker")
+            doubt = "" if sure else "which colour of the checker"
+            self.decide(i, doubt or ("" if self.has_recorded(i, color) else "it has another colour than recorded"))
         ambient, strength = balls(scene.tracing.ambient), ball(hit.item.material.ambient)
         total = tuple(strength * ambient[k] * color[k] for k in range(3))
         recorded = {int(self.tree.nodes["light"][k]): k for k in self.children(i, True)}
@@ -192,12 +194,22 @@ class Verifier:
             if not doubt and share.passage is not None:
                 end = self.tree.nodes["end"][k]
                 doubt = "" if end == expected_end(share.passage) else "it ends otherwise than recorded"
+            if not doubt and hit.item.material.is_lit and self.tree.faces_away(k) != (share.passage is None):
+                doubt = "it faces the light or not, otherwise than recorded"
             shadow = self.rows[k]
             passes = between(share.passage.low, share.passage.high) if share.passage else ball(0.0)
             shadow.certified = self.decide(k, doubt) and self.rows[i].certified
             shadow.weight = bounds(self.states[i].weight * passes)
             shadow.radiance = (bounds(share.rgb[0]), bounds(share.rgb[1]), bounds(share.rgb[2]))
         self.own[i] = (total[0], total[1], total[2])
+
+    def has_recorded(self, i: int, color: BallVector) -> bool:
+        """Whether row i was recorded with this colour of its checker."""
+        arrays, row = self.world.arrays, self.tree.nodes[i]
+        this = arrays.objects[int(row["object"])]
+        x, y, z = row["point"].tolist()
+        recorded = recorded_color(arrays.materials[this.material], this, (x, y, z))
+        return all(low <= c <= high for c, (low, high) in zip(recorded, map(bounds, color), strict=True))
 
     def scatter(self, i: int, hit: Hit, p: BallVector, faces: tuple[Face, ...], before: Solids, behind: Solids) -> None:
         """Hand the recorded children of row i their rays."""
