@@ -267,7 +267,8 @@ def normal_derivative(world: ShapeArrays, surface: SurfaceRow, p: Vector, v: Vec
     height, across = split_along(axis, subtract(p, vector(surface.a)))
     size = length(across)
     if surface.count == CLOSED:
-        from_end = min(abs(height), abs(height - length(vector(surface.normal))))
+        from_narrow = abs(height) if surface.r > 0.0 else math.inf  # a tip has no disc
+        from_end = min(from_narrow, abs(height - length(vector(surface.normal))))
         if from_end < abs(surface.c[0] * (size - surface.r) - surface.c[1] * height):
             return (0.0, 0.0, 0.0)
     if size == 0.0:

@@ -148,3 +148,16 @@ def test_bounds_are_tight() -> None:
         # Between two of 4000 points a circle rises by (pi/4000)^2/2 of its radius.
         gap = 4e-7 * max(shape.base_radius, shape.apex_radius) + 8 * U * reach
         assert (rims.min(axis=0) <= low + gap).all() and (rims.max(axis=0) >= high - gap).all()
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_the_normal_at_a_tip_is_not_known(closed: bool) -> None:
+    """No disc ends a cone there, also if it is closed: beside the tip, the normal turns the faster the nearer it is."""
+    world = world_of(Object(Cone((0.0, 0.0, 0.0), 1.0, (0.0, 1.0, 0.0), 0.0, closed), MIRROR, "cone")).arrays
+    for distance in (1e-3, 1e-12):
+        p, v = (distance, 1.0, 0.0), (0.0, 0.0, 1e-15)  # off the side by rounding
+        change = np.linalg.norm(formulas.normal_derivative(world, world.surfaces[0], p, v))
+        assert change == pytest.approx(1e-15 / distance / math.sqrt(2.0), rel=1e-3)
+    assert not np.isfinite(
+        formulas.normal_derivative(world, world.surfaces[0], (0.0, 1.0, 0.0), (0.0, 0.0, 1e-15))
+    ).any()
