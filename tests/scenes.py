@@ -11,6 +11,7 @@ from tracer.scene import Background, Camera, Image, Light, Material, Object, Sce
 from tracer.shapes.box import Box
 from tracer.shapes.cone import Cone
 from tracer.shapes.disc import Disc
+from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
@@ -104,3 +105,21 @@ def sheet(height: float, material: Material) -> Object:
     """A thin horizontal square sheet about the y axis."""
     corners = ((-9.0, height, -9.0), (-9.0, height, 9.0), (9.0, height, 9.0), (9.0, height, -9.0))
     return Object(Polygon(corners), material, "sheet", thin=True)
+
+
+def cube_mesh(low: np.ndarray, high: np.ndarray) -> Mesh:
+    """The mesh of a box, two triangles a side."""
+    places = [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
+    faces = [
+        (0, 1, 3),
+        (0, 3, 2),
+        (4, 6, 7),
+        (4, 7, 5),
+        (0, 4, 5),
+        (0, 5, 1),
+        (2, 3, 7),
+        (2, 7, 6),
+        (0, 2, 6),
+        (0, 6, 4),
+    ]
+    return Mesh(Geometry(np.array(places, float), np.array([*faces, (1, 5, 7), (1, 7, 3)])), "cube")

@@ -9,11 +9,12 @@ from urllib.request import url2pathname
 
 
 class MissingExtra(ImportError):
-    """A library of an extra is not installed. `str` of it is one line for the user."""
+    """A library of an extra is not installed."""
 
-    def __init__(self, what: str, extra: str) -> None:
-        """`what` needs it, like "a cluster needs"."""
-        super().__init__(f"{what} the extra raytree[{extra}]: {install_command(extra)}")
+
+def missing_extra(what: str, extra: str) -> str:
+    """One line for the user, about what needs the extra, like "a cluster needs"."""
+    return f"{what} the extra raytree[{extra}]: {install_command(extra)}"
 
 
 def install_command(extra: str) -> str:

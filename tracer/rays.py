@@ -83,8 +83,8 @@ def select_axis(along_x: bool, along_y: bool, numbers: Any) -> Any:
 
 
 @inlined
-def sheared(ray: Ray, point: Numbers) -> tuple[float, float]:
-    """Coordinates of a point (a row of three) in the sheared frame, in which the ray is at (0, 0)."""
+def sheared(ray: Ray, point: Numbers | Vector) -> tuple[float, float]:
+    """Coordinates of a point (three numbers) in the sheared frame, in which the ray is at (0, 0)."""
     along = point[ray.axis] - ray.permuted_origin[0]
     across, up = point[ray.across] - ray.permuted_origin[1], point[ray.up] - ray.permuted_origin[2]
     return (across - ray.shear[0] * along, up - ray.shear[1] * along)

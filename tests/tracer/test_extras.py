@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tracer.extras import MissingExtra, install_command
+from tracer.extras import install_command, missing_extra
 
 ROOT = Path(__file__).parents[2]
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
@@ -25,5 +25,5 @@ def test_the_command_for_an_extra(here: Path, extra: str, monkeypatch: pytest.Mo
 
 
 def test_a_missing_extra_names_itself_and_the_command() -> None:
-    said = str(MissingExtra("a cluster needs", "dask"))
+    said = missing_extra("a cluster needs", "dask")
     assert said == f"a cluster needs the extra raytree[dask]: {install_command('dask')}"

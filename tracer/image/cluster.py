@@ -18,7 +18,7 @@ from concurrent.futures import CancelledError, Future
 from typing import Any
 
 from tracer.compile.kernel_cache import machine, versions
-from tracer.extras import MissingExtra
+from tracer.extras import missing_extra
 from tracer.image.task import Mismatch, RemoteExecutor, Task, difference
 from tracer.image.warmup import warm_up as warm_up_kernels
 
@@ -102,7 +102,7 @@ def connect(
         from distributed import Client, KilledWorker
         from distributed.comm.core import CommClosedError
     except ImportError:
-        raise ClusterError(str(MissingExtra("a cluster needs", "dask"))) from None
+        raise ClusterError(missing_extra("a cluster needs", "dask")) from None
     say(f"connect to {address}")
     with contextlib.ExitStack() as stack:
         stack.enter_context(quiet())

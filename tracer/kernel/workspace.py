@@ -17,7 +17,7 @@ MAX_CROSSINGS = 32  # transparent surfaces on the way to a light, before the slo
 
 
 class Eye(NamedTuple):
-    """What a point lies in and on."""
+    """The surroundings of a point."""
 
     solids: np.ndarray  # the transparent solids around it, a bit mask of int64 words (`tracer.formulas.media`)
     surfaces: np.ndarray  # ids of the surfaces that it lies exactly on

@@ -66,7 +66,7 @@ class World:
         return scene_view(self.scene, self.extent, size)
 
     def eye(self, point: Vector) -> Eye:
-        """What a point lies in, and what it lies exactly on."""
+        """The solids around a point, and the surfaces that it lies exactly on."""
         if point not in self._eyes:
             if len(self._eyes) >= MAX_EYES:
                 self._eyes.clear()

@@ -252,18 +252,12 @@ def next_hit(world: ShapeArrays, surface: SurfaceRow, ray: Ray) -> float:
 
 
 @inlined
-def enters_at(surface: SurfaceRow, ray: Ray, t: float) -> bool:
-    """Whether the ray enters the box at distance t, at which it meets it."""
-    enter, leave = slab_interval(surface, ray)
-    if t == 0.0 or enter == leave:
-        enter, leave = interval(surface, ray)
-    return enter == t and not t == leave == 0.0
-
-
-@inlined
 def interaction(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t: float) -> tuple[Vector, Vector, Vector]:
     """The hit point, exactly on the face whose plane is crossed at t, and that face's normal twice."""
-    entering = ray.start != surface.coincident and enters_at(surface, ray, t)
+    entering = False
+    if ray.start != surface.coincident:
+        enter, leave = interval(surface, ray)
+        entering = enter == t and not t == leave == 0.0
     p = add(ray.origin, scale(t, ray.direction))
     for k in range(3):
         if ray.direction[k] != 0.0:

@@ -6,6 +6,7 @@ from tracer.compile.intrinsics import noinline
 from tracer.compile.jit import compiled, inlined
 from tracer.formulas.double_double import U
 from tracer.formulas.vector import Vector, add, dot, scale, subtract, vector
+from tracer.rays import Ray, sheared
 from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
 
 # Bound on the rounding error of n.(a - o), relative to |a| + |o| in the 1-norm: three products, three differences and
@@ -60,6 +61,19 @@ def is_near_edge(ax: float, ay: float, bx: float, by: float, slack: float) -> bo
     size = math.sqrt(ex * ex + ey * ey)
     along = -(ax * ex + ay * ey)
     return abs(ax * by - ay * bx) <= slack * size and -slack * size <= along <= size * (size + slack)
+
+
+@compiled
+def is_beside_outline(world: ShapeArrays, surface: SurfaceRow, ray: Ray, slack: float) -> bool:
+    """Whether the ray passes an edge of a face no farther than `slack`."""
+    noinline()
+    beside = False
+    ax, ay = sheared(ray, corner(world, surface, surface.count - 1))
+    for k in range(surface.count):
+        bx, by = sheared(ray, corner(world, surface, k))
+        beside = beside or is_near_edge(ax, ay, bx, by, slack)
+        ax, ay = bx, by
+    return beside
 
 
 @compiled

@@ -13,13 +13,12 @@ from typing import ClassVar
 import numpy as np
 
 from tracer import fields
-from tracer.compile.intrinsics import noinline
-from tracer.compile.jit import compiled, inlined
+from tracer.compile.jit import inlined
 from tracer.formulas.exact import Exact, exact, is_in_outline
 from tracer.formulas.vector import Vector, as_floats, unit
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.outline import is_near_edge
+from tracer.shapes.outline import is_beside_outline
 from tracer.shapes.planar import may_cross, newell_normal, outline_slack, pack_normal, unit_normal
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import SURFACE, ShapeArrays, SurfaceRow
@@ -123,19 +122,6 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t
         if slack == 0.0 or not is_beside_outline(world, surface, ray, slack):
             return math.inf
     return world.formulas.plane_distance(world, surface, ray, t_min, t_max, exact)
-
-
-@compiled
-def is_beside_outline(world: ShapeArrays, surface: SurfaceRow, ray: Ray, slack: float) -> bool:
-    """Whether the ray passes an edge of the outline no farther than `slack`."""
-    noinline()
-    beside = False
-    x0, y0 = sheared(ray, world.corners[surface.first + surface.count - 1])
-    for k in range(surface.count):
-        x1, y1 = sheared(ray, world.corners[surface.first + k])
-        beside = beside or is_near_edge(x0, y0, x1, y1, slack)
-        x0, y0 = x1, y1
-    return beside
 
 
 next_hit = planar.no_next_hit

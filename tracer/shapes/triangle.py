@@ -33,7 +33,7 @@ from tracer.formulas.vector import (
 )
 from tracer.rays import Ray, sheared
 from tracer.shapes import planar
-from tracer.shapes.outline import PLANE_ERROR, is_near_edge
+from tracer.shapes.outline import PLANE_ERROR, is_beside_outline
 from tracer.shapes.planar import may_cross, outline_slack, pack_normal, unit_normal
 from tracer.shapes.shape import Shape
 from tracer.shapes.surface_row import BlockRow, ShapeArrays, SurfaceRow
@@ -98,12 +98,7 @@ def intersect(world: ShapeArrays, surface: SurfaceRow, ray: Ray, t_min: float, t
     w = bx * ay - by * ax
     if (u < 0.0 or v < 0.0 or w < 0.0) and (u > 0.0 or v > 0.0 or w > 0.0):
         slack = outline_slack(world, surface, ray)
-        beside = slack > 0.0 and (
-            is_near_edge(ax, ay, bx, by, slack)
-            or is_near_edge(bx, by, cx, cy, slack)
-            or is_near_edge(cx, cy, ax, ay, slack)
-        )
-        if not beside:
+        if slack == 0.0 or not is_beside_outline(world, surface, ray, slack):
             return math.inf
     return world.formulas.plane_distance(world, surface, ray, t_min, t_max, exact)
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tracer.compile.kernel_cache import versions
-from tracer.extras import MissingExtra
+from tracer.extras import missing_extra
 from tracer.image.render import processors
 from viewer.base.files import Unusable, check_folder, collect, write_atomically
 from viewer.base.options import words
@@ -79,4 +79,4 @@ def target(output: str) -> Path:
 
 def check_libraries() -> None:
     if importlib.util.find_spec("matplotlib") is None:
-        raise Unusable(f"raytree report: {MissingExtra('plots need', 'report')}")
+        raise Unusable(f"raytree report: {missing_extra('plots need', 'report')}")

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import GLASS, MATTE, world_of
-from tests.tracer.kernel.test_touching_solids import cube_mesh
+from tests.scenes import GLASS, MATTE, cube_mesh, world_of
 from tracer.scene import Camera, Object, Shape
 from tracer.shapes.box import Box
 from tracer.shapes.cone import Cone

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import MIRROR, ball, box, ends, kinds, plane, polygon, world_of
+from tests.scenes import MIRROR, ball, box, cube_mesh, ends, kinds, plane, polygon, world_of
 from tracer.formulas.vector import as_floats
 from tracer.scene import Material, Object
 from tracer.shapes.box import Box
-from tracer.shapes.mesh import Geometry, Mesh
 
 ROOMS = [((-1, -1, -1), (1, 1, 1)), ((-3, -0.7, -0.1), (2.3, 1.9, 5.7)), ((-1e3, -1e-3, -2), (1e3, 1e-3, 7))]
 
@@ -32,23 +31,6 @@ def test_no_ray_leaves_a_room_of_mirrors_through_an_edge_or_a_corner(
         eye = 0.5 * (bottom + top) + (top - bottom) * random.uniform(-0.3, 0.3, 3) * (k % 2)
         tree = tracer.trace(world, ray=(tuple(eye), tuple(target - eye)), depth=20)
         assert "background" not in ends(tree)
-
-
-def cube_mesh(low: np.ndarray, high: np.ndarray) -> Mesh:
-    places = [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
-    faces = [
-        (0, 1, 3),
-        (0, 3, 2),
-        (4, 6, 7),
-        (4, 7, 5),
-        (0, 4, 5),
-        (0, 5, 1),
-        (2, 3, 7),
-        (2, 7, 6),
-        (0, 2, 6),
-        (0, 6, 4),
-    ]
-    return Mesh(Geometry(np.array(places, float), np.array([*faces, (1, 5, 7), (1, 7, 3)])), "cube")
 
 
 @pytest.mark.parametrize("shape", ["boxes", "meshes", "both"])

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import MATTE, ball, world_of
-from tests.tracer.kernel.test_touching_solids import cube_mesh
+from tests.scenes import MATTE, ball, cube_mesh, world_of
 from tracer.scene import Object, Shape
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.polygon import Polygon

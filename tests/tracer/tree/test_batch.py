@@ -7,8 +7,7 @@ import pytest
 
 import tracer
 from tests.conftest import LESSONS
-from tests.scenes import GLASS, MIRROR, ball, box, world_of
-from tests.tracer.kernel.test_touching_solids import cube_mesh
+from tests.scenes import GLASS, MIRROR, ball, box, cube_mesh, world_of
 from tests.tracer.shapes.test_closed_cones import place_on, random_cone
 from tracer.kernel.nodes import BACKGROUND
 from tracer.scene import Object

@@ -13,8 +13,7 @@ import tracer
 from tests.compared_trees import compared, judged_pixel, judged_ray
 from tests.planted_rays import planted_ray
 from tests.random_scenes import random_scene, stiff_scene
-from tests.scenes import GLASS, MATTE, MIRROR, OPEN, ball, box, plane, polygon, world_of
-from tests.tracer.kernel.test_touching_solids import cube_mesh
+from tests.scenes import GLASS, MATTE, MIRROR, OPEN, ball, box, cube_mesh, plane, polygon, world_of
 from tracer.extras import MissingExtra
 from tracer.formulas.double_double import U
 from tracer.kernel.nodes import SHADOW

@@ -9,12 +9,12 @@ from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
-from tracer.extras import MissingExtra
+from tracer.extras import MissingExtra, missing_extra
+from tracer.tree.margins.surfaces import PARALLEL_NORMALS
 
 Ball = Any  # flint.arb
 BallVector = tuple[Ball, Ball, Ball]
 
-PARALLEL = 1e-9  # sine of the angle between normals that may be equal but for rounding
 PRECISIONS = (128, 512)  # bits; the next is tried where decisions are left open
 
 
@@ -23,7 +23,7 @@ def flint() -> Any:
     try:
         import flint
     except ImportError as error:
-        raise MissingExtra("verified trees need", "verify") from error
+        raise MissingExtra(missing_extra("verified trees need", "verify")) from error
     return flint
 
 
@@ -75,7 +75,7 @@ def unit(a: BallVector) -> BallVector:
 
 def is_parallel(a: BallVector, n: Sequence[float]) -> bool:
     """Whether two unit vectors, the second of which has rounding errors, are parallel or opposite."""
-    return all(max(map(abs, bounds(x))) < PARALLEL for x in cross(a, balls(n)))
+    return all(max(map(abs, bounds(x))) < PARALLEL_NORMALS for x in cross(a, balls(n)))
 
 
 def sign(x: Ball) -> int | None:

@@ -33,8 +33,10 @@ def range_text(part: Range) -> str:
     width, middle = high - low, 0.5 * (low + high)
     if width > 1e-3 * high:
         return f"{number_text(low)} to {number_text(high)}"
-    digits = max(1, min(17, math.floor(math.log10(middle) - math.log10(width)))) if width > 0.0 else 17
-    shown = repr(middle) if width == 0.0 else f"{middle:.{digits}g}"
+    shown = repr(middle)
+    if width > 0.0:
+        digits = max(1, min(17, math.floor(math.log10(middle) - math.log10(width))))
+        shown = f"{middle:.{digits}g}"
     with localcontext(prec=1100, rounding=ROUND_CEILING):  # so many digits that every difference of floats is exact
         off = max(Decimal(high) - Decimal(shown), Decimal(shown) - Decimal(low))
         return f"{shown} ± {off:.1e}" if off > 0 else shown

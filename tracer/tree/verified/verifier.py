@@ -147,10 +147,10 @@ class Verifier:
 
     def is_recorded(self, i: int, found: Interface) -> bool:
         """Whether the face on which row i was recorded lies at the interface, or in one plane with it."""
-        s, details = int(self.tree.details.surface[i]), self.tree.details
-        if s < 0:
-            return found.shown is None
-        faces = self.scenery.faces(s) or ()
+        if found.shown is None:
+            return True
+        details = self.tree.details
+        faces = self.scenery.faces(int(details.surface[i])) or ()
         if len(faces) > 1:
             faces = [face for face in faces if face.may_have_normal(details.face_normal[i].tolist())]
         return any(face is own or face.is_same(own) for face in faces for own in found.faces)
@@ -181,8 +181,11 @@ class Verifier:
         scene = self.world.scene
         color, sure = surface_color(hit.item, outward, p)
         if hit.item.material.checker:
-            doubt = "" if sure else "which colour of the checker"
-            self.decide(i, doubt or ("" if self.has_recorded(i, color) else "it has another colour than recorded"))
+            if not sure:
+                doubt = "which colour of the checker"
+            else:
+                doubt = "" if self.has_recorded(i, color) else "it has another colour than recorded"
+            self.decide(i, doubt)
         ambient, strength = balls(scene.tracing.ambient), ball(hit.item.material.ambient)
         total = tuple(strength * ambient[k] * color[k] for k in range(3))
         recorded = {int(self.tree.nodes["light"][k]): k for k in self.children(i, True)}

@@ -10,7 +10,7 @@ import zipfile
 from collections.abc import Sequence
 from typing import Any
 
-from tracer.extras import MissingExtra
+from tracer.extras import missing_extra
 from viewer.base.files import Unusable
 from viewer.base.theme import Arrow, Color, rgb_bytes
 from viewer.figures.font import ANCHORS, FAMILY, text_width
@@ -29,7 +29,7 @@ def write_pptx(figures: Sequence[Figure]) -> bytes:
         from pptx import Presentation
         from pptx.util import Emu
     except ImportError:
-        raise Unusable(f"raytree export: {MissingExtra('PPTX needs', 'pptx')}") from None
+        raise Unusable(f"raytree export: {missing_extra('PPTX needs', 'pptx')}") from None
     deck = Presentation()
     deck.slide_width, deck.slide_height = (Emu(_emu(size)) for size in (figures[0].width, figures[0].height))
     about = deck.core_properties
