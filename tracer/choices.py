@@ -8,3 +8,5 @@ FILTER, BLOCK = range(2)
 
 SAMPLERS = ("sobol", "random", "jittered")  # placement of the samples in a pixel
 SOBOL, RANDOM, JITTERED = range(3)
+
+SYMBOLS = {"camera": "E", "reflection": "R", "refraction": "T", "tir": "TIR", "shadow": "L"}  # kinds of rays in labels

@@ -41,6 +41,7 @@ class Driver:
             self.session.update()
             self.app.frame()
             assert self.app.surface.ctx.error == "GL_NO_ERROR"
+            assert not self.session.guard.caught
 
     def move(self, x: float, y: float) -> None:
         imgui.get_io().add_mouse_pos_event(x, y)
@@ -83,6 +84,12 @@ class Driver:
         for key in reversed(keys):
             io.add_key_event(key, False)
         self.frames(2)
+
+    def unpick(self) -> None:
+        """As in a scene that was opened without a pixel."""
+        session = self.session
+        session.pixel = session.tree = session.full_tree = None
+        self.frames()
 
     def aims_at(self, x: int, y: int) -> bool:
         """True if the picked pixel is within a mouse step of (x, y)."""

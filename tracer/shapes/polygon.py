@@ -87,12 +87,13 @@ class Polygon(Shape):
 
         corners = self.outline()
         n = unit_normal(corners)
-        u = corners[1] - corners[0]
-        u = u - (u @ n) * n
+        u = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
         u /= np.linalg.norm(u)
         plane = np.stack([(corners - corners[0]) @ u, (corners - corners[0]) @ np.cross(n, u)], axis=1)
         plane /= np.abs(plane).max()  # scaled, since float64 coordinates may be out of the library's range
         cut = mapbox_earcut.triangulate_float64(plane, np.array([len(plane)], np.uint32)).reshape(-1, 3)
+        if not len(cut):  # the polygon is so narrow that rounding has left no area
+            cut = np.array([(0, k, k + 1) for k in range(1, len(corners) - 1)])
         found = corners[cut]
         turned = (np.cross(found[:, 1] - found[:, 0], found[:, 2] - found[:, 0]) @ n) < 0.0
         found[turned] = found[turned][:, ::-1]

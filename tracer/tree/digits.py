@@ -8,7 +8,7 @@ import numpy as np
 
 def significant_digits(size: float, error: float) -> int:
     """The number of correct digits of a number with this size and this error, 0 to 17; 0 for an infinite number."""
-    if not error > 0.0:
+    if error <= 0.0:
         return 17
     if not error < size < math.inf:
         return 0
@@ -42,7 +42,7 @@ def degrees_text(radians: float, error: float = 0.0) -> str:
 
 def color_decimals(error: float) -> int:
     """The number of correct decimals of a colour, up to 4; -1 for none."""
-    if not error > 0.0:
+    if error <= 0.0:
         return 4
     return min(4, math.floor(-math.log10(error))) if error < 1.0 else -1
 

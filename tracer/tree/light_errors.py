@@ -79,7 +79,7 @@ def factor_error(
         angle = min(max(math.atan2(s1, c1) + side * wrong, 0.0), 0.5 * math.pi)
         beside, _ = shares(math.cos(angle), math.sin(angle), n1, n2)
         change = max(change, abs(beside - here))
-    return (material.reflect + material.transmit) * (change + wrong * wrong) + TERM * U * factor
+    return (material.reflect + material.transmit) * min(change + wrong * wrong, 1.0) + TERM * U * factor
 
 
 @compiled
@@ -96,7 +96,7 @@ def share_error(world: Arrays, table: Rows[NodeRow], told: Rows[PublicRow], i: i
     n_l = dot(n, to_light)
     r_v = dot(subtract(scale(2.0 * n_l, n), to_light), negate(v))
     color = max_component(surface_color(material, this, vector(above.point)))
-    off = material.diffuse * color * (bends[parent] + told[i].turn)
+    off = material.diffuse * color * min(bends[parent] + told[i].turn, 1.0)  # N.L, where it counts, is from 0 to 1
     if material.specular > 0.0:
         wrong = told[i].turn + 2.0 * bends[parent] + told[parent].turn + TERM * U
         high, low = min(r_v + wrong, 1.0), min(max(r_v - wrong, 0.0), 1.0)

@@ -72,6 +72,8 @@ class RayTree(TreeTable):
                 case _:
                     node[field] = _json_value(row[field])
         node["path"] = self.path(i)
+        node["label"] = self.label(i)
+        node["light_path"] = self.light_path(i)
         margin = float(self.margins.margin[i])
         node["margin"] = margin if margin < math.inf else None
         node["decision"] = self.decision(self.margins, i) or None

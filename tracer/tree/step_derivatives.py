@@ -125,4 +125,5 @@ def normal_error(world: Arrays, row: NodeRow, error: float) -> float:
         along = (1.0 if k == 0 else 0.0, 1.0 if k == 1 else 0.0, 1.0 if k == 2 else 0.0)
         change = normal_derivative(world, surface, point, along)
         square += dot(change, change)
-    return math.sqrt(square) * error + NORMAL * U + mesh_normal_rounding(world, row.surface, point)
+    bend = math.sqrt(square) * error if square > 0.0 else 0.0  # of a plane 0, even if the error is infinite
+    return bend + NORMAL * U + mesh_normal_rounding(world, row.surface, point)

@@ -13,6 +13,7 @@ from tracer.kernel.nodes import BLOCKED, ENDS, KINDS, NODES, SHADOW, SURFACE
 from tracer.kernel.world import World
 from tracer.scene import Scene
 from tracer.scene.radiance_bound import RadianceBound, radiance_bound
+from tracer.tree import names
 from tracer.tree.digits import significant_digits
 from tracer.tree.ledger import Ledger, make_ledger
 from tracer.tree.margins.margins import DECISIONS, Details, Margins, faces_away, find_margins
@@ -183,6 +184,41 @@ class TreeTable:
         return list(self.doubtful(range(len(self))).items())
 
     def path(self, i: int) -> str:
+        """The path of ray i: unique, and the same for every depth and number of lights (`tracer.tree.names`)."""
+        return names.path(self.nodes, self._lights, i)
+
+    def label(self, i: int) -> str:
+        """The label of ray i: its kind and number, for eyes (`tracer.tree.names`)."""
+        return names.label(self.nodes, self._numbers, self._lights, i)
+
+    def light_label(self, i: int) -> str:
+        """The end of the label of shadow ray i: its light. Enough where the ray that it starts from is shown."""
+        return names.light_part(self._lights, self.nodes[i])
+
+    def find(self, path: str) -> int | None:
+        """The row of the ray with this path, or None."""
+        rays, dot, light = path.partition(".")
+        steps = list("" if rays == self.path(0) else rays) + [light] * bool(dot)
+        row: int | None = 0 if rays else None
+        for step in steps:
+            row = next((k for k in self.children[row or 0] if self._step(k) == step), None)
+            if row is None:
+                break
+        return row
+
+    def _step(self, i: int) -> str:
+        """The last part of the path of ray i."""
+        return self.light_label(i) if self.nodes["kind"][i] == SHADOW else names.LETTERS[self.kind(i)]
+
+    @cached_property
+    def _lights(self) -> list[str]:
+        return names.light_names(self.scene)
+
+    @cached_property
+    def _numbers(self) -> np.ndarray:
+        return names.numbers(self.nodes)
+
+    def light_path(self, i: int) -> str:
         """The light path of ray i in Heckbert's notation (SIGGRAPH 1990), eye first.
 
         E is the eye, S a mirror or glass on the way, D a surface whose own colour is seen, L a light that is reached.

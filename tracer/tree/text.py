@@ -36,7 +36,7 @@ def tree_text(tree: TreeTable, most: int | None = None, verified: VerifiedTree |
     """
     rows: list[tuple[str, ...]] = [HEADINGS]
     shown = heaviest_rows(tree, len(tree) if most is None else most)
-    head = _head(tree) + ([] if verified is None else verified_text(verified))
+    head = _head(tree) + ([] if verified is None else verified_text(verified, tree.label))
     if len(shown) < len(tree):
         head.append(f"the heaviest {len(shown)} of {len(tree)} rays are shown")
     stems = _stems(tree, shown)
@@ -86,9 +86,8 @@ def _head(tree: TreeTable) -> list[str]:
     head.append(f"colour {rgb_text(tree.radiance, tree.radiance_error)} (linear r g b); {cut_summary(tree)}")
     lost = [i for i in range(len(tree)) if tree.object_name(i) and tree.nodes["error"][i] > 0.0 and tree.digits(i) == 0]
     if lost:
-        head.append(
-            f"from ray {lost[0]} on, rounding has left no correct digit of the hit points: the rays below may be wrong"
-        )
+        first = f"from {tree.label(lost[0])} on, rounding has left no correct digit of the hit points"
+        head.append(f"{first}: the rays below may be wrong")
     return head
 
 
@@ -145,10 +144,9 @@ def _row(tree: TreeTable, i: int, stem: str, doubt: str) -> tuple[str, ...]:
     kind = tree.kind(i)
     met = tree.object_name(i) or ""
     shadow = row["kind"] == SHADOW
-    if shadow:
-        kind = f"shadow to {tree.light_name(i)}"
+    name = f"{tree.light_label(i)} shadow" if shadow else f"{tree.label(i)} {kind}"
     return (
-        f"{stem}{i} {kind}",
+        f"{stem}{name}",
         met or ("background" if tree.end(i) == "background" else ""),
         number_text(row["t"], row["error"]),
         "" if shadow else _pair(number_text(row["n1"]), number_text(row["n2"])),

@@ -18,6 +18,15 @@ class Changed:
         self._key = key
         return True
 
+    def run(self, key: object, act: Callable[[], object]) -> bool:
+        """Run `act` if the key has changed, and return whether it has. If `act` fails, the key counts as not seen."""
+        if key == self._key:
+            return False
+        self._key = self
+        act()
+        self._key = key
+        return True
+
 
 class Cached(Generic[T]):
     """One value with its key."""
@@ -29,10 +38,12 @@ class Cached(Generic[T]):
 
     def get(self, key: object, make: Callable[[], T]) -> T:
         """The value of this key, made by `make` if the key before was another."""
-        if self._changed(key):
-            self.release()
-            self._value.append(make())
+        self._changed.run(key, lambda: self._replace(make))
         return self._value[0]
+
+    def _replace(self, make: Callable[[], T]) -> None:
+        self.release()
+        self._value.append(make())
 
     def release(self) -> None:
         """Release the value, if there is one."""

@@ -9,6 +9,8 @@ to the background (WCAG asks for 3).
 from dataclasses import dataclass
 from enum import Enum
 
+from tracer.choices import SYMBOLS
+
 Color = tuple[float, float, float, float]  # sRGB and opacity, each 0..1
 
 
@@ -42,7 +44,7 @@ class RayStyle:
     """The style of one kind of ray, in the window and in figures."""
 
     label: str  # in the legend
-    letter: str  # at the ray: R, T, L as in Whitted's figure
+    letter: str  # at the ray
     dark: str  # colour on a dark background
     light: str  # colour on a light background
     width: float  # pixels
@@ -53,11 +55,11 @@ class RayStyle:
 # The camera ray is thickest, so that the eye finds the start first. Shadow rays are dashed, since no light is followed
 # along them. A blocked one has shorter dashes and ends in a cross.
 STYLES = {
-    "camera": RayStyle("camera ray", "E", "#FFFFFF", "#000000", 3.0, (0, 0), Arrow.FILLED),
-    "reflection": RayStyle("reflected", "R", "#56B4E9", "#0072B2", 2.4, (0, 0), Arrow.OPEN),
-    "refraction": RayStyle("refracted", "T", "#E69F00", "#B35C00", 2.4, (0, 0), Arrow.FILLED),
-    "tir": RayStyle("total internal reflection", "TIR", "#56B4E9", "#0072B2", 2.4, (14, 3), Arrow.DOUBLE),
-    "shadow": RayStyle("shadow ray", "L", "#B0B0B0", "#5A5A5A", 1.8, (9, 6), Arrow.NONE),
+    "camera": RayStyle("camera ray", SYMBOLS["camera"], "#FFFFFF", "#000000", 3.0, (0, 0), Arrow.FILLED),
+    "reflection": RayStyle("reflected", SYMBOLS["reflection"], "#56B4E9", "#0072B2", 2.4, (0, 0), Arrow.OPEN),
+    "refraction": RayStyle("refracted", SYMBOLS["refraction"], "#E69F00", "#B35C00", 2.4, (0, 0), Arrow.FILLED),
+    "tir": RayStyle("total internal reflection", SYMBOLS["tir"], "#56B4E9", "#0072B2", 2.4, (14, 3), Arrow.DOUBLE),
+    "shadow": RayStyle("shadow ray", SYMBOLS["shadow"], "#B0B0B0", "#5A5A5A", 1.8, (9, 6), Arrow.NONE),
 }
 BLOCKED_DASH = (4.0, 5.0)
 FILTERED_DASH = (12.0, 4.0)

@@ -67,10 +67,10 @@ def _ray(text: str) -> tuple[float, ...]:
 
 
 def _ray_name(text: str) -> str:
-    if re.fullmatch(r"L\d+", text, re.IGNORECASE):
-        raise Unreadable(f"a ray that meets a surface; {text} goes to a light: name its parent")
-    if not re.fullmatch(r"(?:R|T|TIR)?\d+|E", text, re.IGNORECASE):
-        raise Unreadable(f'a ray as in the tree like 4, T4 or E, got "{text}"')
+    if re.match(r"L|.*\.L\(", text, re.IGNORECASE):
+        raise Unreadable(f"a ray that meets a surface; {text} goes to a light: name the ray that it starts from")
+    if not re.fullmatch(r"E|(?:R|T|TIR)\d+|[RTI]+", text, re.IGNORECASE):
+        raise Unreadable(f'the path or the label of a ray, like TR, R3 or E, got "{text}"')
     return text
 
 
@@ -107,7 +107,7 @@ FILE = Value(Path, metavar="FILE")
 PIXEL = Value(lambda text: _two(text, ","), lambda pixel: f"{pixel[0]},{pixel[1]}", "X,Y")
 SIZE = Value(_size, lambda size: f"{size[0]}x{size[1]}", "WxH")
 RAY = Value(_ray, _show_numbers, "ox,oy,oz,dx,dy,dz")  # origin and direction
-RAY_NAME = Value(_ray_name, metavar="T4")
+RAY_NAME = Value(_ray_name, metavar="PATH")
 ORBIT = Value(_orbit, _show_numbers, "A,E,D[,X,Y,Z]")  # azimuth, elevation, distance, target
 DEPTHS = Value(_depths, _show_depths, "D|A..B")
 

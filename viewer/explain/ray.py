@@ -12,7 +12,6 @@ from tracer.kernel.nodes import SHADOW
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from tracer.tree.text import END_REASONS
-from viewer.base.theme import STYLES
 from viewer.base.wording import (
     format_angle,
     format_color,
@@ -23,8 +22,14 @@ from viewer.base.wording import (
     format_weight,
 )
 from viewer.explain.lighting import local_light, one_light
-from viewer.explain.scattering import brought_error, direction_error, local_error, scattering_sections
-from viewer.explain.sections import Section
+from viewer.explain.scattering import (
+    brought_error,
+    direction_error,
+    local_error,
+    origin_sections,
+    scattering_sections,
+)
+from viewer.explain.sections import Part, Section
 
 KIND_NAMES = {
     "camera": "Camera ray",
@@ -38,16 +43,16 @@ KIND_NAMES = {
 def headline(tree: RayTree, i: int) -> tuple[str, str]:
     """(name of the ray, its result), in a few words."""
     row = tree.nodes[i]
-    name = KIND_NAMES[tree.kind(i)]
+    name = f"{KIND_NAMES[tree.kind(i)]} {tree.label(i)}"
     if row["kind"] == SHADOW:
         from_object = tree.object_name(int(row["parent"]))
-        return f"{name} {i}", f"from {from_object} to {tree.light_name(i)}: {_shadow_fate(tree, i)}"
+        return name, f"from {from_object} to {tree.light_name(i)}: {_shadow_fate(tree, i)}"
     met = tree.object_name(i)
     fate = f"meets {met}" if met else "meets nothing"
     if met and tree.digits(i) == 0:
         fate = f"{fate}, but rounding has left no correct digit of the point"
     why = END_REASONS[tree.end(i)]
-    return f"{name} {i}", f"{fate}; {why}" if why else fate
+    return name, f"{fate}; {why}" if why else fate
 
 
 def _shadow_fate(tree: RayTree, i: int) -> str:
@@ -65,7 +70,7 @@ def ray_numbers(tree: RayTree, i: int) -> Section:
     section = Section("Numbers")
     shadow = row["kind"] == SHADOW
     parent = int(row["parent"])
-    section.add("kind", KIND_NAMES[tree.kind(i)].lower() + (f", sent by ray {parent}" if parent >= 0 else ""))
+    section.add("kind", KIND_NAMES[tree.kind(i)].lower() + (f", sent by {tree.label(parent)}" if parent >= 0 else ""))
     section.add("depth", str(int(row["depth"])))
     section.add("object", tree.object_name(i) or "none")
     error, turn = float(row["error"]), direction_error(tree, i)
@@ -85,6 +90,7 @@ def ray_numbers(tree: RayTree, i: int) -> Section:
     section.add("radiance", format_color(row["radiance"], row["radiance_error"]))
     section.add("ends", END_REASONS[tree.end(i)] or "no: it has children")
     section.add("path", tree.path(i))
+    section.add("light path (Heckbert)", tree.light_path(i))
     return section
 
 
@@ -99,15 +105,25 @@ def margin_text(tree: RayTree, i: int) -> str:
     return f"{words}: {format_number(margin, 2)} times the rounding error away"
 
 
-def explain_ray(tree: RayTree, world: World, i: int) -> list[Section]:
-    """All sections about row i, the most important first."""
+def explain_ray(tree: RayTree, world: World, i: int) -> list[Part]:
+    """All about row i: how the ray came to be, what it meets and sends out, its numbers."""
     row = tree.nodes[i]
+    label, parent, met = tree.label(i), int(row["parent"]), tree.object_name(i)
+    numbers = Part("Numbers", [ray_numbers(tree, i)])
     if row["kind"] == SHADOW:
-        parent = int(row["parent"])
-        return [one_light(tree, world, parent, int(row["light"])), ray_numbers(tree, i)]
-    if math.isnan(row["t"]):
-        return [_sum(tree, i), ray_numbers(tree, i)]
-    return [_sum(tree, i), *scattering_sections(tree, i), local_light(tree, world, i), ray_numbers(tree, i)]
+        title = f"{tree.label(parent)} meets {tree.object_name(parent)}: its light"
+        return [Part(title, [one_light(tree, world, parent, int(row["light"]))]), numbers]
+    begun = []
+    if parent >= 0:
+        begun = [
+            Part(
+                f"{label} starts where {tree.label(parent)} meets {tree.object_name(parent)}", origin_sections(tree, i)
+            )
+        ]
+    if not met:
+        return [*begun, Part(f"{label} meets nothing", [_sum(tree, i)]), numbers]
+    ended = Part(f"{label} meets {met}", [_sum(tree, i), *scattering_sections(tree, i), local_light(tree, world, i)])
+    return [*begun, ended, numbers]
 
 
 def _sum(tree: RayTree, i: int) -> Section:
@@ -123,7 +139,7 @@ def _sum(tree: RayTree, i: int) -> Section:
         if below["kind"] != SHADOW:
             factor = format_weight(below["factor"], below["factor_error"])
             section.add(
-                f"+ {factor} × ray {child} ({STYLES[tree.kind(child)].letter})",
+                f"+ {factor} × {tree.label(child)}",
                 format_color(below["factor"] * below["radiance"], brought_error(below)),
             )
     section.add("=", format_color(row["radiance"], row["radiance_error"]))

@@ -12,7 +12,6 @@ from tracer.formulas import optics
 from tracer.formulas.double_double import U
 from tracer.formulas.vector import vector
 from tracer.kernel.nodes import SHADOW
-from tracer.scene import Material
 from tracer.tree.raytree import RayTree
 from viewer.base.wording import format_angle, format_number, format_point
 from viewer.explain.sections import Section
@@ -39,20 +38,40 @@ def local_error(tree: RayTree, i: int) -> float:
 def scattering_sections(tree: RayTree, i: int) -> list[Section]:
     """The directions and factors of the rays that hit i sends out."""
     row = tree.nodes[i]
-    item = tree.scene.objects[row["object"]]
-    material = item.material
+    material = tree.scene.objects[row["object"]].material
     sections = []
     tir = row["radicand"] <= 0.0
     if not math.isnan(row["radicand"]):
-        sections.append(_snell(tree, i))
-        if row["n1"] > row["n2"]:
-            sections.append(_critical(tree, i))
-        sections.append(_transmission(tree, i))
+        sections += _refraction(tree, i)
         if tree.model == MODELS[1] and not tir:
-            sections.append(_fresnel(tree, i, material, item.thin))
+            sections.append(_fresnel(tree, i))
     if material.reflect > 0.0 or tir or (tree.model == MODELS[1] and material.transmit > 0.0):
         sections.append(_reflection(tree, i))
     return sections
+
+
+def origin_sections(tree: RayTree, i: int) -> list[Section]:
+    """The formulas by which ray i, which is neither the camera ray nor a shadow ray, got its direction and factor at
+    the hit that sends it out.
+    """
+    hit, kind = int(tree.nodes["parent"][i]), tree.kind(i)
+    sections = [] if kind == "reflection" else _refraction(tree, hit)
+    if kind != "refraction":
+        sections.append(_reflection(tree, hit))
+    if kind != "tir" and tree.model == MODELS[1] and not math.isnan(tree.nodes["radicand"][hit]):
+        sections.append(_fresnel(tree, hit))
+    return sections
+
+
+def _refraction(tree: RayTree, i: int) -> list[Section]:
+    row = tree.nodes[i]
+    critical = [_critical(tree, i)] if row["n1"] > row["n2"] else []
+    return [_snell(tree, i), *critical, _transmission(tree, i)]
+
+
+def _child(tree: RayTree, i: int, *kinds: str) -> str:
+    """The label of the ray of one of these kinds that hit i sends out; empty if there is none."""
+    return next((tree.label(k) for k in tree.children[i] if tree.kind(k) in kinds), "")
 
 
 def _snell(tree: RayTree, i: int) -> Section:
@@ -103,21 +122,24 @@ def _transmission(tree: RayTree, i: int) -> Section:
         return section
     c2 = math.sqrt(root)
     section.add("c₂ = √", format_number(c2, error=turn))
-    section.add("v", format_point(v, turn))
+    section.add("v", format_point(v, turn), tree.label(i))
     section.add("n", format_point(normal, turn))
     if n1 == n2:
-        section.add("t = v", "equal indices: straight on")
+        section.add("t = v", "equal indices: straight on", _child(tree, i, "refraction"))
     else:
         with np.errstate(invalid="ignore"):
             t = optics.transmission(v, normal, n1, n2, c1, c2)
-        section.add("t", format_point(t, turn) if math.isfinite(sum(t)) else "rounding leaves no direction")
+        words = format_point(t, turn) if math.isfinite(sum(t)) else "rounding leaves no direction"
+        section.add("t", words, _child(tree, i, "refraction"))
     return section
 
 
-def _fresnel(tree: RayTree, i: int, material: Material, thin: bool) -> Section:
+def _fresnel(tree: RayTree, i: int) -> Section:
     row = tree.nodes[i]
+    item = tree.scene.objects[row["object"]]
+    material = item.material
     v, normal = vector(row["direction"]), vector(row["normal"])
-    n1, n2 = float(row["n1"]), float(material.ior if thin else row["n2"])
+    n1, n2 = float(row["n1"]), float(material.ior if item.thin else row["n2"])
     c1 = min(1.0, optics.cosine(v, normal))
     c2 = math.sqrt(max(optics.radicand(optics.sine(v, normal), n1, n2), 0.0))
     r, t = optics.fresnel(c1, n1, n2)
@@ -127,8 +149,8 @@ def _fresnel(tree: RayTree, i: int, material: Material, thin: bool) -> Section:
     section.add("R = (rₛ² + rₚ²) / 2", format_number(r))
     section.add("T", format_number(t))
     share = material.reflect + material.transmit
-    section.add("(kr + kt) R", format_number(share * r))
-    section.add("(kr + kt) T", format_number(share * t))
+    section.add("(kr + kt) R", format_number(share * r), _child(tree, i, "reflection"))
+    section.add("(kr + kt) T", format_number(share * t), _child(tree, i, "refraction"))
     return section
 
 
@@ -142,8 +164,8 @@ def _reflection(tree: RayTree, i: int) -> Section:
     v, n = vector(row["direction"]), vector(row["normal"])
     turn = direction_error(tree, i)
     section = Section("Reflection", "r = v − 2 (n·v) n")
-    section.add("v", format_point(v, turn))
+    section.add("v", format_point(v, turn), tree.label(i))
     section.add("n", format_point(n, turn))
     section.add("n·v", format_number(-optics.cosine(v, n), error=turn))
-    section.add("r", format_point(optics.reflect(v, n), turn))
+    section.add("r", format_point(optics.reflect(v, n), turn), _child(tree, i, "reflection", "tir"))
     return section

@@ -9,6 +9,7 @@ class Line:
 
     name: str
     value: str = ""
+    ray: str = ""  # the label of the ray that the value belongs to
 
 
 @dataclass
@@ -17,5 +18,13 @@ class Section:
     formula: str = ""  # as on the slide
     lines: list[Line] = field(default_factory=list)
 
-    def add(self, name: str, value: str = "") -> None:
-        self.lines.append(Line(name, value))
+    def add(self, name: str, value: str = "", ray: str = "") -> None:
+        self.lines.append(Line(name, value, ray))
+
+
+@dataclass(frozen=True)
+class Part:
+    """Sections about one end of a ray, or about all of it."""
+
+    title: str
+    sections: list[Section]

@@ -42,7 +42,9 @@ class ExportOptions:
     view: tuple[float, ...] | None = option(
         ORBIT, "scene: azimuth and elevation in degrees, distance in radii of the scene, target"
     )
-    node: str | None = option(RAY_NAME, "hit: the hit at the end of this ray; the first by default")
+    node: str | None = option(
+        RAY_NAME, "hit: the hit at the end of this ray, by its path (TR) or label (R3); E by default"
+    )
     depth: range | None = option(DEPTHS, "recursion depth, or one page per depth: 0..3")
     step: str = option(
         one_of(STEPS), "one page per depth, per ray as they are traced, or per hit as the colour is summed up", STEPS[0]

@@ -1,13 +1,15 @@
 """Names and numbers in figures, the same in all of them.
 
-A ray has a letter and the number of its row, like R3: R for reflected, T for transmitted, L for to a light, as in
-Whitted's figure (CACM 23(6), 1980), and E for the ray from the eye.
+A ray has a letter and a number, like R3: R for reflected, T for transmitted, and E for the ray from the eye. A ray to a
+light has an L, as in Whitted's figure (CACM 23(6), 1980), and the light's name.
 """
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import STYLES
 from viewer.base.wording import format_number
+
+LONGEST = 13  # characters of the label of a shadow ray
 
 # Texts under a leaf, short enough for a slide.
 ENDS = {
@@ -22,8 +24,11 @@ ENDS = {
 
 
 def ray_label(tree: RayTree, i: int) -> str:
-    letter = STYLES[tree.kind(i)].letter
-    return f"{letter}{i}" if i else letter
+    """The label of ray i; of a shadow ray only its light, since the ray that it starts from is seen."""
+    if tree.nodes["kind"][i] != SHADOW:
+        return tree.label(i)
+    label = tree.light_label(i)
+    return label if len(label) <= LONGEST else f"{label[: LONGEST - 2].rstrip()}…)"
 
 
 def factor_label(tree: RayTree, i: int) -> str:
@@ -47,6 +52,6 @@ def ray_title(tree: RayTree, i: int) -> str:
         fate = {"lit": "reaches it", "filtered": "reaches it through glass"}.get(
             tree.end(i) or "", f"is blocked by {tree.object_name(i)}"
         )
-        return f"{ray_label(tree, i)}: {style.label} to {tree.light_name(i)}, {fate}"
+        return f"{tree.label(i)}: {style.label} to {tree.light_name(i)}, {fate}"
     weight = format_number(float(row["weight"].max()), 3)
     return f"{ray_label(tree, i)}: {style.label}, meets {hit_label(tree, i)}, weight {weight}"

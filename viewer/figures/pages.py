@@ -36,7 +36,7 @@ def description(tree: RayTree) -> str:
     made_of = ", ".join(f"{count} {words}" for count, words in counts if count)
     rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
     color = rgb_text(tree.radiance, tree.radiance_error)
-    doubts = [f"Ray {i} could have gone otherwise, by rounding: {words}." for i, words in tree.doubts]
+    doubts = [f"{tree.label(i)} could have gone otherwise, by rounding: {words}." for i, words in tree.doubts]
     return " ".join([f"{rays}: {made_of}. The pixel's colour is {color} (linear r g b).", *doubts[:MOST_DOUBTS]])
 
 

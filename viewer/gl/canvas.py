@@ -9,7 +9,7 @@ from imgui_bundle import imgui
 
 from viewer.base.cached import Cached, Changed
 from viewer.base.colormap import colorize
-from viewer.explain.sections import Section
+from viewer.explain.sections import Part
 from viewer.figures.layout.tidy_tree import Place as TreePlace
 from viewer.figures.ray_lines import RayLine, drawn_rows, ray_lines, relatives
 from viewer.gl.magnified import NEAR, Place, magnify
@@ -47,7 +47,7 @@ class Canvas:
         self.tree_kept: Cached[set[int]] = Cached()  # rows of the tree that stay bright beside the selected one
         self.tree_places: Cached[dict[int, TreePlace]] = Cached()  # of the tree, in its own units
         self.ray_changed = Changed()  # the ray whose numbers are shown
-        self.sections: Cached[list[Section]] = Cached()  # the explanation of that ray
+        self.explanation: Cached[list[Part]] = Cached()  # of that ray
         self._map: Cached[moderngl.Texture | None] = Cached(_release)
         self._near: Cached[Seen | None] = Cached(lambda seen: _release(seen and seen.texture))
         self._view_changed = Changed()

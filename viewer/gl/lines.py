@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 
 from viewer.base.theme import ARROW, ARROW_AT, HALO, Arrow, Color
+from viewer.gl.float32 import float32
 from viewer.gl.program import make_program, put
 
 LINE = np.dtype(
@@ -53,7 +54,7 @@ class Lines:
     def set(self, lines: list[Line]) -> None:
         rows = np.zeros(len(lines), LINE)
         for row, line in zip(rows, lines, strict=True):
-            row["from"], row["to"] = line.start, line.end
+            row["from"], row["to"] = float32(line.start), float32(line.end)
             row["tint"], row["width"], row["dash"] = line.color, line.width, line.dash
             row["fading"], row["at"], row["arrow"] = line.fading, ARROW_AT, line.arrow.value
         self.count = len(rows)
@@ -80,7 +81,7 @@ class Lines:
         if not self.count:
             return
         shared = {
-            "world_to_clip": tuple(matrix.T.astype(np.float32).ravel()),
+            "world_to_clip": tuple(float32(matrix.T).ravel()),
             "size": size,
             "scale": scale,
             "opacity": opacity,

@@ -13,6 +13,7 @@ from tracer.kernel.world import World
 from viewer.base.orbit import Frame, Orbit
 from viewer.base.theme import EDGE_OPACITY, HIDDEN, Theme, faded
 from viewer.gl.features import Features, features_of
+from viewer.gl.float32 import float32
 from viewer.gl.lines import Line, Lines
 from viewer.gl.program import make_program, put
 from viewer.gl.stage_lines import StageLines
@@ -112,8 +113,8 @@ class Stage:
 
     def _draw_picture(self, matrix: np.ndarray, plane: ImagePlane) -> None:
         plane.texture.use(0)
-        put(self.picture, world_to_clip=tuple(matrix.T.astype(np.float32).ravel()), picture=0, opacity=IMAGE_OPACITY)
-        self.picture["corners"].write(plane.corners.astype(np.float32).tobytes())  # type: ignore[union-attr]
+        put(self.picture, world_to_clip=tuple(float32(matrix.T).ravel()), picture=0, opacity=IMAGE_OPACITY)
+        self.picture["corners"].write(float32(plane.corners).tobytes())  # type: ignore[union-attr]
         self.picture_array.render(moderngl.TRIANGLE_STRIP, vertices=4)
 
     def release(self) -> None:

@@ -17,6 +17,7 @@ from tracer.shapes.tessellation import SEGMENTS, unit_ball
 from viewer.base.orbit import Frame, Orbit
 from viewer.base.theme import Color
 from viewer.gl.features import Features
+from viewer.gl.float32 import float32
 from viewer.gl.program import make_program, put
 
 MOST_LIGHTS = 8  # as in surface.frag
@@ -100,30 +101,30 @@ class Surfaces:
             self.ctx.disable(moderngl.CULL_FACE)
 
     def _set_uniforms(self, orbit: Orbit, matrix: np.ndarray, edge: Color) -> None:
-        lights = np.zeros((MOST_LIGHTS, 4), np.float32)
-        colors = np.zeros((MOST_LIGHTS, 3), np.float32)
+        lights = np.zeros((MOST_LIGHTS, 4))
+        colors = np.zeros((MOST_LIGHTS, 3))
         rows = self.world.arrays.lights[:MOST_LIGHTS]
         for j, row in enumerate(rows):
             lights[j] = (*row["towards"], 0.0) if row["distant"] else (*self.frame.inside(row["position"]), 1.0)
             colors[j] = row["color"]
-        background = np.array(self.world.scene.background.color)
+        background = float32(self.world.scene.background.color)
         put(
             self.program,
-            world_to_clip=tuple(matrix.T.astype(np.float32).ravel()),
+            world_to_clip=tuple(float32(matrix.T).ravel()),
             materials=0,
             axes=1,
             light_count=len(rows),
-            ambient=tuple(self.world.arrays.ambient),
+            ambient=tuple(float32(self.world.arrays.ambient)),
             eye=tuple(orbit.eye),
             up=tuple(orbit.up),
             sky_top=tuple(background * 0.9 + 0.12),
             sky_bottom=tuple(background * 0.25 + 0.05),
             fade_center=(0.0, 0.0, 0.0),
             edge=edge,
-            origin=tuple(self.frame.middle / self.frame.radius),
+            origin=tuple(float32(self.frame.middle / self.frame.radius)),
         )
-        self.program["lights"].write(lights.tobytes())  # type: ignore[union-attr]
-        self.program["light_colors"].write(colors.tobytes())  # type: ignore[union-attr]
+        self.program["lights"].write(float32(lights).tobytes())  # type: ignore[union-attr]
+        self.program["light_colors"].write(float32(colors).tobytes())  # type: ignore[union-attr]
         self._use_textures()
 
     def _use_textures(self) -> None:
@@ -133,8 +134,8 @@ class Surfaces:
     def _make_textures(self) -> None:
         scene, arrays = self.world.scene, self.world.arrays
         # One column per object, not per material: the axes of a flat checker belong to the object.
-        table = np.zeros((4, len(scene.objects), 4), np.float32)
-        axes = np.zeros((2, len(scene.objects), 4), np.float32)
+        table = np.zeros((4, len(scene.objects), 4))
+        axes = np.zeros((2, len(scene.objects), 4))
         for k, item in enumerate(arrays.objects):
             material = arrays.materials[item["material"]]
             table[0, k] = (*material["color"], material["ambient"])
@@ -147,7 +148,7 @@ class Surfaces:
         self.axes = self._texture(axes)
 
     def _texture(self, table: np.ndarray) -> moderngl.Texture:
-        texture = self.ctx.texture((table.shape[1], table.shape[0]), 4, table.tobytes(), dtype="f4")
+        texture = self.ctx.texture((table.shape[1], table.shape[0]), 4, float32(table).tobytes(), dtype="f4")
         texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self.owned.append(texture)
         return texture
@@ -177,7 +178,7 @@ class Surfaces:
         return isinstance(shape, Sphere) and not shape.contains(self.camera)
 
     def _ball_group(self, shared: moderngl.Buffer, places: np.ndarray, glass: bool) -> None:
-        own = self._buffer(places.astype(np.float32))
+        own = self._buffer(places)
         content = [(shared, "3f 3f", "corner", "normal"), (own, "4f 1f/i", "ball", "material")]
         self._add(content, places[:, :3].mean(axis=0), self.faces, glass=glass, count=len(places))
 
@@ -206,9 +207,9 @@ class Surfaces:
             self._triangle_group(np.concatenate(walls), wall=True)
 
     def _triangle_group(self, rows: np.ndarray, **options: bool) -> None:
-        everywhere = self._buffer(np.array([[0.0, 0.0, 0.0, 1.0]], np.float32))
+        everywhere = self._buffer(np.array([[0.0, 0.0, 0.0, 1.0]]))
         content = [
-            (self._buffer(rows.astype(np.float32)), "3f 3f 1f", "corner", "normal", "material"),
+            (self._buffer(rows), "3f 3f 1f", "corner", "normal", "material"),
             (everywhere, "4f/i", "ball"),
         ]
         self._add(content, rows[:, :3].mean(axis=0), None, **options)
@@ -219,7 +220,7 @@ class Surfaces:
         self.groups.append(Group(array, middle, **options))
 
     def _buffer(self, rows: np.ndarray) -> moderngl.Buffer:
-        buffer = self.ctx.buffer(np.ascontiguousarray(rows, np.float32).tobytes())
+        buffer = self.ctx.buffer(float32(rows).tobytes())
         self.owned.append(buffer)
         return buffer
 

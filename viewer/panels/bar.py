@@ -92,7 +92,7 @@ def _legend(session: Session, right: float) -> None:
         at = imgui.get_cursor_screen_pos()
         size = (width + SAMPLE * unit, imgui.get_frame_height())
         if imgui.invisible_button(f"legend {kind}", size):
-            session.toggle_kind(kind)
+            session.shown.toggle_kind(kind)
         hovered = imgui.is_item_hovered()
         d.hint(f"{style.label}: {_meaning(session, kind)} (click to {'hide' if on else 'show'})")
         pad = imgui.get_window_draw_list()

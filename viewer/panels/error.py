@@ -10,6 +10,7 @@ from viewer.base.theme import SMALL, curve_color
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.panel import Corner, Panel
+from viewer.session.actions import set_strategy, toggle_refinement
 from viewer.session.refinement import DISPLAYS, STRATEGIES, Run, forecast
 from viewer.session.session import Session
 from viewer.session.view_state import Request
@@ -48,14 +49,14 @@ EMPTY = (
 def _controls(session: Session) -> None:
     state, unit = session.refinement, d.unit()
     if imgui.button("Pause" if state.is_running else "Refine", (66 * unit, 0)):
-        session.toggle_refinement()
+        toggle_refinement(session)
     d.hint("more rays for each pixel, until it is paused (key R)")
     imgui.same_line()
     imgui.set_next_item_width(148 * unit)
     if imgui.begin_combo("##way", state.strategy.name):
         for strategy in STRATEGIES:
             if imgui.selectable(strategy.name, strategy == state.strategy)[0]:
-                session.set_strategy(strategy)
+                set_strategy(session, strategy)
             d.hint(strategy.hint)
         imgui.end_combo()
     d.hint("placement of the samples")

@@ -1,4 +1,6 @@
-"""The image as it renders: click or drag to pick a pixel, wheel to zoom, arrow keys to move by a pixel."""
+"""The image as it renders: click or drag to pick a pixel, wheel to zoom, double click to fit, arrow keys to move by a
+pixel.
+"""
 
 from imgui_bundle import imgui
 
@@ -56,9 +58,12 @@ def _handle_mouse(session: Session, place: tuple[float, float, float]) -> None:
     left, top, scale = place
     io = imgui.get_io()
     mouse = imgui.get_mouse_pos()
-    if imgui.is_item_active() and imgui.is_mouse_down(imgui.MouseButton_.left):
-        session.pick(int((mouse.x - left) // scale), int((mouse.y - top) // scale))
     look = session.image_view
+    if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+        look.fit()
+    elif imgui.is_item_active() and imgui.is_mouse_down(imgui.MouseButton_.left) and io.mouse_clicked_count[0] != 2:
+        drag = ("drag", io.mouse_clicked_time[0])
+        session.pick(int((mouse.x - left) // scale), int((mouse.y - top) // scale), drag)
     width, height = session.size
     if imgui.is_item_active() and imgui.is_mouse_dragging(imgui.MouseButton_.right):
         look.move(-io.mouse_delta.x / (scale * width), -io.mouse_delta.y / (scale * height))

@@ -1,16 +1,14 @@
 """The menu bar."""
 
-from pathlib import Path
-
 from imgui_bundle import imgui
 
 from viewer.base.files import Unusable
-from viewer.base.pictures import write_picture
 from viewer.base.theme import THEMES
 from viewer.figures.catalogue import FIGURES, FORMATS, PICTURES
 from viewer.lessons import lesson as lessons
 from viewer.panels import draw as d
-from viewer.session.figure_export import free_path
+from viewer.session.actions import go, look_through_camera
+from viewer.session.saving import copy_command, export_figure, save_image
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
@@ -22,7 +20,7 @@ def draw(session: Session) -> bool:
         if imgui.begin_menu("File"):
             if imgui.menu_item_simple("Open ...", "Ctrl+O"):
                 session.requests.append(Request.OPEN_DIALOG)
-            if imgui.menu_item_simple("Reload", "F5", False, session.loader.opening is not None):
+            if imgui.menu_item_simple("Reload", "Ctrl+R", False, session.loader.opening is not None):
                 session.loader.reload()
             imgui.separator()
             if imgui.menu_item_simple("Save the image as PNG", "", False, session.world is not None):
@@ -59,29 +57,15 @@ def open_lesson(session: Session, name: str) -> None:
     session.loader.open(lesson.scene, lesson)
 
 
-def save_image(session: Session) -> None:
-    """Write the image on show into the current folder, under a name that does not exist."""
-    picture = session.image.picture
-    if not picture or not session.path:
-        return
-    name = session.lesson.name if session.lesson else session.path.stem
-    path = free_path(Path(f"{name}.png"))
-    try:
-        write_picture(path, picture.shown[..., :3])
-        session.notice.say(f"wrote {path.resolve()}" + ("" if picture.finished else " (not finished yet)"))
-    except Unusable as unusable:
-        session.show_faults(list(unusable.faults))
-
-
 def _figure_menu(session: Session) -> None:
     """The figure that Ctrl+S writes, as last chosen."""
     export = session.export
     if imgui.menu_item_simple("Export", "Ctrl+S", False, session.tree is not None):
-        session.export_figure()
+        export_figure(session)
     if imgui.menu_item_simple("Copy", "Ctrl+C", False, session.tree is not None):
-        session.export_figure(copied=True)
+        export_figure(session, copied=True)
     if imgui.menu_item_simple("Copy its command line", "Ctrl+Shift+C", False, bool(export.command)):
-        session.copy_command()
+        copy_command(session)
     imgui.separator()
     for kind in FIGURES:
         if imgui.menu_item_simple(kind.title, "", export.figure == kind.name):
@@ -112,20 +96,26 @@ def _view_menu(session: Session) -> bool:
         ("camera", "Camera and its image", "C"),
         ("lights", "Lights", "L"),
         ("normals", "Normals", "N"),
-        ("labels", "Names", "B"),
+        ("labels", "Names", "A"),
     ):
         if imgui.menu_item_simple(label, key, getattr(shown, field)):
             setattr(shown, field, not getattr(shown, field))
     imgui.separator()
-    if imgui.menu_item_simple("Reset", "F"):
+    if imgui.menu_item_simple("Back", "Alt+Left"):
+        go(session, -1)
+    if imgui.menu_item_simple("Forward", "Alt+Right"):
+        go(session, 1)
+    if imgui.menu_item_simple("Fit", "F"):
         session.home()
     if imgui.menu_item_simple("Through the scene's camera", "V"):
-        session.through_camera()
+        look_through_camera(session)
     imgui.separator()
     if imgui.menu_item_simple("Light theme", "T", not session.appearance.theme.dark):
         session.appearance.toggle_theme()
     if imgui.menu_item_simple("Lecture size", "Tab", session.appearance.is_lecture_size):
         session.appearance.toggle_lecture_size()
+    if imgui.menu_item_simple("Black screen", "B"):
+        session.is_blank = True
     imgui.separator()
     return imgui.menu_item_simple("Reset the panels")
 

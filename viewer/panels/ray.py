@@ -2,7 +2,9 @@
 
 from imgui_bundle import imgui
 
+from tracer.tree.raytree import RayTree
 from viewer.base.theme import STYLES
+from viewer.explain.interfaces import HEADINGS, Interface, interfaces
 from viewer.explain.ray import explain_ray, headline
 from viewer.explain.sections import Section
 from viewer.gl.canvas import Canvas
@@ -13,41 +15,56 @@ from viewer.session.view_state import Request
 
 
 def draw(session: Session, canvas: Canvas) -> None:
-    tree = session.tree
-    if not tree or not session.world:
-        imgui.text_colored(session.appearance.theme.muted, "No pixel is picked.")
+    tree, world, theme = session.tree, session.world, session.appearance.theme
+    if not tree or not world:
+        imgui.text_colored(theme.muted, "No pixel is picked.")
         return
-    row = session.selected if session.selected is not None else 0
-    if row >= len(tree):
-        return
-    if canvas.ray_changed((tree, row)):
+    row = session.selected or 0
+    if canvas.ray_changed((world, tree.path(row))):  # not at another pixel, so that one number can be watched
         imgui.set_scroll_y(0.0)
+    _head(session, tree, row)
+    _interfaces(session, interfaces(tree, row))
+    for k, part in enumerate(canvas.explanation.get((tree, row), lambda: explain_ray(tree, world, row))):
+        imgui.push_id(k)
+        imgui.separator_text(part.title)
+        for section in part.sections:
+            _section(session, section)
+        imgui.pop_id()
+    imgui.separator()
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_colored(theme.muted, session.verification.text(row))
+    imgui.pop_text_wrap_pos()
+
+
+def _head(session: Session, tree: RayTree, row: int) -> None:
+    """The ray's name beside its style, and what becomes of it."""
     name, fate = headline(tree, row)
-    kind = tree.kind(row)
-    unit = d.unit()
-    at = imgui.get_cursor_screen_pos()
-    height = imgui.get_text_line_height()
-    d.sample(
-        imgui.get_window_draw_list(),
-        (at.x, at.y + 0.5 * height),
-        30 * unit,
-        STYLES[kind],
-        session.appearance.theme.ray(kind),
-        unit,
-    )
+    theme, kind, unit = session.appearance.theme, tree.kind(row), d.unit()
+    at, height = imgui.get_cursor_screen_pos(), imgui.get_text_line_height()
+    middle = (at.x, at.y + 0.5 * height)
+    d.sample(imgui.get_window_draw_list(), middle, 30 * unit, STYLES[kind], theme.ray(kind), unit)
     imgui.dummy((36 * unit, height))
     imgui.same_line()
     imgui.text(name)
     if session.selected is None:
         imgui.same_line()
-        imgui.text_colored(session.appearance.theme.muted, "(none selected)")
+        imgui.text_colored(theme.muted, "(none selected)")
     imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(session.appearance.theme.muted, fate[0].upper() + fate[1:] + ".")
-    imgui.text_colored(session.appearance.theme.muted, session.verification.text(row))
+    imgui.text_colored(theme.muted, fate[0].upper() + fate[1:] + ".")
     imgui.pop_text_wrap_pos()
-    world = session.world
-    for section in canvas.sections.get((tree, row), lambda: explain_ray(tree, world, row)):
-        _section(session, section)
+
+
+def _interfaces(session: Session, rows: list[Interface]) -> None:
+    """The table of angles at both ends. It stands at the top, so that it is seen without scrolling."""
+    if not rows or not imgui.begin_table("interfaces", len(HEADINGS), imgui.TableFlags_.sizing_stretch_prop):
+        return
+    for cells in (HEADINGS, *rows):
+        imgui.table_next_row()
+        for k, cell in enumerate(cells):
+            imgui.table_next_column()
+            muted = cells is HEADINGS or k == 0
+            imgui.text_colored(session.appearance.theme.muted if muted else session.appearance.theme.text, cell)
+    imgui.end_table()
 
 
 def _section(session: Session, section: Section) -> None:
@@ -68,7 +85,8 @@ def _section(session: Session, section: Section) -> None:
             imgui.table_next_row()
             imgui.table_next_column()
             imgui.push_text_wrap_pos(0.0)
-            imgui.text_colored(session.appearance.theme.muted, line.name)
+            name = f"{line.name}  ({line.ray})" if line.ray else line.name
+            imgui.text_colored(session.appearance.theme.muted, name)
             imgui.pop_text_wrap_pos()
             imgui.table_next_column()
             imgui.push_text_wrap_pos(0.0)

@@ -55,6 +55,8 @@ def _handle_mouse(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: 
             orbit.turn(math.pi * moved.x / room.y, math.pi * moved.y / room.y)
     if imgui.is_item_hovered() and io.mouse_wheel != 0.0:
         orbit.zoom(io.mouse_wheel)
+    if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(button.left):
+        session.reset_orbit()
     # A click is a press and release in one place, so turning the view selects nothing.
     if imgui.is_item_hovered() and imgui.is_mouse_released(button.left):
         moved = io.mouse_drag_max_distance_sqr[0]

@@ -12,6 +12,7 @@ from viewer.base.srgb import display_color
 from viewer.base.theme import BLOCKED_DASH, DIMMED, SMALL, STYLES, faded
 from viewer.base.wording import format_number
 from viewer.explain.ray import headline
+from viewer.figures.labels import ray_label
 from viewer.figures.layout.tidy_tree import Place, heaviest_places
 from viewer.figures.ray_lines import relatives
 from viewer.gl.canvas import Canvas
@@ -23,7 +24,8 @@ MOST_ROWS = 160  # the heaviest rays, if a tree has more
 # Logical pixels between neighbours and between levels, at most and at least. A tree that needs less has to be moved.
 WIDEST, NARROWEST = 170.0, 34.0
 TALLEST, LOWEST = 104.0, 22.0
-EYE_ROOM = 50.0  # above the first hit
+EYE_ROOM, EYE_AT = 40.0, 27.0  # above the first hit: the room for the eye, and its height
+FOOT = 13.0  # below the last row
 RADIUS = 11.0
 
 
@@ -82,7 +84,7 @@ class _Diagram:
         left = min(place.x for place in places.values()) - 0.9
         right = max(place.x for place in places.values()) + 1.0
         lowest = max(0.5, *(place.y for place in places.values()))
-        head, foot = EYE_ROOM * unit, 22.0 * unit
+        head, foot = EYE_ROOM * unit, FOOT * unit
         width = min(WIDEST, max(NARROWEST, room.x / unit / (right - left)))
         height = min(TALLEST, max(LOWEST, (room.y - head - foot) / unit / lowest))
         self.step_x, self.step_y = width * unit * look.zoom, height * unit * look.zoom
@@ -92,8 +94,8 @@ class _Diagram:
         base_y = corner.y + head + look.center[1] * unit
         self.at = {i: (base_x + p.x * self.step_x, base_y + p.y * self.step_y) for i, p in places.items()}
         self.text_size = SMALL * imgui.get_font_size()
-        self.labels_edges = self.step_x >= 74 * unit and self.step_y >= 44 * unit
-        self.radius = min(RADIUS, 0.2 * self.step_y / unit, 0.2 * self.step_x / unit) * unit
+        self.labels_edges = self.step_x >= 74 * unit and self.step_y >= 1.9 * self.text_size
+        self.radius = min(RADIUS * unit, 0.3 * self.step_y, 0.2 * self.step_x)
         self.corner, self.room = corner, room
 
     def draw(self) -> None:
@@ -117,7 +119,7 @@ class _Diagram:
         if parent >= 0:
             return self.at[parent]
         x, y = self.at[0]
-        return (x, y - 36 * d.unit())
+        return (x, y - EYE_AT * d.unit())
 
     def _levels(self) -> None:
         """The depths of the rays that are drawn, as faint lines with their numbers."""
@@ -147,7 +149,7 @@ class _Diagram:
         width = style.width * unit * (1.7 if i == self.session.selected else 1.0)
         dash = BLOCKED_DASH if tree.end(i) == "blocked" else style.dash
         d.line(self.pad, a, b, color, width, (dash[0] * unit * 0.8, dash[1] * unit * 0.8))
-        d.arrow(self.pad, a, b, 0.55, color, 9.0 * unit, style.arrow)
+        d.arrow(self.pad, a, b, 0.72, color, 9.0 * unit, style.arrow)
 
     def _edge_label(self, i: int) -> None:
         """The factor of a ray beside its edge, if there is room."""
@@ -156,10 +158,10 @@ class _Diagram:
         if kind == "shadow" or i == 0 or not self.labels_edges:
             return
         a, b = self._top(i), self.at[i]
-        content = f"{STYLES[kind].letter} {self._factor(i)}"
+        content = f"{ray_label(self.tree, i)} {self._factor(i)}"
         size = self.text_size
         width, height = d.text_size(content, size)
-        x, y = a[0] + 0.6 * (b[0] - a[0]), a[1] + 0.6 * (b[1] - a[1])
+        x, y = 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])
         gap = 8.0 * unit
         x = x - width - gap if b[0] < a[0] - 1.0 else x + gap
         color = faded(self.theme.ray(kind), self.opacity(i))
@@ -193,18 +195,19 @@ class _Diagram:
         at = x + self.radius + 7.0 * d.unit()
         room = self._room_beside(i) - 7.0 * d.unit()
         gap = 6.0 * d.unit()
-        if note and room < d.text_size(f"{i}  {name}", size)[0] + gap + d.text_size(note, size)[0]:
+        # The label of the ray stands here if there is no room at the edge, as for the camera ray.
+        name = name if i and self.labels_edges else f"{ray_label(self.tree, i)}  {name}"
+        if note and room < d.text_size(name, size)[0] + gap + d.text_size(note, size)[0]:
             note = "cut"
         taken = gap + d.text_size(note, size)[0] if note else 0.0
-        # The factor stands here if there is no room at the edge.
         factor = self._factor(i) if i and not self.labels_edges else ""
         wide = gap + d.text_size(factor, size)[0]
-        if factor and room >= d.text_size(f"{i}  {name}", size)[0] + taken + wide:
+        if factor and room >= d.text_size(name, size)[0] + taken + wide:
             ink = faded(self.theme.ray(self.tree.kind(i)), opacity)
             d.text(self.pad, (at, y - 0.5 * size), ink, factor, size, self.theme.panel)
             at += wide
             taken += wide
-        content = d.shortened(f"{i}  {name}", size, room - taken)
+        content = d.shortened(name, size, room - taken)
         d.text(self.pad, (at, y - 0.5 * size), color, content, size, self.theme.panel)
         if note:
             at += d.text_size(content, size)[0] + gap
@@ -239,17 +242,12 @@ class _Diagram:
         fewer = f"{drawn} of {total} rays drawn" if self.folded > 0 else ""
         most = self.tree.bound
         bound = f"at most {format_number(most, 3)} of light missing" if most < np.inf else "light missing without bound"
-        cuts = [
-            cut_summary(self.tree),
-            f"cut: {weight} of the weight, {bound}",
-            f"cut rays: {weight} of the weight",
-            f"cut: {weight}",
-        ]
+        shorter = (f"cut: {weight} of the weight, {bound}", f"cut rays: {weight} of the weight", f"cut: {weight}")
         margin = 8 * d.unit()
         x, _ = self._top(0)
         left, right = self.corner.x + margin, self.corner.x + self.room.x - margin
         ends = (x - 3 * self.radius, x + 6 * self.radius)  # of the eye with its name
-        for cut in cuts if self.tree.residual > 0.0 else [""]:
+        for cut in (cut_summary(self.tree), *shorter) if self.tree.residual > 0.0 else [""]:
             content = "; ".join(part for part in (fewer, cut) if part)
             width, _ = d.text_size(content, self.text_size)
             for at in (right - width, left):
@@ -266,6 +264,8 @@ class _Diagram:
         hovered = imgui.is_item_hovered()
         if imgui.is_item_active() and (imgui.is_mouse_dragging(button.left) or imgui.is_mouse_dragging(button.right)):
             look.move(io.mouse_delta.x / unit, io.mouse_delta.y / unit)
+        if hovered and imgui.is_mouse_double_clicked(button.left):
+            look.fit()
         if hovered and io.mouse_wheel != 0.0:
             look.zoom = min(6.0, max(0.3, look.zoom * 1.12**io.mouse_wheel))
         if not hovered:

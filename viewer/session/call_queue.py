@@ -3,13 +3,16 @@
 from collections.abc import Callable
 from queue import Empty, SimpleQueue
 
+from viewer.session.guard import Guard
+
 Call = Callable[[], object]
 
 
 class CallQueue:
     """A queue of calls."""
 
-    def __init__(self, wake: Call = lambda: None) -> None:
+    def __init__(self, guard: Guard, wake: Call = lambda: None) -> None:
+        self.guard = guard
         self.wake = wake  # ends the window's sleep. Called from any thread
         self._calls: SimpleQueue[Call] = SimpleQueue()
 
@@ -28,5 +31,5 @@ class CallQueue:
                 call = self._calls.get_nowait()
             except Empty:
                 return some
-            call()
+            self.guard.run("a task in the background", call, closes=False)
             some = True

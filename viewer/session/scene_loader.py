@@ -23,6 +23,8 @@ class Opening(NamedTuple):
     pixel: tuple[int, int] | None = None
     model: str | None = None
     up: str = UP_AXES[0]
+    selection: str | None = None  # the path of the ray to select
+    is_return: bool = False  # to a place that was looked at before
 
 
 class SceneLoader:
@@ -55,9 +57,10 @@ class SceneLoader:
         if lesson:
             depth = lesson.depth if depth is None else depth
             pixel = pixel or lesson.pixel
-        self._load(Opening(path, lesson, depth, pixel, model, up))
+        self.load(Opening(path, lesson, depth, pixel, model, up))
 
-    def _load(self, opening: Opening) -> None:
+    def load(self, opening: Opening) -> None:
+        """`open`, where depth and pixel are those of the opening, whatever the lesson says."""
         self.opening = opening
         self.watch.follow(opening.path)
         if self.loading:
@@ -74,7 +77,7 @@ class SceneLoader:
     def reload(self) -> None:
         """Load the last scene again."""
         if self.opening:
-            self._load(self.opening)
+            self.load(self.opening)
 
     def look(self) -> None:
         """Load the scene again if one of its files has been saved. Called before every frame."""

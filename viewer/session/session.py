@@ -14,15 +14,15 @@ from tracer.formats import UP_AXES
 from tracer.kernel.limits import Limits, image_max_nodes, make_limits
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
-from viewer.base.clipboard import copy_to_clipboard
-from viewer.base.files import Unusable
+from viewer.base.cached import Cached
 from viewer.base.orbit import Frame, Orbit, initial_orbit
-from viewer.figures.export_options import ExportOptions
 from viewer.lessons.lesson import Lesson
 from viewer.session.call_queue import CallQueue
-from viewer.session.figure_export import FigureExport, Shown
+from viewer.session.figure_export import FigureExport
+from viewer.session.guard import Guard
+from viewer.session.history import History, Place
 from viewer.session.image_renderer import ImageRenderer
-from viewer.session.refinement import Refinement, Strategy
+from viewer.session.refinement import Refinement
 from viewer.session.scene_loader import Opening, SceneLoader
 from viewer.session.verification import Verification
 from viewer.session.view_state import Appearance, Notice, OpenDialog, PanZoom, Request, Visibility
@@ -35,7 +35,8 @@ class Session:
     """One scene, one picked pixel, one selected ray."""
 
     def __init__(self) -> None:
-        self.calls = CallQueue()
+        self.guard = Guard(self.show_faults)
+        self.calls = CallQueue(self.guard)
         self.requests: list[Request] = []  # to the window
         self.warmup = Warmup()
         self.loader = SceneLoader(self.calls, self.warmup, self._show, self.show_faults)
@@ -46,18 +47,19 @@ class Session:
         # How the scene is looked at.
         self.shown = Visibility()
         self.image_view = PanZoom()
-        self.tree_view = PanZoom(center=(0.0, 0.0))  # moved by logical pixels
+        self.tree_view = PanZoom(home=(0.0, 0.0))  # moved by logical pixels
         self.appearance = Appearance()
         self.notice = Notice()
         self.dialog = OpenDialog()
         self.shows_help = False
+        self.is_blank = False  # the window is black
+        self.scroll = 0  # lines by which the texts are to be scrolled
         # The scene on show.
         self.faults: list[str] = []  # of the last opened scene or the last action; the last good scene stays on show
         self.notes: list[str] = []  # on the scene on show, until they are closed
-        self.path: Path | None = None
-        self.up = UP_AXES[0]  # of a mesh file
-        self.lesson: Lesson | None = None
+        self.opening: Opening | None = None
         self.world: World | None = None
+        self._good: tuple[World, Opening] | None = None  # the last scene that was drawn without an exception
         self.frame = Frame(np.zeros(3), 1.0)
         self.orbit = Orbit()
         self.depth = 3
@@ -65,7 +67,9 @@ class Session:
         self.pixel: tuple[int, int] | None = None
         self.tree: RayTree | None = None  # of the picked pixel
         self.full_tree: RayTree | None = None  # the same at least LAYOUT_DEPTH deep; `tree` is its first rows
-        self.selected: int | None = None
+        self.selection: str | None = None  # the path of the selected ray, if the tree has it
+        self.history = History()
+        self._selected: Cached[int | None] = Cached()
         if NOTE:
             self.notice.say(NOTE)
 
@@ -75,11 +79,12 @@ class Session:
         """Show a scene. If it was on show already, pixel, depth and view stay."""
         again = self.world is not None and opening.path == self.path
         self.faults = []
+        self.guard.open_all()
         self.image.forget()
         self.refinement.forget()
         if opening.lesson and self.world and not again:
             self.requests.append(Request.SHOW_LESSON)
-        self.world, self.path, self.lesson, self.up = world, opening.path, opening.lesson, opening.up
+        self.world, self.opening = world, opening
         self.frame = Frame.of(world)
         self.tree = self.full_tree = None
         tracing = world.scene.tracing
@@ -87,11 +92,12 @@ class Session:
         if not again:
             self.depth = tracing.depth if opening.depth is None else opening.depth
             self.pixel = opening.pixel
-            self.selected = None
-            self.image_view = PanZoom()
+            self.selection = opening.selection
             self.home()
         self._check_pixel(again)
         self.notes = world.notes
+        if not again and not opening.is_return:
+            self._note_place()
 
     def _check_pixel(self, moves: bool) -> None:
         """A pixel outside the image is a fault. If the image has become smaller (`moves`), the pixel moves inside."""
@@ -106,27 +112,70 @@ class Session:
         else:
             self.pixel = inside
 
+    def approve(self) -> None:
+        """Keep the scene on show as the last good one. Called after a frame without an exception."""
+        if self.world:
+            self._good = (self.world, self._now())
+
+    def reject(self) -> bool:
+        """After an exception: if the scene on show is new, go back to the last good one. Returns whether it does."""
+        if self._good is None or self._good[0] is self.world:
+            return False
+        self.world = None  # so that pixel and view are set
+        self._show(*self._good)
+        return True
+
     def update(self) -> bool:
         """Process the results of background threads since the last frame. Returns whether a redraw is needed."""
         news = self.notice.expires() | self.calls.run_posted()
         self.loader.look()
         if self.world and self.warmup.ready:
+            before = (self.tree, self.image.picture)
+            self._update_rays()
+            self.guard.run("the image", self._update_image, self.reject)
+            news |= before != (self.tree, self.image.picture)
+        return news
+
+    def _update_rays(self) -> None:
+        def trace() -> None:
             if self.pixel and not self.tree:
                 self._trace()
-                news = True
             if self.tree:
                 self.verification.ask(self.tree)
-            if not self.image.picture:
-                self.render()
-                news = True
-            if not self.refinement.proceed(self.world, self.limits, self.size, self.model):
-                self.render()
-        return news
+
+        def unpick() -> None:
+            if not self.reject():
+                self.pixel = self.tree = self.full_tree = None
+
+        self.guard.run("the rays of this pixel", trace, unpick, closes=False)
+
+    def _update_image(self) -> None:
+        if not self.world:
+            return
+        if not self.image.picture:
+            self.render()
+        if not self.refinement.proceed(self.world, self.limits, self.size, self.model):
+            self.render()
 
     def take_requests(self) -> list[Request]:
         """The requests to the window since the last call."""
         taken, self.requests = self.requests, []
         return taken
+
+    @property
+    def path(self) -> Path | None:
+        """The file of the scene on show."""
+        return self.opening.path if self.opening else None
+
+    @property
+    def lesson(self) -> Lesson | None:
+        """The lesson on show, if the scene belongs to one."""
+        return self.opening.lesson if self.opening else None
+
+    @property
+    def up(self) -> str:
+        """The axis of a mesh file that points upwards."""
+        return self.opening.up if self.opening else UP_AXES[0]
 
     # --- the tree behind a pixel --------------------------------------------------------------------------------------
 
@@ -144,15 +193,17 @@ class Session:
         max_nodes = image_max_nodes(self.world, width * height)
         return make_limits(self.world, self.depth, max_nodes=max_nodes, model=self.model, records=False)
 
-    def pick(self, x: int, y: int) -> None:
-        """Show the tree behind a pixel; outside the image, behind the nearest pixel."""
+    def pick(self, x: int, y: int, series: object = None) -> None:
+        """Show the tree behind a pixel; outside the image, behind the nearest pixel. The selection stays, if the tree
+        has such a ray. The history keeps only the last pixel of one `series`, such as a drag of the mouse.
+        """
         if not self.world:
             return
         pixel = self._inside(x, y)
         if pixel != self.pixel:
             self.pixel = pixel
-            self.selected = None
             self.tree = None
+            self._note_place(series)
             self.update()
 
     def _inside(self, x: int, y: int) -> tuple[int, int]:
@@ -160,27 +211,36 @@ class Session:
         width, height = self.size
         return (min(max(x, 0), width - 1), min(max(y, 0), height - 1))
 
-    def nudge(self, dx: int, dy: int) -> None:
-        """Move the picked pixel. The first time, pick the centre of the image."""
-        if not self.world:
-            return
-        width, height = self.size
-        x, y = self.pixel or (width // 2 - dx, height // 2 - dy)
-        self.pick(x + dx, y + dy)
+    @property
+    def selected(self) -> int | None:
+        """The row of the selected ray; None if no ray is selected, or if the tree does not have it."""
+        tree, path = self.tree, self.selection
+        return self._selected.get((tree, path), lambda: tree.find(path) if tree and path else None)
 
     def select(self, row: int | None) -> None:
         """Select one ray of the tree, or none."""
         if row is None or (self.tree and 0 <= row < len(self.tree)):
-            self.selected = row
+            self.selection = self.tree.path(row) if self.tree and row is not None else None
+            self.history.note(self.selection)
             if row is not None:
                 self.requests.append(Request.SHOW_RAY)
 
-    def clear(self) -> None:
-        """Unselect the ray; if none is selected, unpick the pixel."""
-        if self.selected is not None:
-            self.selected = None
-        else:
-            self.pixel = self.tree = self.full_tree = None
+    def _now(self) -> Opening:
+        """An opening that leads back to the place on show."""
+        assert self.opening
+        return self.opening._replace(
+            pixel=self.pixel, depth=self.depth, model=self.model, selection=self.selection, is_return=True
+        )
+
+    def _note_place(self, series: object = None) -> None:
+        self.history.add(Place(self._now(), series))
+
+    def return_to(self, place: Place) -> None:
+        """Pick the pixel and select the ray of a place in the scene on show."""
+        pixel = place.opening.pixel
+        self.pixel = self._inside(*pixel) if pixel else None
+        self.selection, self.tree, self.full_tree = place.opening.selection, None, None
+        self.update()
 
     def set_depth(self, depth: int) -> None:
         depth = max(0, depth)
@@ -193,23 +253,12 @@ class Session:
             self.model = model
             self._retrace()
 
-    def toggle_model(self) -> None:
-        self.set_model(MODELS[1 - MODELS.index(self.model)])
-
-    def step(self, by: int) -> None:
-        """Select the next ray in the order of the table, or the previous one."""
-        if self.tree:
-            row = (-1 if by > 0 else len(self.tree)) if self.selected is None else self.selected
-            self.select(min(max(row + by, 0), len(self.tree) - 1))
-
     def _retrace(self) -> None:
         """Trace the pixel and the image again, with another depth or model."""
         if not self.world or not self.warmup.ready:
             return
-        if self.pixel:
-            self._trace()
-        if self.selected is not None and self.tree and self.selected >= len(self.tree):
-            self.selected = None
+        self.tree = None
+        self._update_rays()
         self.render()
 
     def _trace(self) -> None:
@@ -227,72 +276,22 @@ class Session:
         self.refinement.current = None
         self.image.show(self.world, self.limits, self.size)
 
-    def toggle_refinement(self) -> None:
-        """Give pixels more samples, or pause."""
-        self.refinement.toggle()
-        if self.refinement.is_running:
-            self.requests.append(Request.SHOW_ERROR)
-
-    def set_strategy(self, strategy: Strategy) -> None:
-        """Distribute samples in another way. The curves of the other strategies stay for comparison."""
-        changed, self.refinement.strategy = strategy != self.refinement.strategy, strategy
-        if changed and self.refinement.is_running and self.world:
-            self.render()
-
-    # --- figures ------------------------------------------------------------------------------------------------------
-
-    def export_figure(self, copied: bool = False) -> None:
-        """Write the figure on show into the current folder, or copy it."""
-        if not self.tree or not self.world or not self.path:
-            self.notice.say("nothing to export yet: pick a pixel")
-            return
-        figure, lesson = self.export.figure, self.lesson
-        options = ExportOptions(
-            scene=lesson.name if lesson else str(self.path),
-            pixel=self.pixel,
-            figure=figure,
-            view=self.orbit.view(self.frame) if figure in ("both", "scene") else None,
-            node=str(self.selected or 0) if figure == "hit" else None,
-            depth=range(self.depth, self.depth + 1),
-            model=self.model,
-            no_lights="shadow" not in self.shown.kinds,
-            up=self.up,
-            output=".",
-        )
-        name, angles = (lesson.name, lesson.view) if lesson else (self.path.stem, None)
-        shown = Shown(options, self.appearance.theme.name, self.world, name, angles)
-        self.export.start(shown, copied, self.notice.say, self.show_faults)
-
-    def copy_command(self) -> None:
-        """Copy the command line of the last figure."""
-        if not self.export.command:
-            self.notice.say("no command line to copy yet: export a figure first")
-            return
-        try:
-            copy_to_clipboard(self.export.command)
-            self.notice.say("the figure's command line is copied")
-        except Unusable as unusable:
-            self.show_faults(list(unusable.faults))
-
     def show_faults(self, faults: list[str]) -> None:
         self.faults = faults
 
     # --- how it is looked at ------------------------------------------------------------------------------------------
 
     def home(self) -> None:
-        """Reset the 3D view."""
+        """Reset the 3D view, and fit the image and the tree into their panels."""
+        self.image_view.fit()
+        self.tree_view.fit()
+        self.reset_orbit()
+
+    def reset_orbit(self) -> None:
+        """Look at the scene as at first."""
         if not self.world:
             return
         self.orbit = initial_orbit(self.world, self.frame, self.lesson.view if self.lesson else None)
-
-    def through_camera(self) -> None:
-        """Look at the scene from its own camera."""
-        if self.world:
-            view = self.world.view()
-            self.orbit = Orbit.of_camera(view, self.world.scene.camera.up, self.frame.inside(view.eye))
-
-    def toggle_kind(self, kind: str) -> None:
-        self.shown.kinds ^= {kind}
 
     def close(self) -> None:
         self.warmup.close()

@@ -78,8 +78,8 @@ class Verification:
         doubts = found.rows[row].doubts if row < len(found.rows) else ()
         verified = "Verified" if found.certified == found.decisions else "Verified in part"
         if not doubts:
-            others = [(i, one.doubts[0]) for i, one in enumerate(found.rows) if one.doubts]
-            open_ones = f" Not certified: ray {others[0][0]}, {others[0][1]}." if others else ""
+            others = [(self.tree.label(i), one.doubts[0]) for i, one in enumerate(found.rows) if one.doubts]
+            open_ones = f" Not certified: {others[0][0]}, {others[0][1]}." if others else ""
             return f"{verified}: {accuracy_text(found)}, {decisions_text(found)}.{open_ones}"
         return f"{verified}: {accuracy_text(found)}, {decisions_text(found)}. Not certified here: {'; '.join(doubts)}."
 

@@ -50,13 +50,25 @@ class Visibility:
     normals: bool = True
     labels: bool = True
 
+    def toggle_kind(self, kind: str) -> None:
+        """Show or hide a kind of rays."""
+        self.kinds ^= {kind}
+
 
 @dataclass
 class PanZoom:
     """Pan and zoom of a 2D picture in its panel."""
 
+    home: tuple[float, float] = (0.5, 0.5)  # the centre that fits the picture into its panel
     zoom: float = 1.0
-    center: tuple[float, float] = (0.5, 0.5)
+    center: tuple[float, float] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.fit()
+
+    def fit(self) -> None:
+        """Fit the picture into its panel."""
+        self.zoom, self.center = 1.0, self.home
 
     def move(self, dx: float, dy: float) -> None:
         self.center = (self.center[0] + dx, self.center[1] + dy)
@@ -71,7 +83,7 @@ class PanZoom:
         )
         self.zoom = zoom
         if zoom == 1.0:
-            self.center = (0.5, 0.5)
+            self.fit()
 
 
 @dataclass

@@ -9,7 +9,7 @@ from imgui_bundle.imgui import internal
 
 from viewer.base.cached import Changed
 from viewer.gl.canvas import Canvas
-from viewer.panels import PANELS, bar, help, menu, messages, open_dialog
+from viewer.panels import PANELS, bar, blank, help, menu, messages, open_dialog
 from viewer.panels.panel import Corner, Panel
 from viewer.session.session import Session
 from viewer.session.view_state import Request
@@ -35,6 +35,8 @@ class App:
         self.session = session
         self.canvas = Canvas(surface.ctx, session)
         self.has_layout = False
+        self.resets_layout = False
+        self.drawn_state: object = None  # of the surface when it was drawn last
         self.style_changed = Changed()
         self.title_changed = Changed()
         session.calls.wake = surface.wake
@@ -103,14 +105,18 @@ class App:
             self.frame()
 
     def frame(self) -> None:
-        """Draw all panels once."""
+        """Draw all panels once. A part that fails is reported, and the others go on."""
         began = time.perf_counter()
-        self._take_dropped()
-        self._apply_style()
+        guard, caught = self.session.guard, len(self.session.guard.caught)
+        guard.run("opening the dropped file", self._take_dropped, closes=False)
+        guard.run("the style", self._apply_style)
         self.surface.begin()
         self._draw()
         self.surface.present()
-        self._set_title()
+        guard.run("the title", self._set_title)
+        self.drawn_state = self.surface.state
+        if len(guard.caught) == caught:
+            self.session.approve()
         self.canvas.frame_took(time.perf_counter() - began)
 
     def close(self) -> None:
@@ -124,8 +130,11 @@ class App:
             self.frame()
 
     def _has_events(self) -> bool:
-        """Whether there are input events, or dropped files, that no frame has processed."""
-        return len(imgui.get_current_context().input_events_queue) > 0 or len(self.surface.dropped) > 0
+        """Whether there are input events or dropped files that no frame has processed, or another size or scale of the
+        screen.
+        """
+        events = len(imgui.get_current_context().input_events_queue) > 0 or len(self.surface.dropped) > 0
+        return events or self.surface.state != self.drawn_state
 
     def _is_busy(self) -> bool:
         session = self.session
@@ -142,34 +151,54 @@ class App:
 
     def _apply_style(self) -> None:
         wanted = (self.session.appearance.theme, self.surface.scale, self.session.appearance.text_zoom)
-        if self.style_changed(wanted):
-            style.apply(*wanted)
+        self.style_changed.run(wanted, lambda: style.apply(*wanted))
 
     def _set_title(self) -> None:
         world = self.session.world
         title = f"{world.scene.title or self.session.path} – raytree" if world else "raytree"
-        if self.title_changed(title):
-            self.surface.set_title(title)
+        self.title_changed.run(title, lambda: self.surface.set_title(title))
 
     def _draw(self) -> None:
         session = self.session
-        keys.handle(session)
-        reset = menu.draw(session)
-        open_dialog.draw(session)
-        messages.draw(session)
-        help.draw(session, keys.HELP)
         room = imgui.get_main_viewport()
+        self._part("the keys", lambda: keys.handle(session), closes=False)
+        self._part("the menu", self._menu)
+        self._part("the dialog", lambda: open_dialog.draw(session))
+        self._part("the messages", lambda: messages.draw(session))
+        self._part("the help", lambda: help.draw(session, keys.HELP))
         left, top = room.work_pos
         # In a window that is too small the panels are cut off, since imgui would keep reduced panel sizes.
         width = max(room.work_size.x, SMALLEST[0])
         height = max(room.work_size.y, SMALLEST[1]) - bar.height()
-        self._dock(left, top, width, height, reset)
+        self._part("the layout", lambda: self._dock(left, top, width, height), closes=False)
         for panel in PANELS:
             if panel.exists(session):
                 self._panel(panel)
+        session.scroll = 0
         for request in session.take_requests():
-            self._do(request)
-        bar.draw(session, left, top + height, width)
+            self._part("a request", lambda request=request: self._do(request), closes=False)
+        self._part("the bar", lambda: bar.draw(session, left, top + height, width))
+        if session.is_blank:
+            self._part("the black screen", blank.draw)
+
+    def _part(self, name: str, draw: Callable[[], object], closes: bool = True) -> bool:
+        """Draw one part. If it fails, imgui's stacks are set back to where they were."""
+        state = internal.ErrorRecoveryState()
+        internal.error_recovery_store_state(state)
+
+        def recover() -> None:
+            io = imgui.get_io()
+            io.config_error_recovery_enable_assert = False  # the stacks that do not match are being mended
+            internal.error_recovery_try_to_recover_state(state)
+            io.config_error_recovery_enable_assert = True
+            self.session.reject()
+
+        return self.session.guard.run(name, draw, recover, closes)
+
+    def _menu(self) -> None:
+        if menu.draw(self.session):
+            self.resets_layout = True
+            self.session.guard.open_all()
 
     def _do(self, request: Request) -> None:
         """Fulfil a request of the session."""
@@ -189,12 +218,17 @@ class App:
         opened, _ = imgui.begin(panel.title, None, still)
         if panel.padding:
             imgui.pop_style_var()
-        if opened:
-            panel.draw(self.session, self.canvas)
+        if opened and panel.title in self.session.guard.closed:
+            imgui.text_wrapped(self.session.guard.closed[panel.title])
+        elif opened:
+            self._part(panel.title, lambda: panel.draw(self.session, self.canvas))
+            if self.session.scroll and not panel.padding:
+                lines = self.session.scroll * imgui.get_text_line_height_with_spacing()
+                imgui.set_scroll_y(imgui.get_scroll_y() + lines)
         imgui.end()
 
-    def _dock(self, left: float, top: float, width: float, height: float, reset: bool) -> None:
-        """The room for the panels. At first, or after `reset`, each panel is put in its place."""
+    def _dock(self, left: float, top: float, width: float, height: float) -> None:
+        """The room for the panels. At first, or if it is to be reset, each panel is put in its place."""
         imgui.set_next_window_pos((left, top))
         imgui.set_next_window_size((width, height))
         flags = imgui.WindowFlags_
@@ -205,9 +239,9 @@ class App:
         )  # fmt: skip
         imgui.pop_style_var()
         dock = imgui.get_id(DOCK)
-        if reset or (not self.has_layout and internal.dock_builder_get_node(dock) is None):
+        if self.resets_layout or (not self.has_layout and internal.dock_builder_get_node(dock) is None):
             self._lay_out(dock, width, height)
-        self.has_layout = True
+        self.has_layout, self.resets_layout = True, False
         imgui.dock_space(dock)
         imgui.end()
 

@@ -1,6 +1,7 @@
 """The key bindings: one table for what keys do and for the help that explains them.
 
-Letters and digits go by the character they write, so that they are where they are printed on any keyboard.
+Letters and digits go by the character that they write, so that they are where they are printed on any keyboard. If the
+keyboard's layout writes no character that is bound, like Russian letters, they go by their place on a US keyboard.
 """
 
 from collections.abc import Callable, Mapping
@@ -9,6 +10,8 @@ from dataclasses import dataclass, field
 from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
+from viewer.session.actions import go, look_through_camera, nudge, step, toggle_model, toggle_refinement
+from viewer.session.saving import copy_command, export_figure
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
@@ -16,6 +19,11 @@ Act = Callable[[Session], object]
 K = imgui.Key
 CTRL = (K.left_ctrl, K.right_ctrl, K.left_super, K.right_super)
 SHIFT = (K.left_shift, K.right_shift)
+US_KEYS = {getattr(K, letter): letter for letter in "abcdefghijklmnopqrstuvwxyz"} | {
+    **{getattr(K, f"_{digit}"): str(digit) for digit in range(10)},
+    K.minus: "-", K.equal: "=", K.period: ".", K.slash: "/",
+}  # fmt: skip
+LINES = 3  # by which a key scrolls
 
 
 @dataclass(frozen=True)
@@ -28,12 +36,13 @@ class Binding:
     pressed: Mapping[imgui.Key, Act] = field(default_factory=dict)
     repeated: Mapping[imgui.Key, Act] = field(default_factory=dict)  # again and again while the key is held
     ctrl: Mapping[imgui.Key, Act] = field(default_factory=dict)  # together with Ctrl (on a Mac: Cmd)
+    alt: Mapping[imgui.Key, Act] = field(default_factory=dict)  # together with Alt
 
 
 def _nudge(dx: int, dy: int) -> Act:
     def act(session: Session) -> None:
-        step = 10 if imgui.get_io().key_shift else 1
-        session.nudge(step * dx, step * dy)
+        pixels = 10 if imgui.get_io().key_shift else 1
+        nudge(session, pixels * dx, pixels * dy)
 
     return act
 
@@ -48,18 +57,32 @@ def _deeper(by: int) -> Act:
 
 def _copy(session: Session) -> None:
     if imgui.get_io().key_shift or _just_released(SHIFT):
-        session.copy_command()
+        copy_command(session)
     else:
-        session.export_figure(copied=True)
+        export_figure(session, copied=True)
 
 
 def _escape(session: Session) -> None:
+    """Close what is open; if nothing is, unselect the ray."""
     if session.shows_help:
         session.shows_help = False
     elif session.faults:
         session.show_faults([])
+    elif session.notes:
+        session.notes = []
     else:
-        session.clear()
+        session.select(None)
+
+
+def _blank(session: Session) -> None:
+    session.is_blank = True
+
+
+def _scroll(by: int) -> Act:
+    def act(session: Session) -> None:
+        session.scroll += by
+
+    return act
 
 
 def _help(session: Session) -> None:
@@ -84,27 +107,33 @@ BINDINGS = (
     Binding("click", "on a ray, in 3D or in the tree: select it"),
     Binding(
         "Page Down, Page Up", "select the next ray, the one before",
-        repeated={K.page_down: lambda session: session.step(1), K.page_up: lambda session: session.step(-1)},
+        repeated={K.page_down: lambda session: step(session, 1), K.page_up: lambda session: step(session, -1)},
+    ),
+    Binding("J  K", "scroll the text or the numbers: down, up", {"j": _scroll(LINES), "k": _scroll(-LINES)}),
+    Binding(
+        "Alt+Left, Alt+Right", "back to the pixel or scene before, forward again",
+        alt={K.left_arrow: lambda session: go(session, -1), K.right_arrow: lambda session: go(session, 1)},
     ),
     Binding("drag", "in the scene: turn; with Shift or the right button: move"),
     Binding("wheel", "in the scene, on the tree: zoom"),
-    Binding("F", "reset the 3D view", {"f": Session.home}),
-    Binding("V", "look through the scene's camera", {"v": Session.through_camera}),
+    Binding("F", "fit scene, image and tree into their panels (double click: only that one)", {"f": Session.home}),
+    Binding("V", "look through the scene's camera", {"v": look_through_camera}),
     Binding(
-        "C  L  N  B", "camera, lights, normals, names: show or hide",
-        {"c": _toggle("camera"), "l": _toggle("lights"), "n": _toggle("normals"), "b": _toggle("labels")},
+        "C  L  N  A", "camera, lights, normals, names: show or hide",
+        {"c": _toggle("camera"), "l": _toggle("lights"), "n": _toggle("normals"), "a": _toggle("labels")},
     ),
-    Binding("M", "Whitted's model or Fresnel's", {"m": Session.toggle_model}),
-    Binding("R", "refine the image, pause", {"r": Session.toggle_refinement}),
+    Binding("M", "Whitted's model or Fresnel's", {"m": toggle_model}),
+    Binding("R", "refine the image, pause", {"r": toggle_refinement}),
     Binding("T", "light or dark theme", {"t": lambda s: s.appearance.toggle_theme()}),
     Binding("Tab", "lecture size: everything larger", pressed={K.tab: lambda s: s.appearance.toggle_lecture_size()}),
-    Binding("Esc", "unselect the ray, then unpick the pixel", pressed={K.escape: _escape}),
+    Binding("B or .", "black screen; any key or click brings the window back", {"b": _blank, ".": _blank}),
+    Binding("Esc", "close a message or the help; unselect the ray", pressed={K.escape: _escape}),
     Binding(
-        "F5", "reload the scene's file (automatic when it is saved)",
-        pressed={K.f5: lambda session: session.loader.reload()},
+        "Ctrl+R", "reload the scene's file (automatic when it is saved)",
+        ctrl={K.r: lambda session: session.loader.reload()},
     ),
     Binding(
-        "Ctrl+S", "export a figure of the current view (the menu Figure selects it)", ctrl={K.s: Session.export_figure}
+        "Ctrl+S", "export a figure of the current view (the menu Figure selects it)", ctrl={K.s: export_figure}
     ),
     Binding(
         "Ctrl+C", "copy that figure: a picture to paste onto a slide; with Shift its command line", ctrl={K.c: _copy}
@@ -120,11 +149,16 @@ BINDINGS = (
 )  # fmt: skip
 
 HELP = [(binding.label, binding.meaning) for binding in BINDINGS]
+TYPED = {character: act for binding in BINDINGS for character, act in binding.typed.items()}
 
 
 def handle(session: Session) -> None:
     """Run the actions of the keys pressed since the last frame, unless a text field has the focus."""
     io = imgui.get_io()
+    _own_tab()
+    if session.is_blank:
+        session.is_blank = not _is_anything_pressed()
+        return
     if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
         if imgui.is_key_pressed(K.escape, False):
             internal.close_popup_to_level(0, True)
@@ -134,13 +168,35 @@ def handle(session: Session) -> None:
     if io.key_ctrl or io.key_super or _just_released(CTRL):
         _press([binding.ctrl for binding in BINDINGS], session, repeat=False)
         return
-    characters = io.input_queue_characters
-    for k in range(characters.size()):
-        for binding in BINDINGS:
-            if act := binding.typed.get(chr(characters[k]).lower()):
-                act(session)
+    if io.key_alt:
+        _press([binding.alt for binding in BINDINGS], session, repeat=False)
+        return
+    for character in _typed(io):
+        TYPED[character](session)
     _press([binding.repeated for binding in BINDINGS], session, repeat=True)
     _press([binding.pressed for binding in BINDINGS], session, repeat=False)
+
+
+def _own_tab() -> None:
+    """Take the Tab key from imgui, which would move the keyboard into a text field."""
+    internal.set_key_owner(K.tab, imgui.get_id("keys"))
+
+
+def _is_anything_pressed() -> bool:
+    """Whether a key or a button of the mouse went down."""
+    return any(imgui.is_key_pressed(K(key), False) for key in range(K.named_key_begin, K.named_key_end))
+
+
+def _typed(io: imgui.IO) -> list[str]:
+    """The bound characters that were typed since the last frame, or those of the US layout in their places."""
+    written = [chr(character).lower() for character in io.input_queue_characters]
+    bound = [character for character in written if character in TYPED]
+    if bound or not written:
+        return bound
+    keys = [key for key, character in US_KEYS.items() if character in TYPED]
+    pressed = [key for key in keys if imgui.is_key_pressed(key, True)]
+    # Typed fast, a character may come one frame later than its key.
+    return [US_KEYS[key] for key in pressed or [key for key in keys if imgui.is_key_down(key)]]
 
 
 def _press(groups: list[Mapping[imgui.Key, Act]], session: Session, repeat: bool) -> None:

@@ -63,6 +63,7 @@ def test_command_line_prints_the_note(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow  # compiles the kernels by plain njit
+@pytest.mark.timeout(600)
 def test_the_bits_are_the_same(tmp_path: Path) -> None:
     import hashlib
 

@@ -76,7 +76,7 @@ def test_shadow_rows_carry_their_lights_share() -> None:
     assert tree.nodes["radiance"][1].tolist() == [0.125, 0.125, 0.0625]
     assert tree.nodes["radiance"][2:].tolist() == [[0.0] * 3] * 2
     assert tree.nodes["local"][0].tolist() == [0.25, 0.375, 0.3125]
-    assert [tree.path(i) for i in range(4)] == ["ED", "EDL", "ED", "ED"]
+    assert [tree.light_path(i) for i in range(4)] == ["ED", "EDL", "ED", "ED"]
 
 
 def test_unblocked_light_at_infinity_has_no_end() -> None:

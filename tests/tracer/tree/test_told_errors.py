@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
-from mpmath import mpf
+from mpmath import mp, mpf
 
 import tracer
 from tests.compared_trees import compared, judged_pixel, judged_ray
@@ -18,6 +18,13 @@ from tracer.scene import Camera, Image, Object, Scene
 from tracer.shapes.cone import Cone
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.sphere import Sphere
+
+
+@pytest.fixture(autouse=True)
+def digits() -> Iterator[None]:
+    """The differences from the judge's numbers are computed with as many digits as these have."""
+    with mp.workdps(50):
+        yield
 
 
 def ratios(tree: tracer.RayTree, world: tracer.World) -> Iterator[tuple[str, float]]:

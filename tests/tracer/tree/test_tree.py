@@ -20,7 +20,7 @@ from viewer.figures.writers.dot import write_dot
 FIELDS = [
     "id", "parent", "kind", "depth", "origin", "direction", "t", "point", "normal", "object", "light", "n1", "n2",
     "theta1", "theta2", "factor", "weight", "radicand", "local", "radiance", "end", "error", "turn",
-    "factor_error", "weight_error", "radiance_error", "path", "margin", "decision",
+    "factor_error", "weight_error", "radiance_error", "path", "label", "light_path", "margin", "decision",
 ]  # fmt: skip
 
 
@@ -127,7 +127,8 @@ def test_text_draws_a_line_a_ray_below_its_parent(tree: tracer.RayTree) -> None:
     order = list(tree.preorder())
     assert sorted(order) == list(range(len(tree)))
     for i, line in zip(order, lines, strict=True):
-        assert f"{i} {'shadow to' if tree.kind(i) == 'shadow' else tree.kind(i)}" in line
+        name = tree.light_label(i) if tree.kind(i) == "shadow" else tree.label(i)
+        assert f"{name} {tree.kind(i)}" in line
         assert ("the surface faces away" if tree.faces_away(i) else END_REASONS[tree.end(i)]) in line
         assert (tree.object_name(i) or "") in line
     assert all(len(line) <= 160 for line in lines)
@@ -135,7 +136,7 @@ def test_text_draws_a_line_a_ray_below_its_parent(tree: tracer.RayTree) -> None:
         assert order.index(int(tree.nodes["parent"][i])) < place
 
 
-def test_path_strings() -> None:
+def test_light_paths() -> None:
     """E the eye, S a reflection or transmission, D where a shadow ray starts or an opaque surface ends the path, L the
     light.
     """
@@ -146,7 +147,7 @@ def test_path_strings() -> None:
     mirror = plane((0, 0, 0), (0, 1, 0), Material("mirror", diffuse=0.5, reflect=0.5), "mirror")
     world = world_of(mirror, ball((0, 3, 0), 1, MATTE), lights=[lamp])
     tree = tracer.trace(world, ray=((0, 3, 6), (0, -1, -1)), depth=1)
-    found = {(tree.kind(i), tree.path(i)) for i in range(len(tree))}
+    found = {(tree.kind(i), tree.light_path(i)) for i in range(len(tree))}
     assert ("camera", "E") in found
     assert ("shadow", "EDL") in found
     assert {path for kind, path in found if kind == "reflection"} <= {"ES", "ESD"}
@@ -158,7 +159,7 @@ def test_text_of_a_very_deep_tree_is_no_wider_for_it() -> None:
     lines = tree.to_text().splitlines()
     assert len(lines) == 20_001 + 4
     assert max(map(len, lines)) < 150
-    assert lines[-1].startswith("level 20000: 20000 reflection")
+    assert lines[-1].startswith("level 20000: R20000 reflection")
     few = tree.to_text(100).splitlines()
     assert few[2] == "the heaviest 100 of 20001 rays are shown"
     assert [line.split()[:3] for line in few[5:]] == [line.split()[:3] for line in lines[4:104]]
@@ -171,7 +172,5 @@ def test_text_shows_the_heaviest_rays_with_their_ancestors(worlds: dict[str, tra
     rays = [i for i in range(len(tree)) if tree.kind(i) != "shadow"]
     assert min(weights[i] for i in rays if i in kept) >= max(weights[i] for i in rays if i not in kept)
     assert all(int(tree.nodes["parent"][i]) in kept for i in kept - {0})
-    shown = [
-        re.search(r"(\d+) (camera|reflection|refraction|tir|shadow)", line) for line in tree.to_text(60).splitlines()
-    ]
-    assert {int(found[1]) for found in shown if found} == kept
+    shown = [re.search(r"(\S+) (camera|reflection|refraction|tir) ", line) for line in tree.to_text(60).splitlines()]
+    assert {found[1] for found in shown if found} == {tree.label(i) for i in kept & set(rays)}

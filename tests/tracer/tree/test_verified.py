@@ -2,15 +2,17 @@
 
 import math
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
+from mpmath import mp
 
 import tracer
 from tests.compared_trees import compared, judged_pixel, judged_ray
+from tests.exact_scene import norm, sub, vec
 from tests.planted_rays import planted_ray
 from tests.random_scenes import random_scene, stiff_scene
 from tests.scenes import GLASS, MATTE, MIRROR, OPEN, ball, box, cube_mesh, plane, polygon, world_of
@@ -24,6 +26,13 @@ from tracer.tree.text import tree_text
 from tracer.tree.verified.enclosures import VerifiedTree
 from tracer.tree.verified.text import range_text, verified_text
 from tracer.tree.verified.verifier import ROUNDING
+
+
+@pytest.fixture(autouse=True)
+def digits() -> Iterator[None]:
+    """The differences from the judge's numbers are computed with as many digits as these have."""
+    with mp.workdps(50):
+        yield
 
 
 def pixel_tree(scene: Scene, seed: int) -> RayTree:
@@ -49,6 +58,9 @@ def check(tree: RayTree, verified: VerifiedTree) -> list[float]:
             assert row.weight[0] <= one.weight <= row.weight[1]
             for (low, high), exact in zip(row.point or (), one.point or (), strict=True):
                 assert low <= exact <= high
+            if one.point is not None:
+                off = norm(sub(vec(tree.nodes["point"][i]), one.point))
+                assert not off > tree.nodes["error"][i]  # the same of the two points where a ray can meet a shape
         if whole:
             for (low, high), exact in zip(row.radiance, one.radiance, strict=True):
                 assert low <= exact <= high
@@ -147,7 +159,7 @@ def test_without_a_bound_there_is_no_upper_end_and_the_text_says_why() -> None:
     verified = tracer.verify(world, tree)
     assert verified.unbounded == "shining glass"
     assert all(high == math.inf for _, high in verified.color)
-    assert 'no bound is known for the material "shining glass"' in verified_text(verified)[0]
+    assert 'no bound is known for the material "shining glass"' in verified_text(verified, tree.label)[0]
     assert verified.to_dict()["color"] == [[0.0, None]] * 3
 
 
@@ -273,3 +285,44 @@ def test_a_colour_or_a_light_that_was_recorded_otherwise_is_not_certified(seed: 
     verified = tracer.verify(world, tree)
     check(tree, verified)
     assert any("recorded" in doubt for row in verified.rows for doubt in row.doubts)
+
+
+@pytest.mark.parametrize("depth", [0, 4])
+def test_the_far_side_of_an_open_cone_is_not_certified_as_its_near_side(depth: int) -> None:
+    """The exact ray meets the near side within 1e-17 of the rim. The recorded one passes it by, and meets the same
+    surface farther away.
+    """
+    apex, base = (
+        (-1.1819733484436243, 0.4247764997547408, 0.2593719581718216),
+        (-0.6313198892796109, 0.4953811499113988),
+    )
+    cone = Cone((*base, 0.7275144070411107), 0.0, apex, 0.1371077526905166)
+    lamp = Light("lamp", position=(-7.761299723013792, 1.797831741669493, -0.7280299706685651))
+    ray = (
+        (-4.879268374910433, 0.5939432326933509, 1.0092959449006218),
+        (3.6188881519467997, -0.09046679279657954, -0.6695671743387593),
+    )
+    tree = tracer.trace(world_of(Object(cone, MATTE, "cone"), lights=[lamp]), ray=ray, depth=depth)
+    verified = tracer.verify(tree.world, tree)
+    check(tree, verified)
+    assert verified.rows[0].doubts == ("it meets the surface at another point than recorded",)
+    assert not verified.rows[0].certified and verified.certified < verified.decisions
+
+
+def test_where_no_digit_of_the_point_is_left_the_colour_says_how_far_it_may_be_off() -> None:
+    """A ray nearly along a plane: the error of the point is infinite, but that of a cosine is at most 1."""
+    mirror = Material("mirror", diffuse=0.05, reflect=0.7)
+    ground = plane((-0.13729321192513386, 0.09086611488887728, -1.3105338350749323),
+                   (0.3788400095889407, -0.016591638231295693, -0.4603840758819903), mirror)  # fmt: skip
+    lamp = Light("lamp", position=(-3.368058541759093, 7.256357115704829, 0.0382500803072131), color=(0.4, 0.2, 0.1))
+    ray = (
+        (-2.695995572527825, -0.06139615961738076, -2.844050074581507),
+        (0.6248385392076123, 0.6059620600376472, 0.4923279209183935),
+    )
+    tree = tracer.trace(world_of(ground, lights=[lamp], background=(0.2, 0.3, 0.5)), ray=ray, depth=1)
+    assert math.isinf(tree.nodes["error"][0])
+    verified = tracer.verify(tree.world, tree)
+    check(tree, verified)
+    for (low, high), seen in zip(verified.color, tree.radiance, strict=True):
+        assert low - tree.radiance_error <= seen <= high + tree.radiance_error
+    assert tree.radiance_error <= 0.05 * 0.4 + 1e-12

@@ -57,12 +57,14 @@ def test_a_ray_by_hand(tmp_path: Path) -> None:
         (["-o", "{}/file/", "--format", "svg"], "{}/file: must be a folder, got a file"),
         (["-o", "{}/b", "--format", "svg"], 'raytree export: a folder\'s name ends with "/": -o {}/b/'),
         (
-            ["-o", "{}/a.svg", "--figure", "hit", "--node", "1"],
-            "raytree: --node 1 must be a ray that meets a surface: E, T4, R7, T8, R13, T14",
+            ["-o", "{}/a.svg", "--figure", "hit", "--node", "R"],
+            "raytree: --node R must be the path or the label of a ray that meets a surface: E, T (T2), TR (R3), "
+            "TT (T4), TRR (R5), TRT (T6)",
         ),
         (
             ["-o", "{}/a.svg", "--figure", "hit", "--node", "R4"],
-            "raytree: --node R4 must be a ray that meets a surface: E, T4, R7, T8, R13, T14",
+            "raytree: --node R4 must be the path or the label of a ray that meets a surface: E, T (T2), TR (R3), "
+            "TT (T4), TRR (R5), TRT (T6)",
         ),
         (
             ["-o", "{}/a.svg", "--figure", "hit", "--pixel", "0,0"],
@@ -123,7 +125,7 @@ def test_all_that_is_wrong_is_said_at_once(tmp_path: Path, capsys: pytest.Captur
 
 def test_a_ray_is_asked_for_as_figures_name_it(tmp_path: Path) -> None:
     written = []
-    for node in ("4", "T4", "t4"):
+    for node in ("TT", "T4", "t4"):
         out = tmp_path / f"{node}.svg"
         assert main.main(["export", "glass-ball", "--figure", "hit", "--node", node, "-o", str(out)]) == 0
         written.append(out.read_bytes().split(b"</metadata>")[1])
@@ -165,7 +167,12 @@ def test_rays_to_lights_are_left_out_on_wish(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     (
-        (["--node", "L1"], "a ray that meets a surface; L1 goes to a light: name its parent"),
+        (["--node", "L(sun)"], "a ray that meets a surface; L(sun) goes to a light: name the ray that it starts from"),
+        (
+            ["--node", "T.L(sun)"],
+            "a ray that meets a surface; T.L(sun) goes to a light: name the ray that it starts from",
+        ),
+        (["--node", "4"], 'the path or the label of a ray, like TR, R3 or E, got "4"'),
         (["--fold", "2"], 'a number from 0 to 1, got "2"'),
         (["--figur", "hit"], "unrecognized arguments: --figur"),
     ),

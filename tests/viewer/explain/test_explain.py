@@ -10,8 +10,9 @@ import tracer
 from tests.scenes import ball, plane, world_of
 from tracer.scene import Light, Material
 from viewer.base.wording import format_number
+from viewer.explain.interfaces import interfaces
 from viewer.explain.ray import explain_ray, headline
-from viewer.explain.sections import Section
+from viewer.explain.sections import Part
 
 LAMPS = [
     Light("lamp", position=(0.0, 5.0, 2.0), color=(0.5, 0.25, 1.0)),
@@ -20,8 +21,9 @@ LAMPS = [
 ]
 
 
-def section(sections: list[Section], title: str) -> dict[str, str]:
-    (found,) = [section for section in sections if section.title == title]
+def section(parts: list[Part], title: str) -> dict[str, str]:
+    """The lines of a section, of the part about the end of the ray if both parts have it."""
+    *_, found = [section for part in parts for section in part.sections if section.title == title]
     return {line.name: line.value for line in found.lines}
 
 
@@ -67,8 +69,8 @@ def test_sum_names_each_child_with_its_share(water: tuple) -> None:
     parts = [np.array(values(text)) for text in total.values()]
     assert parts[-1] == pytest.approx(tree.radiance, abs=6e-5)
     assert sum(parts[:-1]) == pytest.approx(tree.radiance, abs=2e-4)
-    assert any(re.fullmatch(r"\+ 0.25 × ray \d+ \(R\)", name) for name in total)
-    assert any(re.fullmatch(r"\+ 0.5 × ray \d+ \(T\)", name) for name in total)
+    assert any(name == "+ 0.25 × R1" for name in total)
+    assert any(name == "+ 0.5 × T2" for name in total)
 
 
 def test_local_light_stands_light_by_light(water: tuple) -> None:
@@ -119,7 +121,7 @@ def test_total_internal_reflection_shows_the_number_that_decides() -> None:
     assert value(decided["1 − η²(1 − c₁²)"]) == pytest.approx(1 - (1.33 * math.sin(a)) ** 2, rel=1e-4, abs=0.0)
     assert decided["η²(1 − c₁²)"].endswith("≥ 1: total internal reflection")
     assert section(sections, "Snell's law")["sin θ₂ would be"].endswith("> 1")
-    assert headline(tree, 1)[0] == "Total internal reflection 1"
+    assert headline(tree, 1)[0] == "Total internal reflection TIR1"
 
 
 def test_fresnel_shares_are_those_of_the_children() -> None:
@@ -131,16 +133,53 @@ def test_fresnel_shares_are_those_of_the_children() -> None:
     assert value(shares["(kr + kt) T"]) == pytest.approx(tree.nodes["factor"][2][0], rel=1e-4, abs=0.0)
 
 
+def test_first_the_origin_of_a_ray_then_its_end() -> None:
+    """From the inside of glass: a reflected, a refracted and a totally reflected ray show the formulas of the hit that
+    sent them out, with the numbers of that hit, and then those of their own hit, whose rays are named.
+    """
+    glass = Material("glass", reflect=0.1, transmit=0.8, ior=1.5)
+    world = world_of(ball((0, 0, 0), 1, glass), model="fresnel")
+    tree = tracer.trace(world, ray=((-3, 0.7, 0), (1, 0, 0)), depth=3)
+    into, back, out = (tree.find(path) for path in ("T", "TR", "TT"))
+    assert into and back and out
+    for row, kinds in ((into, ["Snell's law", "Transmission direction", "Fresnel"]), (back, ["Reflection", "Fresnel"])):
+        parts = explain_ray(tree, world, row)
+        assert [section.title for section in parts[0].sections] == kinds
+        parent = int(tree.nodes["parent"][row])
+        symbol = "t" if row == into else "r"
+        lines = [line for section in parts[0].sections for line in section.lines]
+        (direction,) = [line for line in lines if line.name == symbol]
+        assert direction.ray == tree.label(row)
+        assert values(direction.value) == pytest.approx(tree.nodes["direction"][row], abs=6e-5)
+        (incoming,) = {line.ray for line in lines if line.name == "v"}
+        assert incoming == tree.label(parent)
+        assert parts[0].title == f"{tree.label(row)} starts where {tree.label(parent)} meets ball"
+    begun, _ = explain_ray(tree, world, out)[0], None
+    assert [section.title for section in begun.sections][:2] == ["Snell's law", "Critical angle"]
+    ended = explain_ray(tree, world, into)[1]
+    named = {line.ray for section in ended.sections for line in section.lines if line.name in "rt"}
+    assert ended.title == "T2 meets ball" and named == {tree.label(back), tree.label(out)}
+    start, end = interfaces(tree, into)
+    assert (start.critical, end.critical) == ("–", "41.81°") and start.theta2 == end.theta1
+    deep = tracer.trace(world, ray=((0, -0.99, 0), (1, 0, 0)), depth=2)  # inside, near the rim
+    whole = deep.find("I")
+    assert whole
+    origin = [section.title for section in explain_ray(deep, world, whole)[0].sections]
+    assert origin == ["Snell's law", "Critical angle", "Transmission direction", "Reflection"]
+    assert interfaces(deep, whole)[0].radicand.startswith("−")
+
+
 def test_every_ray_of_every_lesson_can_be_explained(world: tracer.World) -> None:
     for pixel in ((400, 300), (300, 200), (560, 330), (452, 455), (10, 10)):
         for model in ("whitted", "fresnel"):
             tree = tracer.trace(world, pixel, depth=3, model=model)
             for i in range(len(tree)):
-                sections = explain_ray(tree, world, i)
-                assert [part.title for part in sections].count("Numbers") == 1
-                for part in sections:
-                    for line in part.lines:
-                        assert "nan" not in line.value and "inf" not in line.value, (part.title, line)
+                parts = explain_ray(tree, world, i)
+                assert parts[-1].title == "Numbers" and len({part.title for part in parts}) == len(parts)
+                rows = [cell for row in interfaces(tree, i) for cell in row]
+                lines = [line for part in parts for section in part.sections for line in section.lines]
+                for value in (*rows, *(line.value for line in lines)):
+                    assert "nan" not in value and "inf" not in value, (parts[0].title, value)
 
 
 def test_numbers_are_written_for_people() -> None:

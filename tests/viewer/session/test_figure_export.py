@@ -97,8 +97,7 @@ def test_the_choice_is_kept(room: Driver, tmp_path: Path) -> None:
 
 def test_without_a_pixel_there_is_nothing_to_export(room: Driver, tmp_path: Path) -> None:
     room.open("mirror-balls")
-    room.session.clear()
-    room.session.clear()
+    room.unpick()
     press_save(room)
     assert room.session.notice.text == "nothing to export yet: pick a pixel"
     assert list(tmp_path.iterdir()) == []
@@ -112,7 +111,8 @@ def test_a_hit_that_is_none_is_said(room: Driver, tmp_path: Path) -> None:
     room.session.select(next(i for i in range(len(tree)) if tree.end(i) == "background"))
     room.session.export.figure = "hit"
     press_save(room)
-    assert room.session.faults == ["--node 3 must be a ray that meets a surface: E, T4, R7, T8, R13, T14"]
+    known = "E, T (T2), TR (R3), TT (T4), TRR (R5), TRT (T6)"
+    assert room.session.faults == [f"--node R must be the path or the label of a ray that meets a surface: {known}"]
     assert list(tmp_path.iterdir()) == []
 
 

@@ -93,12 +93,12 @@ def test_selecting_a_node_selects_its_ray_and_the_other_way_round(glass: Driver)
     kinds = set()
     for shadows in (True, False):
         if not shadows:
-            glass.session.toggle_kind("shadow")
+            glass.session.shown.toggle_kind("shadow")
             glass.frames()
         for row in [line.row for line in glass.canvas.lines]:
             place = glass.lone_place(row)
             if place:
-                glass.session.selected = None
+                glass.session.select(None)
                 glass.click(*place)
                 assert glass.session.selected == row
                 kinds.add(glass.session.tree.kind(row))
@@ -146,10 +146,10 @@ def test_legend_switches_kinds_off_and_on(glass: Driver) -> None:
     assert glass.session.tree
     every = {line.kind for line in glass.canvas.lines}
     for kind in STYLES:
-        glass.session.toggle_kind(kind)
+        glass.session.shown.toggle_kind(kind)
         glass.frames()
         assert {line.kind for line in glass.canvas.lines} == every - {kind}
-        glass.session.toggle_kind(kind)
+        glass.session.shown.toggle_kind(kind)
     glass.frames()
     assert {line.kind for line in glass.canvas.lines} == every
 
@@ -168,12 +168,21 @@ def test_arrow_keys_move_the_pixel(glass: Driver) -> None:
     assert glass.session.pixel == (310, 200)
 
 
-def test_escape_clears_the_selection_then_the_pixel(glass: Driver) -> None:
-    glass.session.select(2)
+def test_escape_closes_what_is_open_then_unselects_and_nothing_else(glass: Driver) -> None:
+    session = glass.session
+    pixel = session.pixel
+    session.select(2)
+    session.notes, session.shows_help = ["a note"], True
+    session.show_faults(["a fault"])
     glass.press(Key.escape)
-    assert glass.session.selected is None and glass.session.pixel is not None
+    assert not session.shows_help and session.faults
     glass.press(Key.escape)
-    assert glass.session.pixel is None and glass.session.tree is None
+    assert not session.faults and session.notes
+    glass.press(Key.escape)
+    assert not session.notes and session.selected == 2
+    for _ in range(3):
+        glass.press(Key.escape)
+        assert session.selected is None and session.pixel == pixel and session.tree is not None
     assert not glass.app.surface.closing
 
 
@@ -279,8 +288,7 @@ def test_every_lesson_opens_on_its_pixel_and_draws_every_panel(name: str) -> Non
 def test_near_by_pixels_are_squares(glass: Driver) -> None:
     """Magnified pixels are squares of one colour, up to the border of the next pixel."""
     session = glass.session
-    session.clear()
-    session.clear()
+    glass.unpick()
     glass.wheel(*glass.pixel_at(400, 300), 14)
     picture, shown = glass.picture(), session.image.picture
     assert shown

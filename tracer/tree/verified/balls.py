@@ -122,3 +122,13 @@ def bounds(x: Ball) -> tuple[float, float]:
     if x.is_exact() and ball(low) == x:
         return (low, low)
     return (math.nextafter(low, -math.inf), math.nextafter(high, math.inf))
+
+
+def up_product(a: float, b: float) -> float:
+    """a b for numbers >= 0, rounded upwards; 0 times infinity is 0."""
+    return math.nextafter(a * b, math.inf) if a > 0.0 and b > 0.0 else 0.0
+
+
+def up_sum(a: float, b: float) -> float:
+    """a + b, rounded upwards."""
+    return math.nextafter(a + b, math.inf) if b > 0.0 else a

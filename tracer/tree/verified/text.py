@@ -1,6 +1,7 @@
 """A verified tree in words."""
 
 import math
+from collections.abc import Callable
 from decimal import ROUND_CEILING, Decimal, localcontext
 
 from tracer.tree.digits import number_text
@@ -9,9 +10,9 @@ from tracer.tree.verified.enclosures import Range, VerifiedTree
 MOST = 5  # doubts that are listed
 
 
-def verified_text(verified: VerifiedTree) -> list[str]:
-    """The lines about the colour and the decisions."""
-    return [f"verified with {verified.bits} bits: {color_text(verified)}", *decision_lines(verified)]
+def verified_text(verified: VerifiedTree, label: Callable[[int], str]) -> list[str]:
+    """The lines about the colour and the decisions. `label` gives the label of a row."""
+    return [f"verified with {verified.bits} bits: {color_text(verified)}", *decision_lines(verified, label)]
 
 
 def color_text(verified: VerifiedTree) -> str:
@@ -49,9 +50,9 @@ def decisions_text(verified: VerifiedTree) -> str:
     return f"{verified.certified} of {verified.decisions} decisions are certified"
 
 
-def decision_lines(verified: VerifiedTree) -> list[str]:
+def decision_lines(verified: VerifiedTree, label: Callable[[int], str]) -> list[str]:
     """The number of decisions that are certified, the ways they were, and the others."""
     surfaces = f"surfaces: {verified.tested} decided in ball arithmetic, {verified.boxed} excluded by their boxes"
-    doubts = [f"ray {i}: {doubt}" for i, row in enumerate(verified.rows) for doubt in row.doubts]
+    doubts = [f"{label(i)}: {doubt}" for i, row in enumerate(verified.rows) for doubt in row.doubts]
     listed = "; ".join(doubts[:MOST]) + (f"; and {len(doubts) - MOST} more" if len(doubts) > MOST else "")
     return [f"{decisions_text(verified)}; {surfaces}", *([f"not certified: {listed}"] if doubts else [])]

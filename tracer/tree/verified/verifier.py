@@ -24,6 +24,8 @@ from tracer.tree.verified.balls import (
     scale,
     subtract,
     unit,
+    up_product,
+    up_sum,
 )
 from tracer.tree.verified.enclosures import VerifiedRow, VerifiedTree
 from tracer.tree.verified.face import Face
@@ -109,12 +111,15 @@ class Verifier:
         shown = found.shown if found else None
         owner = int(self.scenery.owners[shown.face.surface]) if shown else -1
         n1 = self.index(found.before) if found else math.nan
+        p = add(state.o, scale(shown.t, state.d)) if shown else None
         if found is None:
             doubt = "which surface it meets"
         elif owner != recorded["object"] or (owner < 0) != (recorded["end"] == BACKGROUND):
             doubt = "it meets another surface than recorded"
         elif not self.is_recorded(i, found):
             doubt = "it meets another face than recorded"
+        elif p and not self.is_at(i, p):
+            doubt = "it meets the surface at another point than recorded"
         elif n1 != recorded["n1"] or self.differs_behind(found, owner, recorded["n2"]):
             doubt = "it runs in another medium than recorded"
         else:
@@ -123,10 +128,9 @@ class Verifier:
         row.certified = self.decide(i, doubt) and bool(above < 0 or self.rows[above].certified)
         if doubt or found is None:
             return
-        if shown is None:
+        if shown is None or p is None:
             self.own[i] = balls(self.world.scene.background.color)
             return
-        p = add(state.o, scale(shown.t, state.d))
         row.point = (bounds(p[0]), bounds(p[1]), bounds(p[2]))
         if shown.entering is None:
             self.doubt(i, "from which side it meets the surface")
@@ -154,6 +158,13 @@ class Verifier:
         if len(faces) > 1:
             faces = [face for face in faces if face.may_have_normal(details.face_normal[i].tolist())]
         return any(face is own or face.is_same(own) for face in faces for own in found.faces)
+
+    def is_at(self, i: int, p: BallVector) -> bool:
+        """Whether row i was recorded at this point, within its told error. A ray can meet a curved surface twice."""
+        row = self.tree.nodes[i]
+        error = float(row["error"])
+        ends = zip(row["point"].tolist(), map(bounds, p), strict=True)
+        return not any(x < low - error or x > high + error for x, (low, high) in ends)
 
     def doubt(self, i: int, doubt: str) -> None:
         """Count a decision of row i that is not certified, without which the row is not."""
@@ -285,13 +296,3 @@ def camera_ray(camera: Camera, view: View, x: float, y: float) -> tuple[BallVect
 def expected_end(passage: Passage) -> int:
     """The end of a shadow row."""
     return BLOCKED if passage.high == 0 else FILTERED if passage.through_glass else LIT
-
-
-def up_product(a: float, b: float) -> float:
-    """a b for numbers >= 0, rounded upwards; 0 times infinity is 0."""
-    return math.nextafter(a * b, math.inf) if a > 0.0 and b > 0.0 else 0.0
-
-
-def up_sum(a: float, b: float) -> float:
-    """a + b, rounded upwards."""
-    return math.nextafter(a + b, math.inf) if b > 0.0 else a

@@ -58,8 +58,8 @@ def hit_marks(step: Step, node: int, size: float, theme: Theme, world: World | N
 
 
 def hit_row(tree: RayTree, asked: str | None) -> int:
-    """The row of a hit that was asked for as 4 or T4; without a request, the first. ValueError with a message for the
-    user.
+    """The row of a hit that was asked for by its ray's path (TR) or label (R3); without a request, the first.
+    ValueError with a message for the user.
     """
     hits = [i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW and tree.object_name(i)]
     if not hits:
@@ -67,10 +67,11 @@ def hit_row(tree: RayTree, asked: str | None) -> int:
     if asked is None:
         return 0
     for i in hits:
-        if asked.upper() in (str(i), ray_label(tree, i)):
+        if asked.upper() in (tree.path(i), tree.label(i)):
             return i
-    known = ", ".join(ray_label(tree, i) for i in hits[:12]) + (" ..." if len(hits) > 12 else "")
-    raise ValueError(f"--node {asked} must be a ray that meets a surface: {known}")
+    known = ", ".join(f"{tree.path(i)} ({tree.label(i)})" if i else tree.path(i) for i in hits[:12])
+    more = " ..." if len(hits) > 12 else ""
+    raise ValueError(f"--node {asked} must be the path or the label of a ray that meets a surface: {known}{more}")
 
 
 class _Drawing:
@@ -195,7 +196,7 @@ class _Drawing:
             self.marks.append(Line(name, CENTER, stop, stroke, title=title))
             away = self.tree.faces_away(child)
             self.marks += signs.light_end("away" if away else fate, name, end, self.size, self.theme)
-            words = f"{ray_label(self.tree, child)} {self.tree.light_name(child)}"
+            words = ray_label(self.tree, child)
             self.marks += names.label(name, words, [Spot(end)], color, most=0)
 
     def _light_end(self, turn: float, names: LabelPlacer) -> Point:

@@ -203,7 +203,9 @@ class _Drawing:
             self.names.take(at, 1.6 * self.size)
 
     def named(self) -> list[Named]:
-        """Names of lights, then of rays, the heaviest first, then of the objects that these meet."""
+        """Names of lights, then of rays, the heaviest first, then of the objects that these meet. A shadow ray needs
+        none beside that of its light.
+        """
         found: list[Named] = []
         for j, at in self.lights.items():
             name = self.scene.light_name(j)
@@ -212,12 +214,12 @@ class _Drawing:
         rays = [line for line in self.lines if nodes["kind"][line.row] != SHADOW]
         shadows = [line for line in self.lines if nodes["kind"][line.row] == SHADOW]
         rays.sort(key=lambda line: (-nodes["weight"][line.row].max(), line.row))
-        for k, line in enumerate([*rays, *shadows][:LABELS]):
+        for k, line in enumerate(rays[:LABELS]):
             piece = self._on_canvas(line, 0.0, 1.0)
             if piece:
                 label, color = ray_label(self.tree, line.row), self.theme.ray(line.kind)
                 spots = self._along(f"ray-{line.row}", label, piece)
-                most = sys.maxsize if k < FIRST and line.kind != "shadow" else 0
+                most = sys.maxsize if k < FIRST else 0
                 words = self.names.label(f"ray-{line.row}", label, spots, color, most)
                 found.append((frozenset((line.row,)), words))
         found += self._ways_out(shadows)

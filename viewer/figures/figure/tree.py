@@ -28,6 +28,7 @@ from viewer.figures.layout.sizes import (
     SWATCH,
     TreeStyle,
     edge_label,
+    stub_label,
 )
 from viewer.figures.layout.tree_plan import TreePlan, plan_tree
 from viewer.figures.legend import Entry, legend
@@ -155,7 +156,7 @@ class _Drawing:
         color = self.theme.ray("shadow")
         style = STYLES["shadow"]
         dash = BLOCKED_DASH if end == "blocked" else style.dash
-        label = ray_label(tree, i)
+        label = stub_label(tree, i, self.plan.style)
         sign, text = self._side_by_side(at, label)
         start = (x + 0.6 * (sign[0] - x), y + 0.5 * self.plan.box[1])
         stop = (sign[0], at[1] - 0.5 * self.size)
@@ -203,9 +204,8 @@ class _Drawing:
             stroke = Stroke(self.theme.muted, 1.4, (3.0, 3.0))
         color = self.theme.text
         words = hit_label(self.tree, i)
-        self.marks.append(
-            Box(name, at, self.plan.box, 0.28 * self.size, self.theme.panel, stroke, title=f"{words}, met by ray {i}")
-        )
+        title = f"{words}, met by {ray_label(self.tree, i)}"
+        self.marks.append(Box(name, at, self.plan.box, 0.28 * self.size, self.theme.panel, stroke, title=title))
         middle = at
         if self.plan.style.swatches:
             left = at[0] - 0.5 * self.plan.box[0] + (PADDING + 0.5 * SWATCH) * self.size

@@ -3,6 +3,7 @@
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
+from tracer.choices import SYMBOLS
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.figures.font import text_width
@@ -40,6 +41,9 @@ class TreeStyle:
     eye: str = "top"  # or left
     lights: bool = True  # whether shadow rays are drawn
     longest: int = LONG  # characters of a name
+    named: bool = (
+        True  # whether the ends of shadow rays have their lights' names; they stand in the order of the legend
+    )
 
 
 @dataclass(frozen=True)
@@ -68,7 +72,7 @@ class Sizes:
         most, down = 0, 0.5 * (FOLD if len(hung - {None}) < len(folds) else BOX)
         for i in rows:
             if kinds[i] == SHADOW:
-                stubs.append(ray_label(tree, i))
+                stubs.append(stub_label(tree, i, style))
                 continue
             names.append(name_in_box(tree, i, style.longest))
             loose.append(edge_label(tree, i))
@@ -96,6 +100,11 @@ class Sizes:
 
 def _widest(labels: Iterable[str], size: float) -> float:
     return max(text_width(label, size) for label in labels)
+
+
+def stub_label(tree: RayTree, i: int, style: TreeStyle) -> str:
+    """The label at the end of a shadow ray."""
+    return ray_label(tree, i) if style.named else SYMBOLS["shadow"]
 
 
 def name_in_box(tree: RayTree, i: int, longest: int) -> str:

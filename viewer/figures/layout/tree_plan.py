@@ -67,12 +67,17 @@ class TreePlan:
 
 
 def plan_tree(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
-    """The plan for these steps of one tree, the deepest last. Names are cut if more rays fit then."""
-    long = _plan(trees, style)
-    if all(len(long.name(i)) <= SHORT for i in long.rows):
-        return long
-    short = _plan(trees, replace(style, longest=SHORT))
-    return short if len(short.rows) > len(long.rows) else long
+    """The plan for these steps of one tree, the deepest last. Names of objects are cut, and those of lights left to the
+    legend, if more rays fit then.
+    """
+    best = _plan(trees, style)
+    for shorter in ({"named": False}, {"named": False, "longest": SHORT}):
+        if not best.folds:
+            break
+        found = _plan(trees, replace(style, **shorter))
+        if len(found.rows) > len(best.rows):
+            best = found
+    return best
 
 
 def fitting_size(trees: Sequence[RayTree], style: TreeStyle) -> float | None:
@@ -80,7 +85,7 @@ def fitting_size(trees: Sequence[RayTree], style: TreeStyle) -> float | None:
     rays = {i for i in range(len(trees[-1])) if trees[-1].nodes["kind"][i] != SHADOW}
     deepest = int(trees[-1].nodes["depth"].max())
     for size in range(int(style.size), int(SMALLEST) - 1, -1):
-        asked = replace(style, size=float(size), longest=SHORT)
+        asked = replace(style, size=float(size), longest=SHORT, named=False)
         if deepest <= _last_level(trees, asked) and _try(trees, rays, asked, deepest):
             return float(size)
     return None

@@ -1,0 +1,60 @@
+"""Actions of keys and buttons that take more than one step of the session."""
+
+from tracer.choices import MODELS
+from viewer.base.orbit import Orbit
+from viewer.session.refinement import Strategy
+from viewer.session.session import Session
+from viewer.session.view_state import Request
+
+
+def nudge(session: Session, dx: int, dy: int) -> None:
+    """Move the picked pixel. The first time, pick the centre of the image."""
+    if not session.world:
+        return
+    width, height = session.size
+    x, y = session.pixel or (width // 2 - dx, height // 2 - dy)
+    session.pick(x + dx, y + dy, series="nudge")
+
+
+def step(session: Session, by: int) -> None:
+    """Select the next ray in the order of the table, or the previous one."""
+    if session.tree:
+        row = (-1 if by > 0 else len(session.tree)) if session.selected is None else session.selected
+        session.select(min(max(row + by, 0), len(session.tree) - 1))
+
+
+def go(session: Session, by: int) -> None:
+    """Go back (-1) or forward (1) in the history."""
+    place = session.history.move(by)
+    if place is None or not session.opening:
+        session.notice.say(f"there is no place {'before' if by < 0 else 'after'} this one")
+    elif place.is_in(session.opening):
+        session.return_to(place)
+    else:
+        session.loader.load(place.opening)
+
+
+def toggle_model(session: Session) -> None:
+    """Change from Whitted's model to Fresnel's, or back."""
+    session.set_model(MODELS[1 - MODELS.index(session.model)])
+
+
+def toggle_refinement(session: Session) -> None:
+    """Give pixels more samples, or pause."""
+    session.refinement.toggle()
+    if session.refinement.is_running:
+        session.requests.append(Request.SHOW_ERROR)
+
+
+def set_strategy(session: Session, strategy: Strategy) -> None:
+    """Distribute samples in another way. The curves of the other strategies stay for comparison."""
+    changed, session.refinement.strategy = strategy != session.refinement.strategy, strategy
+    if changed and session.refinement.is_running and session.world:
+        session.render()
+
+
+def look_through_camera(session: Session) -> None:
+    """Look at the scene from its own camera."""
+    if session.world:
+        view = session.world.view()
+        session.orbit = Orbit.of_camera(view, session.world.scene.camera.up, session.frame.inside(view.eye))

@@ -1,0 +1,53 @@
+"""The places that were looked at: Alt+Left goes back to the one before, Alt+Right forward again."""
+
+from dataclasses import dataclass, replace
+
+from viewer.session.scene_loader import Opening
+
+
+@dataclass(frozen=True)
+class Place:
+    """An opening that leads to it: a scene with the picked pixel and the selected ray."""
+
+    opening: Opening
+    by: object = None  # of a series, such as one drag of the mouse: only its last place is kept
+
+    def is_in(self, opening: Opening) -> bool:
+        """Whether it is a place of this scene."""
+        return (self.opening.path, self.opening.lesson, self.opening.up) == (
+            opening.path,
+            opening.lesson,
+            opening.up,
+        )
+
+
+class History:
+    """The places in the order of time, with a position among them, as in a browser."""
+
+    def __init__(self) -> None:
+        self.places: list[Place] = []
+        self.at = -1
+
+    @property
+    def now(self) -> Place | None:
+        return self.places[self.at] if self.places else None
+
+    def add(self, place: Place) -> None:
+        """Go to a new place. Those that lie ahead are dropped."""
+        del self.places[self.at + 1 :]
+        if self.now and place.by is not None and place.by == self.now.by and self.now.is_in(place.opening):
+            self.places.pop()
+        self.places.append(place)
+        self.at = len(self.places) - 1
+
+    def note(self, selection: str | None) -> None:
+        """Note the ray that is selected at this place."""
+        if self.now:
+            self.places[self.at] = replace(self.now, opening=self.now.opening._replace(selection=selection))
+
+    def move(self, by: int) -> Place | None:
+        """Go back (-1) or forward (1), and return the place; None at either end."""
+        if not 0 <= self.at + by < len(self.places):
+            return None
+        self.at += by
+        return self.now
