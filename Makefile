@@ -7,8 +7,8 @@ BIN := .venv/bin
 
 # Programs that tests use: an X server without a monitor, xdotool for its mouse, a window manager, OpenGL in software, and
 # POV-Ray as the independent program that images are compared with. PROGRAM:PACKAGE, and libraries.
-PROGRAMS := Xvfb:xvfb xdotool:xdotool openbox:openbox povray:povray setpriv:util-linux rsvg-convert:librsvg2-bin \
-	pdftotext:poppler-utils
+PROGRAMS := Xvfb:xvfb xdotool:xdotool openbox:openbox setxkbmap:x11-xkb-utils povray:povray \
+	setpriv:util-linux rsvg-convert:librsvg2-bin pdftotext:poppler-utils
 LIBRARIES := libEGL.so.1:libegl1 libGL.so.1:libgl1 swrast_dri.so:libgl1-mesa-dri
 
 # Programs for `make test-all` only: an office program and TeX, which open exported files.

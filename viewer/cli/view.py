@@ -33,11 +33,13 @@ def view(options: ViewOptions) -> int:
         take_screenshot(path, lesson, options, options.screenshot)
         return 0
     try:
-        window = Window("raytree", options.size or SIZE, _settings())
+        settings = _settings()
+        window = Window("raytree", options.size or SIZE, settings and settings / "panels.ini")
     except NoWindow as reason:
         return without_display(path, lesson, options, str(reason))
     app = App(window, Session())
-    app.session.export.remember(_settings().with_name("figure.json"))
+    if settings:
+        app.session.export.remember(settings / "figure.json")
     try:
         app.session.loader.open(path, lesson, options.depth, options.pixel, options.model, options.up)
         app.run()
@@ -87,11 +89,11 @@ def without_display(path: Path, lesson: Lesson | None, options: ViewOptions, rea
     return 0
 
 
-def _settings() -> Path:
-    """The file that keeps the places of the panels from one start to the next."""
+def _settings() -> Path | None:
+    """The folder that keeps the places of the panels from one start to the next; None if it cannot be made."""
     folder = platformdirs.user_config_path("raytree")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError:
-        return Path()
-    return folder / "panels.ini"
+        return None
+    return folder

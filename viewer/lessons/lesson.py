@@ -15,14 +15,14 @@
     What to look at.
 """
 
-import tomllib
 from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 from tracer import fields
-from tracer.formats.source import Fault, read_text, shown_path
+from tracer.formats.source import MOST_TEXT, Fault, read_bytes, shown_path, utf8
+from tracer.formats.toml import parsed
 from viewer.base.files import Unusable, is_there
 from viewer.base.orbit import AZIMUTH, DISTANCE, ELEVATION
 
@@ -70,23 +70,29 @@ def read(name: str) -> Lesson:
 
 
 def read_file(path: Path) -> Lesson:
-    """Read a lesson from any file."""
+    """Read a lesson from any file. Raises Unusable with all its faults."""
+    place = shown_path(path)
     try:
-        text = read_text(path).replace("\r\n", "\n")
+        text = _text(path)
+        if text.count(f"{MARK}\n") < 2 or not text.startswith(MARK):
+            raise Fault(f"a lesson begins with its data between two lines {MARK}")
+        _, head, body = text.split(f"{MARK}\n", 2)
+        data = parsed(head.encode("utf-8"))
+    except FileNotFoundError:
+        raise Unusable(f"{place}: file not found") from None
+    except OSError as error:
+        raise Unusable(f"{place}: cannot be read: {error.strerror}") from None
     except Fault as fault:
-        raise Unusable(fault.within(shown_path(path))) from None
-    if text.count(f"{MARK}\n") < 2 or not text.startswith(MARK):
-        raise Unusable(f"{path}: a lesson begins with its data between two lines {MARK}")
-    _, head, body = text.split(f"{MARK}\n", 2)
-    try:
-        data = tomllib.loads(head)
-    except tomllib.TOMLDecodeError as error:
-        raise Unusable(f"{path}: not TOML: {error}") from None
+        raise Unusable(fault.within(place)) from None
     faults: list[str] = []
-    view = fields.read_fields(LessonView, data.pop("view", {}), faults)
+    angles = data.pop("view", {})
+    if not isinstance(angles, dict):
+        faults.append(fields.refusal("view", "a table", angles))
+        angles = {}
+    view = fields.read_fields(LessonView, angles, faults)
     values = fields.read_fields(_Head, data, faults)
     if faults:
-        raise Unusable(*(f"{path}: {fault}" for fault in faults))
+        raise Unusable(*(f"{place}: {fault}" for fault in faults))
     head_values = _Head(**values)
     return Lesson(
         name=path.absolute().parent.name,
@@ -97,6 +103,16 @@ def read_file(path: Path) -> Lesson:
         depth=head_values.depth,
         view=LessonView(**view),
     )
+
+
+def _text(path: Path) -> str:
+    """The text of the file, with lines that end with LF. A byte order mark is left out. Raises Fault and OSError."""
+    data = utf8(read_bytes(path, MOST_TEXT))
+    try:
+        return data.decode("utf-8").replace("\r\n", "\n")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise Fault("a lesson is UTF-8 text, got something else", line) from None
 
 
 def _pixel() -> Any:

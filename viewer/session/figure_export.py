@@ -8,6 +8,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from tracer.formats.source import Fault, read_text
 from tracer.kernel.world import World
 from viewer.base.clipboard import copy_to_clipboard
 from viewer.base.files import Unusable, write_atomically
@@ -47,10 +48,10 @@ class FigureExport:
         """Restore the last choice from this file, and store later choices in it."""
         self.kept = path
         try:
-            found = json.loads(path.read_text("utf-8"))
+            found = json.loads(read_text(path))
             if found["figure"] in FIGURE_NAMES and found["format"] in PICTURES and found["theme"] in ("", *THEMES):
                 self.figure, self.format, self.theme = found["figure"], found["format"], found["theme"]
-        except (OSError, ValueError, KeyError, TypeError):
+        except (OSError, Fault, ValueError, KeyError, TypeError, RecursionError):
             return  # there is no such file, or it is not ours
 
     def start(

@@ -188,7 +188,8 @@ class App:
 
         def recover() -> None:
             io = imgui.get_io()
-            io.config_error_recovery_enable_assert = False  # the stacks that do not match are being mended
+            io.config_error_recovery_enable_assert = False  # it is known that the stacks do not match
+            io.config_error_recovery_enable_debug_log = io.config_error_recovery_enable_tooltip = False
             internal.error_recovery_try_to_recover_state(state)
             io.config_error_recovery_enable_assert = True
             self.session.reject()

@@ -96,7 +96,6 @@ class Window(Surface):
         # Before imgui's backend, which calls the callbacks that it finds.
         glfw.set_drop_callback(self.window, self._drop)  # type: ignore[arg-type]  # its stub says int for a list
         glfw.set_window_refresh_callback(self.window, lambda _: self.on_refresh())
-        glfw.set_monitor_callback(self._monitors_changed)
         address = ctypes.cast(self.window, ctypes.c_void_p).value
         assert address is not None
         backends.glfw_init_for_opengl(address, True)
@@ -121,15 +120,6 @@ class Window(Surface):
         """Sizes and scale, which change when a projector is plugged in or the resolution is changed."""
         window = self.window
         return glfw.get_window_size(window), glfw.get_framebuffer_size(window), glfw.get_window_content_scale(window)
-
-    def _monitors_changed(self, monitor: object, event: int) -> None:
-        """If the window was on a screen that is gone, bring it back."""
-        left, top = glfw.get_window_pos(self.window)
-        width, height = glfw.get_window_size(self.window)
-        areas = [glfw.get_monitor_workarea(screen) for screen in glfw.get_monitors()]
-        seen = any(left < x + w and x < left + width and top < y + h and y < top + height for x, y, w, h in areas)
-        if areas and not seen and event == glfw.DISCONNECTED:
-            glfw.set_window_pos(self.window, *areas[0][:2])
 
     @property
     def closing(self) -> bool:

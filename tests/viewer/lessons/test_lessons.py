@@ -1,6 +1,7 @@
 """The lessons: each one opens, and its pixel shows what its text says."""
 
 import itertools
+import os
 from pathlib import Path
 
 import pytest
@@ -85,11 +86,19 @@ def test_floor_under_the_table_sees_no_light(worlds: dict[str, tracer.World]) ->
         ("+++\ntitle = 'x'\npixle = [1, 2]\n+++\nx", 'unknown key "pixle" (did you mean "pixel"?)'),
         ("+++\ntitle = 'x'\npixel = [1, -2]\n+++\nx", "pixel must be two whole numbers"),
         ("+++\ntitle = 'x'\n[view]\nelevation = 95\n+++\nx", "elevation must be > -90 and < 90, got 95"),
+        ("+++\ntitle = 'x'\nview = 1\n+++\nx", "view must be a table, got 1"),
+        ("+++\ntitle = 'x'\nview = [[1]]\n+++\nx", "view must be a table, got [[1]]"),
+        ("+++\ntitle = 'x'\nscene = 1\n+++\nx", "scene must be"),
+        (f"+++\ntitle = {'[' * 5000}\n+++\nx", "nested too deeply"),
+        (
+            "+++\ntitle = 'x'\n+++\nThe cone\nof cafés".encode("latin-1"),
+            "line 5: a lesson is UTF-8 text, got something",
+        ),
     ],
 )
-def test_faults_of_a_lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, said: str) -> None:
+def test_faults_of_a_lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str | bytes, said: str) -> None:
     (tmp_path / "mine").mkdir()
-    (tmp_path / "mine" / "lesson.md").write_text(text)
+    (tmp_path / "mine" / "lesson.md").write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
     (tmp_path / "ORDER").write_text("")
     monkeypatch.setattr(lesson, "folder", lambda: tmp_path)
     with pytest.raises(Unusable) as caught:
@@ -105,3 +114,9 @@ def test_a_lesson_may_come_from_a_windows_editor(tmp_path: Path) -> None:
     copy.write_bytes(b"\xef\xbb\xbf" + source.read_bytes().replace(b"\n", b"\r\n"))
     found = lesson.read_file(copy)
     assert (found.title, found.text, found.pixel) == (plain.title, plain.text, plain.pixel)
+
+
+def test_a_lesson_that_is_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "lesson.md")
+    with pytest.raises(Unusable, match="must be a file, got a pipe"):
+        lesson.read_file(tmp_path / "lesson.md")
