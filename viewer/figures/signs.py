@@ -47,12 +47,14 @@ def bar(name: str, at: Point, size: float, color: Color) -> list[Mark]:
 
 
 def light_end(end: str, name: str, at: Point, size: float, theme: Theme) -> list[Mark]:
-    """The end of a shadow ray: lit, filtered, blocked, or away if the surface faces away from the light."""
+    """The sign at the end of a shadow ray of this fate."""
     color = theme.ray("shadow")
     match end:
         case "away":
             return bar(name, at, 0.7 * size, color)
         case "blocked":
             return cross(name, at, size, color)
+        case "nothing":
+            return [Disc(name, at, 0.26 * size, None, Stroke(color, 1.5))]
         case _:
             return sun(name, at, size, theme.sun, color if end == "filtered" else None)

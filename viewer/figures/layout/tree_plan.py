@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.figures.layout.folds import Fold, fold_branches
+from viewer.figures.layout.light_line import NO_LINE, SIGNS, WORDS
 from viewer.figures.layout.placing import (
     LayoutTask,
     Places,
@@ -21,6 +22,7 @@ from viewer.figures.layout.placing import (
     place_rightwards,
 )
 from viewer.figures.layout.sizes import EDGE_LABEL, FOLD, SHORT, STUB, Sizes, TreeStyle, name_in_box
+from viewer.figures.lights import has_many
 from viewer.figures.marks import Point
 
 SMALLEST = 8.0  # points: the smallest text size
@@ -29,7 +31,9 @@ MORE = 40  # if the whole tree does not fit, this many of the other rays are tri
 
 @dataclass(frozen=True)
 class TreePlan:
-    """Positions in points. `rows` are drawn as themselves; `inside` gives the fold of the others."""
+    """Positions in points. `rows` are drawn as themselves; `inside` gives the fold of the others, apart from the shadow
+    rays for which a line stands.
+    """
 
     tree: RayTree  # the deepest
     style: TreeStyle
@@ -38,6 +42,8 @@ class TreePlan:
     inside: dict[int, int]  # a folded row -> the row of its fold
     places: Places
     box: tuple[float, float]
+    fits: bool  # on its part of the canvas
+    lights_left_out: bool = False  # for want of room
 
     @property
     def size(self) -> float:
@@ -67,12 +73,41 @@ class TreePlan:
 
 
 def plan_tree(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
-    """The plan for these steps of one tree, the deepest last. Names are cut if more rays fit then."""
+    """The plan for these steps of one tree, the deepest last.
+
+    No ray is folded for a line of shadow rays: if its words do not fit, it has signs, and if these do not, there is no
+    line. If text is so large that not even the first hit fits, its shadow rays get such a line, too, and its name is
+    cut until it fits.
+    """
+    many = style.lights and any(has_many(trees[-1], i) for i in range(len(trees[-1])))
+    plan = _best_line(trees, style) if many else _named(trees, style)
+    if not plan.fits:
+        plan = _best_line(trees, replace(style, lights=0))
+    for longest in range(SHORT, 0, -1):
+        if plan.fits:
+            break
+        bare = replace(style, lights=0, line=NO_LINE, longest=longest)
+        plan = replace(_plan(trees, bare), lights_left_out=style.lights > 0)
+    return plan
+
+
+def _best_line(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
+    """The plan with the widest form of the lines of shadow rays for which no ray is folded."""
+    bare = _named(trees, replace(style, lights=0, line=NO_LINE))
+    for form in (WORDS, SIGNS):
+        plan = _named(trees, replace(style, line=form))
+        if plan.fits and len(plan.rows) >= len(bare.rows):
+            return plan
+    return replace(bare, lights_left_out=True)
+
+
+def _named(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
+    """The plan in which names are cut if more rays fit then."""
     long = _plan(trees, style)
     if all(len(long.name(i)) <= SHORT for i in long.rows):
         return long
     short = _plan(trees, replace(style, longest=SHORT))
-    return short if len(short.rows) > len(long.rows) else long
+    return short if (short.fits, len(short.rows)) > (long.fits, len(long.rows)) else long
 
 
 def fitting_size(trees: Sequence[RayTree], style: TreeStyle) -> float | None:
@@ -80,7 +115,7 @@ def fitting_size(trees: Sequence[RayTree], style: TreeStyle) -> float | None:
     rays = {i for i in range(len(trees[-1])) if trees[-1].nodes["kind"][i] != SHADOW}
     deepest = int(trees[-1].nodes["depth"].max())
     for size in range(int(style.size), int(SMALLEST) - 1, -1):
-        asked = replace(style, size=float(size), longest=SHORT)
+        asked = replace(style, size=float(size), longest=SHORT, line=NO_LINE)
         if deepest <= _last_level(trees, asked) and _try(trees, rays, asked, deepest):
             return float(size)
     return None
@@ -147,4 +182,4 @@ def _try(
     places = (place_rightwards if style.eye == "left" else place_downwards)(task, anyhow)
     if places is None:
         return None
-    return TreePlan(trees[-1], style, frozenset(rows), folds, inside, places, (sizes.column, sizes.box))
+    return TreePlan(trees[-1], style, frozenset(rows), folds, inside, places, (sizes.column, sizes.box), not anyhow)
