@@ -17,6 +17,7 @@ from viewer.figures.export_options import ExportOptions
 from viewer.figures.figure import both, tree
 from viewer.figures.figure.hit import hit_row
 from viewer.figures.layout.tree_plan import fitting_size
+from viewer.figures.lights import many_lights
 from viewer.figures.marks import Figure, Text
 from viewer.figures.pages import pages
 from viewer.figures.ray_lines import MOST_IN_FIGURE
@@ -154,11 +155,18 @@ def orbit_of(numbers: tuple[float, ...] | None, world: World, view: ViewAngles |
 
 
 def ray_notes(drawn: Sequence[Figure], figure: str, subject: Subject) -> list[str]:
-    """A note on rays that a figure of the scene leaves out because they are too many."""
-    rays = len(subject.steps[-1].tree)
-    if not drawn or figure not in ("both", "scene") or rays <= MOST_IN_FIGURE:
+    """Notes on rays that a figure of the scene leaves out because they are too many."""
+    tree = subject.steps[-1].tree
+    if not drawn or figure not in ("both", "scene"):
         return []
-    return [f"{figure}: of {rays:,} rays, the heaviest {MOST_IN_FIGURE:,} are drawn in the scene"]
+    notes = []
+    left_out = many_lights(tree)
+    if len(tree) - len(left_out) > MOST_IN_FIGURE:
+        of = f"{len(tree) - len(left_out):,} rays"
+        notes.append(f"{figure}: of {of}, the heaviest {MOST_IN_FIGURE:,} are drawn in the scene")
+    if left_out:
+        notes.append(f"{figure}: the rays to {len(tree.scene.lights)} lights are not drawn in the scene")
+    return notes
 
 
 def fold_notes(drawn: Sequence[Figure], figure: str, subject: Subject, style: FigureStyle) -> list[str]:

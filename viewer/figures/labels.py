@@ -11,15 +11,8 @@ from viewer.base.wording import format_number
 from viewer.explain.fate import ray_fate
 
 # Texts under a leaf, short enough for a slide.
-ENDS = {
-    "surface": "opaque",
-    "background": "",
-    "depth": "cut: depth",
-    "weight": "cut: weight",
-    "tolerance": "cut: tolerance",
-    "nodes": "cut: limit",
-    "invalid": "no direction",
-}
+CUTS = {"depth": "cut: depth", "weight": "cut: weight", "tolerance": "cut: tolerance", "nodes": "cut: limit"}
+ENDS = {"surface": "opaque", "background": "", "invalid": "no direction", **CUTS}
 
 
 def ray_label(tree: RayTree, i: int) -> str:

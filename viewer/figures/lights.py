@@ -1,7 +1,10 @@
 """Shadow rays in figures: their fates, with dashes and words. If a hit has many, one line of words stands for them."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+
+import numpy as np
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
@@ -53,9 +56,12 @@ def shadow_rays(tree: RayTree, i: int) -> list[int]:
     return [child for child in tree.children[i] if tree.nodes["kind"][child] == SHADOW]
 
 
-def has_many(tree: RayTree, i: int) -> bool:
-    """Whether hit i has so many shadow rays that a line of words stands for them."""
-    return len(shadow_rays(tree, i)) > MOST_LIGHTS
+def many_lights(tree: RayTree) -> frozenset[int]:
+    """The shadow rays of hits that have more than MOST_LIGHTS."""
+    shadows = np.flatnonzero(tree.nodes["kind"] == SHADOW)
+    parents = tree.nodes["parent"][shadows]
+    many = np.bincount(parents, minlength=len(tree)) > MOST_LIGHTS
+    return frozenset(shadows[many[parents]].tolist())
 
 
 def counted(tree: RayTree, rows: Iterable[int]) -> list[tuple[Fate, int]]:
@@ -69,15 +75,31 @@ def light_words(counts: Iterable[tuple[Fate, int]]) -> list[str]:
     return [f"{count} {fate.one if count == 1 else fate.many}" for fate, count in counts]
 
 
+def light_line(tree: RayTree, rows: Iterable[int]) -> str:
+    """The line that stands for these shadow rays, like "L: 5 reach, 7 face away"."""
+    return f"L: {', '.join(light_words(counted(tree, rows)))}"
+
+
 def light_title(tree: RayTree, rows: Iterable[int]) -> str:
-    """The same as a sentence, with the number of those that add nothing though nothing blocks them."""
+    """The same for a title, with the number of those that add nothing though nothing blocks them."""
     shadows = list(rows)
     idle = sum(fate_of(tree, i).name == "nothing" for i in shadows)
-    words = (
-        f"{len(shadows)} shadow ray{'s' if len(shadows) > 1 else ''}: {', '.join(light_words(counted(tree, shadows)))}"
-    )
     if not idle:
-        return words
-    return (
-        f"{words}; {idle} add{'s' if idle == 1 else ''} nothing, though nothing blocks {'it' if idle == 1 else 'them'}"
-    )
+        return light_line(tree, shadows)
+    adds, them = ("adds", "it") if idle == 1 else ("add", "them")
+    return f"{light_line(tree, shadows)}; {idle} {adds} nothing, though nothing blocks {them}"
+
+
+def turn_to_light(tree: RayTree, i: int) -> tuple[float, float]:
+    """The angles of shadow ray i, in radians: from the normal of its hit, positive on the side to which the ray to the
+    hit runs on, and out of the plane of incidence.
+    """
+    row = tree.nodes[int(tree.nodes["parent"][i])]
+    v, n, to_light = (np.array(vector) for vector in (row["direction"], row["normal"], tree.nodes["direction"][i]))
+    along = v - float(v @ n) * n
+    up = float(to_light @ n)
+    beside = float(np.linalg.norm(to_light - up * n))
+    length = float(np.linalg.norm(along))
+    right = float(to_light @ along) / length if length > 1e-9 else beside
+    out = math.asin(min(1.0, math.sqrt(max(0.0, beside**2 - right**2))))
+    return math.copysign(math.atan2(beside, up), right), out

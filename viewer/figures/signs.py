@@ -18,9 +18,9 @@ def eye(at: Point, size: float, theme: Theme) -> list[Mark]:
     ]
 
 
-def sun(name: str, at: Point, size: float, color: Color, ring: Color | None = None) -> list[Mark]:
+def sun(name: str, at: Point, size: float, color: Color, ring: Color | None = None, title: str = "") -> list[Mark]:
     """A light that is reached: a disc with eight rays, with a ring if the light comes through glass."""
-    marks: list[Mark] = [Disc(name, at, 0.2 * size, color, None)]
+    marks: list[Mark] = [Disc(name, at, 0.2 * size, color, None, title=title)]
     for k in range(8):
         dx, dy = math.cos(k * math.pi / 4), math.sin(k * math.pi / 4)
         start = (at[0] + 0.28 * size * dx, at[1] + 0.28 * size * dy)

@@ -12,15 +12,14 @@ from dataclasses import replace
 import numpy as np
 
 from tracer.kernel.nodes import KINDS, SHADOW
-from tracer.scene import Material
 from tracer.tree.raytree import RayTree
 from tracer.tree.text import heaviest_rows
-from viewer.base.srgb import LUMINANCE, display_color
 from viewer.base.theme import ARROW_AT, HALO, STYLES, Arrow, Color, Theme, faded
 from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.labels import ray_label, ray_title
 from viewer.figures.layout.label_placement import LabelPlacer, Spot
+from viewer.figures.lights import many_lights
 from viewer.figures.marks import (
     HEIGHT,
     WIDTH,
@@ -37,11 +36,11 @@ from viewer.figures.marks import (
 from viewer.figures.ray_lines import MOST_IN_FIGURE, RayLine, ray_lines
 from viewer.figures.steps import Step
 from viewer.figures.subject import FigureStyle, Pages, Subject
+from viewer.figures.visible.looks import between, surface_look
 from viewer.figures.visible.outlines import Area
 from viewer.figures.visible.scene_view import SceneView
 from viewer.figures.visible.scenery import Part
 
-PALE = 0.45  # share of the background's colour in an object's colour, so that rays stand out
 SHADE = 0.09  # opacity of the shade
 GLASS = 0.13  # opacity of glass
 OUTLINE, CREASE = 1.3, 0.8  # widths
@@ -82,7 +81,10 @@ class _Drawing:
             self._thing(part, 1.0)
         for part in view.seen.glass:
             self._thing(part, GLASS)
-        rows = sorted(step.rows & heaviest_rows(self.tree, MOST_IN_FIGURE))
+        # Dashes to many lights would hide all other rays: the figure has only the one that the step adds.
+        left_out = many_lights(self.tree) - {step.current}
+        self.has_many = bool(left_out)
+        rows = sorted(step.rows & heaviest_rows(self.tree, MOST_IN_FIGURE, set(range(len(self.tree))) - left_out))
         self.lines = ray_lines(self.tree, rows, view.frame, frozenset(KINDS))
         for line in sorted(self.lines, key=lambda line: -line.row):  # the first rays lie over the later ones
             self._ray(line)
@@ -104,7 +106,7 @@ class _Drawing:
         checker = item.material.checker
         if opacity == 1.0 and checker:
             other = surface_look(replace(item.material, color=checker.color), theme)
-            between = _between(fill, other)
+            between = between(fill, other)
             for colored, areas in ((between, part.mingled), (other, part.checks)):
                 for area in areas:
                     self._area(name, area, colored, None)
@@ -191,7 +193,8 @@ class _Drawing:
         for j, light in enumerate(self.scene.lights):
             at = self._place(self.view.frame.inside(light.position)) if light.position else None
             if at:
-                self.marks += signs.sun(f"light-{j}", at, 1.4 * self.size, self.theme.sun)
+                name = self.scene.light_name(j)
+                self.marks += signs.sun(f"light-{j}", at, 1.4 * self.size, self.theme.sun, title=name)
                 self.names.take(at, 1.2 * self.size)
                 found[j] = at
         return found
@@ -203,9 +206,13 @@ class _Drawing:
             self.names.take(at, 1.6 * self.size)
 
     def named(self) -> list[Named]:
-        """Names of lights, then of rays, the heaviest first, then of the objects that these meet."""
+        """A note on what is left out, then names of lights if they are few, then of rays, the heaviest first, then of
+        the objects that these meet.
+        """
         found: list[Named] = []
-        for j, at in self.lights.items():
+        if self.has_many:
+            found.append((frozenset(), self._note(len(self.scene.lights))))
+        for j, at in self.lights.items() if not found else ():
             name = self.scene.light_name(j)
             found.append((frozenset(), self.names.label(f"light-{j}", name, [Spot(at)], self.theme.text)))
         nodes = self.tree.nodes
@@ -232,6 +239,21 @@ class _Drawing:
                 label = self.names.label(f"object-{part.number}", name, spots, self.theme.text, lead=True)
                 found.append((rows, label))
         return found
+
+    def _note(self, lights: int) -> list[Mark]:
+        """What is said of lights whose rays are left out, in a corner."""
+        left, top, right, bottom = self.view.where
+        for words in (
+            f"L: rays to {lights} lights are left out",
+            f"{lights} lights: rays left out",
+            f"{lights} lights",
+        ):
+            half = (0.5 * text_width(words, self.size) + 0.5 * self.size, 0.9 * self.size)
+            corners = [(x, y) for y in (bottom - half[1], top + half[1]) for x in (left + half[0], right - half[0])]
+            marks = self.names.label("lights", words, [Spot(at, upon=True) for at in corners], self.theme.text)
+            if marks:
+                return marks
+        return []
 
     def _along(self, name: str, label: str, piece: Piece) -> list[Spot]:
         """Spots for a label: on the ray if it is long enough, and beside it."""
@@ -265,22 +287,6 @@ class _Drawing:
 def _wide(part: Part) -> float:
     across = [x for face in part.faces for area in face for x, _ in area.outline]
     return max(across) - min(across)
-
-
-def surface_look(material: Material, theme: Theme) -> Color:
-    """An object's own colour, paler. A grey for one that only reflects."""
-    strength = min(1.0, material.ambient + material.diffuse)
-    color = np.array(material.color) * strength + 0.55 * min(1.0, material.reflect)
-    encoded = np.array(display_color(color)[:3])
-    if theme.mono:
-        encoded = np.full(3, 0.55 + 0.45 * float(encoded @ LUMINANCE))
-    r, g, b = ((1.0 - PALE) * encoded + PALE * np.array(theme.ground[:3])).tolist()
-    return (r, g, b, 1.0)
-
-
-def _between(a: Color, b: Color) -> Color:
-    red, green, blue, opacity = (0.5 * (x + y) for x, y in zip(a, b, strict=True))
-    return (red, green, blue, opacity)
 
 
 def _last(piece: Piece, length: float) -> Piece:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tracer.tree.raytree import RayTree
 from viewer.figures.font import text_width
-from viewer.figures.lights import Fate, counted, light_words
+from viewer.figures.lights import Fate, counted, light_line
 
 WORDS, SIGNS, NO_LINE = range(3)  # its forms, the widest first
 SIGN = 0.95  # width of a sign, before its label, in text sizes
@@ -34,7 +34,7 @@ class LightLine:
         """The line for some of a hit's shadow rays."""
         counts = counted(tree, shadows)
         if form == WORDS:
-            words = f"{LETTER} {', '.join(light_words(counts))}"
+            words = light_line(tree, shadows)
             return LightLine(text_width(words, size), (LinePart(0.0, words),))
         parts, left = [LinePart(0.0, LETTER)], text_width(LETTER, size)
         for fate, count in counts:

@@ -22,7 +22,7 @@ from viewer.figures.layout.placing import (
     place_rightwards,
 )
 from viewer.figures.layout.sizes import EDGE_LABEL, FOLD, SHORT, STUB, Sizes, TreeStyle, name_in_box
-from viewer.figures.lights import has_many
+from viewer.figures.lights import many_lights
 from viewer.figures.marks import Point
 
 SMALLEST = 8.0  # points: the smallest text size
@@ -79,8 +79,7 @@ def plan_tree(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
     line. If text is so large that not even the first hit fits, its shadow rays get such a line, too, and its name is
     cut until it fits.
     """
-    many = style.lights and any(has_many(trees[-1], i) for i in range(len(trees[-1])))
-    plan = _best_line(trees, style) if many else _named(trees, style)
+    plan = _best_line(trees, style) if style.lights and many_lights(trees[-1]) else _named(trees, style)
     if not plan.fits:
         plan = _best_line(trees, replace(style, lights=0))
     for longest in range(SHORT, 0, -1):
