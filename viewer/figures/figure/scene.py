@@ -106,8 +106,7 @@ class _Drawing:
         checker = item.material.checker
         if opacity == 1.0 and checker:
             other = surface_look(replace(item.material, color=checker.color), theme)
-            between = between(fill, other)
-            for colored, areas in ((between, part.mingled), (other, part.checks)):
+            for colored, areas in ((between(fill, other), part.mingled), (other, part.checks)):
                 for area in areas:
                     self._area(name, area, colored, None)
         if opacity == 1.0:
