@@ -79,6 +79,7 @@ def make(
     stem = stem_of(scene, options.pixel)
     drawn = pages(options.figure, subject, style) if any(FORMATS[name].figures for name in target.formats) else []
     notes = ray_notes(drawn, options.figure, subject) + fold_notes(drawn, options.figure, subject, style)
+    notes += size_notes(drawn, options.figure, style)
     files: list[tuple[Path, bytes]] = []
     for name in target.formats:
         kind = FORMATS[name]
@@ -177,6 +178,14 @@ def fold_notes(drawn: Sequence[Figure], figure: str, subject: Subject, style: Fi
     size = fitting_size([step.tree for step in subject.steps], tree.tree_style(style, where))
     helps = f", and --text-size {size:g} shows all branches" if size else ""
     return [f"{figure}: branches that do not fit are folded; a smaller --depth has fewer branches{helps}"]
+
+
+def size_notes(drawn: Sequence[Figure], figure: str, style: FigureStyle) -> list[str]:
+    """A note on text that is smaller than asked for, because it does not fit."""
+    size = min((mark.size for page in drawn for mark in page.marks if isinstance(mark, Text)), default=style.text_size)
+    if size >= style.text_size:
+        return []
+    return [f"{figure}: text of {style.text_size:g} points does not fit: the tree's has {size:g}"]
 
 
 def letter_notes(drawn: Sequence[Figure], format_name: str) -> list[str]:

@@ -11,10 +11,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from tracer.formulas.vector import Vector
 from tracer.kernel.nodes import KINDS, SHADOW
 from tracer.tree.raytree import RayTree
 from tracer.tree.text import heaviest_rows
-from viewer.base.theme import ARROW_AT, HALO, STYLES, Arrow, Color, Theme, faded
+from viewer.base.theme import HALO, STYLES, Arrow, Color, Theme, faded
 from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.labels import ray_label, ray_title
@@ -30,12 +31,13 @@ from viewer.figures.marks import (
     Rectangle,
     Shape,
     Stroke,
-    clip_shares,
+    inside,
     point_along,
+    widened,
 )
 from viewer.figures.ray_lines import MOST_IN_FIGURE, RayLine, ray_lines
 from viewer.figures.steps import Step
-from viewer.figures.subject import FigureStyle, Pages, Subject
+from viewer.figures.subject import FigureStyle, Pages, Subject, line_share
 from viewer.figures.visible.looks import between, surface_look
 from viewer.figures.visible.outlines import Area
 from viewer.figures.visible.scene_view import SceneView
@@ -46,6 +48,9 @@ GLASS = 0.13  # opacity of glass
 OUTLINE, CREASE = 1.3, 0.8  # widths
 FAINT = 0.3  # opacity of the hidden part of a ray
 SLIM = 0.7  # of a ray's width, for shadow rays: there are many, and the figure is not about them
+STRONG = 1.8  # factor of a ray's width on the page that adds it
+HEAD_ROOM = 8.0  # from an arrow's middle to the border, in widths of its ray: the tail of a double arrow is 7 away
+SIGN_ROOM = 1.0  # from the middle of an eye or a light to the border, in text sizes
 SPOTS = (0.4, 0.5, 0.3, 0.6, 0.7, 0.2, 0.8, 0.1, 0.9)  # places for a name, as shares of the visible part of a ray
 ROOMY = 2.2  # a ray this many times longer than its name has its name on it, a shorter one beside it
 LABELS = 24  # rays that are named: the heaviest
@@ -77,6 +82,7 @@ class _Drawing:
         self.scene = view.world.scene
         self.marks: list[Mark] = []
         self.names = LabelPlacer(view.where, size, theme)
+        self.share = line_share(size)
         for part in view.seen.opaque:
             self._thing(part, 1.0)
         for part in view.seen.glass:
@@ -115,20 +121,29 @@ class _Drawing:
                     self._area(name, area, (0.0, 0.0, 0.0, SHADE), None)
 
     def _area(self, name: str, area: Area, fill: Color, stroke: Stroke | None, title: str = "") -> None:
-        self.marks.append(Shape(name, area.outline, fill, stroke, holes=area.holes, title=title))
+        half = 0.5 * self.share * stroke.width if stroke else 0.0
+        outline, *holes = (self._clamped(ring, half) for ring in (area.outline, *area.holes))
+        self.marks.append(Shape(name, outline, fill, stroke, holes=tuple(holes), title=title))
+
+    def _clamped(self, ring: Sequence[Point], rim: float) -> tuple[Point, ...]:
+        """A ring that keeps this distance from the figure's border, so that its line lies inside."""
+        left, top, right, bottom = widened(self.view.where, -rim)
+        return tuple((min(max(x, left), right), min(max(y, top), bottom)) for x, y in ring)
 
     # --- rays ---------------------------------------------------------------------------------------------------------
 
     def _ray(self, line: RayLine) -> None:
         style, color = STYLES[line.kind], self.theme.ray(line.kind)
         name, title = f"ray-{line.row}", ray_title(self.tree, line.row)
-        strong = 1.8 if line.row == self.step.current else 1.0
         slim = SLIM if line.kind == "shadow" else 1.0
-        stroke = Stroke(color, strong * slim * style.width, line.dash)
+        halo = 2.0 * HALO if line.kind != "shadow" else 0.0
+        stroke = Stroke(color, (STRONG if line.row == self.step.current else 1.0) * slim * style.width, line.dash)
         faint = Stroke(faded(color, FAINT), style.width, line.dash)
-        arrow = self._arrow_at(line)
+        strong = self.share * STRONG * style.width
+        arrow = self.view.arrow_at(line, 0.0 if style.arrow is Arrow.NONE else HEAD_ROOM * strong)
+        widest = strong + self.share * halo  # on any page: a ray keeps its ends
         for stretch in self.view.parts(line):
-            piece = self._on_canvas(line, stretch.begin, stretch.end)
+            piece = self.view.piece(line, stretch.begin, stretch.end, widest)
             if piece is None:
                 continue
             a, b = piece
@@ -136,61 +151,30 @@ class _Drawing:
             if not stretch.seen:
                 self.marks.append(Line(name, a, b, faint, title=title))
                 continue
-            if line.kind != "shadow":
-                self.marks.append(Line("halo", a, b, Stroke(self.theme.ground, stroke.width + 2.0 * HALO)))
+            if halo:
+                self.marks.append(Line("halo", a, b, Stroke(self.theme.ground, stroke.width + halo)))
             self.marks.append(Line(name, a, b, stroke, title=title))
-            head = self._on_canvas(line, stretch.begin, arrow) if stretch.begin < arrow < stretch.end else None
+            head = self.view.piece(line, stretch.begin, arrow) if stretch.begin < arrow < stretch.end else None
             if head and style.arrow is not Arrow.NONE and math.dist(*head) > 1.0:
                 self.marks.append(Line(name, *_last(head, 2.0), Stroke(color, stroke.width), style.arrow, 1.0))
                 self.names.take(head[1], 0.9 * self.size)
-        met = self._on_canvas(line, 0.999, 1.0)
+        met = self.view.piece(line, 0.999, 1.0)
         if met and line.kind != "shadow":  # the end of a shadow ray has a sign of its own
             self.names.take(met[1], 0.5 * self.size)
-        if met and line.blocked:
+        if met and line.blocked and inside(met[1], widened(self.view.where, -0.5 * self.size)):
             self.marks += signs.cross(name, met[1], self.size, color)
-
-    def _arrow_at(self, line: RayLine) -> float:
-        """The place of a ray's arrow: the usual one, or the middle of the visible part."""
-        shares = np.linspace(0.0, 1.0, 101)
-        places, depths = self.view.at(line.start + shares[:, None] * (line.end - line.start))
-        left, top, right, bottom = self.view.where
-        x, y = places.T
-        inside = (depths > 0.0) & (x > left) & (x < right) & (y > top) & (y < bottom)
-        if inside[round(100 * ARROW_AT)] or not inside.any():
-            return ARROW_AT
-        return float(np.median(shares[inside]))
-
-    def _on_canvas(self, line: RayLine, begin: float, end: float) -> Piece | None:
-        """The part of a segment that is in front of the camera and inside the figure; None if there is none."""
-        ends = np.array([line.start + share * (line.end - line.start) for share in (begin, end)])
-        places, depths = self.view.at(ends)
-        near = 1e-3  # of the scene's radius
-        if (depths <= near).all():
-            return None
-        if (depths <= near).any():
-            share = (near - depths[0]) / (depths[1] - depths[0])
-            ends[int(np.argmin(depths))] = ends[0] + share * (ends[1] - ends[0])
-            places, _ = self.view.at(ends)
-        piece = _pair(places)
-        inside = clip_shares(piece, self.view.where)
-        return (point_along(piece, inside[0]), point_along(piece, inside[1])) if inside else None
 
     # --- signs and labels ---------------------------------------------------------------------------------------------
 
-    def _place(self, point: np.ndarray) -> Point | None:
-        """A point of the frame on the canvas; None if it is not well inside."""
-        places, depths = self.view.at(point[None])
-        x, y = places[0].tolist()
-        left, top, right, bottom = self.view.where
-        room = 0.8 * self.size
-        inside = left + room < x < right - room and top + room < y < bottom - room
-        return (x, y) if depths[0] > 0.0 and inside else None
+    def _place(self, point: Vector) -> Point | None:
+        """A point of the scene on the canvas, if there is room for a sign."""
+        return self.view.place(self.view.frame.inside(point), SIGN_ROOM * self.size)
 
     def _lights(self) -> dict[int, Point]:
         """The places of the lights in the picture."""
         found = {}
         for j, light in enumerate(self.scene.lights):
-            at = self._place(self.view.frame.inside(light.position)) if light.position else None
+            at = self._place(light.position) if light.position else None
             if at:
                 name = self.scene.light_name(j)
                 self.marks += signs.sun(f"light-{j}", at, 1.4 * self.size, self.theme.sun, title=name)
@@ -199,7 +183,7 @@ class _Drawing:
         return found
 
     def _eye(self) -> None:
-        at = self._place(self.view.frame.inside(self.view.world.view().eye))
+        at = self._place(self.view.world.view().eye)
         if at:
             self.marks += signs.eye(at, self.size, self.theme)
             self.names.take(at, 1.6 * self.size)
@@ -219,7 +203,7 @@ class _Drawing:
         shadows = [line for line in self.lines if nodes["kind"][line.row] == SHADOW]
         rays.sort(key=lambda line: (-nodes["weight"][line.row].max(), line.row))
         for k, line in enumerate([*rays, *shadows][:LABELS]):
-            piece = self._on_canvas(line, 0.0, 1.0)
+            piece = self.view.piece(line, 0.0, 1.0)
             if piece:
                 label, color = ray_label(self.tree, line.row), self.theme.ray(line.kind)
                 spots = self._along(f"ray-{line.row}", label, piece)
@@ -268,7 +252,7 @@ class _Drawing:
             ends: list[Spot] = []
             rows: set[int] = set()
             for line in shadows:
-                piece = self._on_canvas(line, 0.0, 1.0) if self.tree.nodes["light"][line.row] == j else None
+                piece = self.view.piece(line, 0.0, 1.0) if self.tree.nodes["light"][line.row] == j else None
                 if piece is None:
                     continue
                 x, y = piece[1]

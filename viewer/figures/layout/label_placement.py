@@ -13,6 +13,7 @@ BACKING, SOLID = 0.7, 0.9  # opacity of the background behind a label: normally,
 RINGS = (0.75, 1.3, 2.0, 2.9, 3.8)  # distances of a name from its spot, in text sizes
 LED = 2.0  # from this distance on, a thin line leads to the spot
 APART = 0.2  # between two names side by side
+DOT = 0.11  # radius of the disc at the end of that line
 TURNS = 12  # number of directions
 
 
@@ -60,7 +61,8 @@ class LabelPlacer:
         _, at, anchor, box, spot = best
         left, top, right, bottom = box
         self.taken.append((left - APART * self.size, top, right + APART * self.size, bottom))
-        corners = ((left - 2.0, top), (right + 2.0, top), (right + 2.0, bottom), (left - 2.0, bottom))
+        left, right = max(left - 2.0, self.where[0]), min(right + 2.0, self.where[2])
+        corners = ((left, top), (right, top), (right, bottom), (left, bottom))
         backing = SOLID if spot.spare else BACKING
         paper = Shape(f"{name}-label", corners, faded(self.theme.ground, backing), None)
         text = Text(f"{name}-label", at, content, self.size, color, anchor)
@@ -102,12 +104,17 @@ class LabelPlacer:
         return _within(box, self.where) and not any(overlap(box, other) for other in self.taken)
 
     def _leader(self, name: str, box: Rectangle, to: Point) -> list[Mark]:
-        """A line from the nearest point of a name's box."""
+        """A line from the nearest point of a name's box to a disc, which lies inside the picture."""
         left, top, right, bottom = box
+        rim = DOT * self.size + 1.0
+        to = (
+            min(max(to[0], self.where[0] + rim), self.where[2] - rim),
+            min(max(to[1], self.where[1] + rim), self.where[3] - rim),
+        )
         start = (min(max(to[0], left), right), min(max(to[1], top), bottom))
         ink = self.theme.text
         line = Line(f"{name}-label", start, to, Stroke(ink, 1.0))
-        return [line, Disc(f"{name}-label", to, 0.11 * self.size, ink, None)]
+        return [line, Disc(f"{name}-label", to, DOT * self.size, ink, None)]
 
     def _around(self, spot: Spot) -> list[tuple[tuple[float, int], Point, str]]:
         """(rank, position, anchor of the text), the nearest first."""

@@ -6,6 +6,7 @@ all rays leave at the right side, reflected ones upwards. If the tree does not f
 into boxes that give their number of rays and weight.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -73,26 +74,22 @@ class TreePlan:
 
 
 def plan_tree(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
-    """The plan for these steps of one tree, the deepest last.
-
-    No ray is folded for a line of shadow rays: if its words do not fit, it has signs, and if these do not, there is no
-    line. If text is so large that not even the first hit fits, its shadow rays get such a line, too, and its name is
-    cut until it fits.
+    """The plan for these steps of one tree, the deepest last. If text is so large that not even the first hit fits, it
+    is smaller.
     """
-    plan = _best_line(trees, style) if style.lights and many_lights(trees[-1]) else _named(trees, style)
-    if not plan.fits:
-        plan = _best_line(trees, replace(style, lights=0))
-    for longest in range(SHORT, 0, -1):
-        if plan.fits:
-            break
-        bare = replace(style, lights=0, line=NO_LINE, longest=longest)
-        plan = replace(_plan(trees, bare), lights_left_out=style.lights > 0)
+    plan = _plan_lights(trees, style)
+    while not plan.fits and plan.size > SMALLEST:
+        plan = _plan_lights(trees, replace(style, size=max(SMALLEST, math.ceil(plan.size) - 1.0)))
     return plan
 
 
-def _best_line(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
-    """The plan with the widest form of the lines of shadow rays for which no ray is folded."""
-    bare = _named(trees, replace(style, lights=0, line=NO_LINE))
+def _plan_lights(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
+    """The plan for a text size. No ray is folded for the lines that stand for many shadow rays: if their words do not
+    fit, they have signs, and if these do not, they are left out.
+    """
+    if style.line == NO_LINE or not many_lights(trees[-1]):
+        return _named(trees, style)
+    bare = _named(trees, replace(style, line=NO_LINE))
     for form in (WORDS, SIGNS):
         plan = _named(trees, replace(style, line=form))
         if plan.fits and len(plan.rows) >= len(bare.rows):
