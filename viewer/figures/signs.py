@@ -46,6 +46,13 @@ def bar(name: str, at: Point, size: float, color: Color) -> list[Mark]:
     return [Line(name, (at[0] - 0.36 * size, at[1]), (at[0] + 0.36 * size, at[1]), Stroke(color, 3.0))]
 
 
+def arc(center: Point, radius: float, begin: float, end: float) -> tuple[Point, ...]:
+    """The corners of an arc between two directions, clockwise from above, in steps of at most two degrees."""
+    steps = max(1, math.ceil(abs(end - begin) / math.radians(2.0)))
+    turns = (begin + (end - begin) * k / steps for k in range(steps + 1))
+    return tuple((center[0] + radius * math.sin(turn), center[1] - radius * math.cos(turn)) for turn in turns)
+
+
 def light_end(end: str, name: str, at: Point, size: float, theme: Theme) -> list[Mark]:
     """The sign at the end of a shadow ray of this fate."""
     color = theme.ray("shadow")

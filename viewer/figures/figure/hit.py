@@ -18,7 +18,7 @@ from viewer.base.wording import format_angle, format_number
 from viewer.explain.lighting import local_light
 from viewer.explain.scattering import direction_error, scattering_sections
 from viewer.figures import signs
-from viewer.figures.font import fitted
+from viewer.figures.font import fitted, text_width
 from viewer.figures.labels import end_label, factor_label, hit_label, ray_label, ray_title
 from viewer.figures.layout.formula_column import LINE, formula_column
 from viewer.figures.layout.label_placement import LabelPlacer, Spot
@@ -38,6 +38,7 @@ from viewer.figures.marks import (
     WIDTH,
     Line,
     Mark,
+    Piece,
     Point,
     Rectangle,
     Shape,
@@ -185,13 +186,18 @@ class _Drawing:
         self.marks.append(Line(f"ray-{i}", start, end, stroke, style.arrow, 0.6, title=ray_title(self.tree, i)))
 
     def _no_ray(self) -> None:
-        """Total internal reflection: a cross below the surface."""
-        color = self.theme.ray("refraction")
-        at = (CENTER[0] + 1.2 * self.size, CENTER[1] + 1.1 * self.size)
-        self.marks += signs.cross("bar", at, self.size, color)
-        beside = (at[0] + 0.7 * self.size, at[1])
+        """Total internal reflection: a cross below the surface, or in the corner if rays to lights run there."""
+        size, color = self.size, self.theme.ray("refraction")
         title = "total internal reflection: no ray is refracted"
-        self.marks.append(Text("bar", beside, NO_RAY, self.size, color, "start", title=title))
+        near = Text("bar", (CENTER[0] + 1.9 * size, CENTER[1] + 1.1 * size), NO_RAY, size, color, "start", title=title)
+        corner = (RIGHT - 0.5 * size - text_width(NO_RAY, size), BOTTOM - 0.9 * size)
+        crossed = any(clip_shares(stub, widened(near.box(), LIGHT_SIGN * size)) for stub in self._stubs())
+        text = replace(near, at=corner) if crossed else near
+        self.marks += [*signs.cross("bar", (text.at[0] - 0.7 * size, text.at[1]), size, color), text]
+
+    def _stubs(self) -> list[Piece]:
+        """The rays to lights at the shortest distance of a light."""
+        return [(CENTER, self._at(turn, min(LIGHT_REACHES))) for turn, _ in self.turns.values()]
 
     def _name(self) -> None:
         """The name of the object, on the side of the surface that its medium is on. That of a thin sheet, which has no
@@ -206,14 +212,14 @@ class _Drawing:
         elif self.tree.from_inside(self.node) and not math.isnan(self.row["n2"]):
             places = [(left, y - 0.8 * size), (left, TOP + (0.9 + 3 * LINE) * size)]
         rays = [(mark.start, mark.end) for mark in self.marks if isinstance(mark, Line)]
-        # There must be room for each light, at least at the shortest distance.
-        stubs = [(CENTER, self._at(turn, min(LIGHT_REACHES))) for turn, _ in self.turns.values()]
         text = Text("surface", places[0], "", size, self.theme.text, "start", on_line=sheet)
         for share, at in itertools.product((1.0, 0.8, 0.6, 0.4), places):
             name = fitted(hit_label(self.tree, self.node), share * (x - left - 2.0 * size), size)
             text = replace(text, at=at, content=name)
             near = widened(text.box(), LIGHT_SIGN * size)
-            if not any(clip_shares(ray, text.box()) for ray in rays) and not any(clip_shares(s, near) for s in stubs):
+            if not any(clip_shares(ray, text.box()) for ray in rays) and not any(
+                clip_shares(s, near) for s in self._stubs()
+            ):
                 break
         hole = text.box() if sheet else None
         surface = Line("surface", (LEFT, y), (RIGHT, y), Stroke(self.theme.text, 2.4), hole=hole)
@@ -251,10 +257,9 @@ class _Drawing:
         at the shortest.
         """
         rays = [mark for mark in self.marks if isinstance(mark, Line)]
-        half = LIGHT_SIGN * self.size
         for reach in LIGHT_REACHES:
             end = self._at(turn, reach)
-            box = widened((*end, *end), half)
+            box = widened((*end, *end), LIGHT_SIGN * self.size)
             crossed = any(clip_shares((CENTER, end), other) for other in words)
             if names.free(box) and not crossed and not any(clip_shares((ray.start, ray.end), box) for ray in rays):
                 return end
@@ -262,8 +267,7 @@ class _Drawing:
 
     def _light_words(self, names: LabelPlacer) -> list[Mark]:
         """The line that stands for the rays to many lights."""
-        size = self.size
-        left, right = LEFT + 0.5 * size, RIGHT - 0.5 * size
+        size, left, right = self.size, LEFT + 0.5 * self.size, RIGHT - 0.5 * self.size
         words = light_words(counted(self.tree, self.many))
 
         def places(high: float) -> list[tuple[Point, str]]:
@@ -278,9 +282,7 @@ class _Drawing:
         return names.paragraph(text, [f"L: {words[0]}", *words[1:]], widths, LINE * size, places)
 
     def _arc(self, name: str, begin: float, end: float, kind: str) -> None:
-        """An arc between two directions, in steps of at most two degrees."""
-        steps = max(1, math.ceil(abs(end - begin) / math.radians(2.0)))
-        corners = tuple(self._at(begin + (end - begin) * k / steps, ARC) for k in range(steps + 1))
+        corners = signs.arc(CENTER, ARC, begin, end)
         self.marks.append(Shape(f"angle-{name}", corners, None, Stroke(self.theme.ray(kind), 1.8), closed=False))
 
     def _words(self, name: str, at: Point, content: str, kind: str, anchor: str) -> None:
@@ -288,12 +290,11 @@ class _Drawing:
 
     def _formulas(self) -> None:
         sections = scattering_sections(self.tree, self.node) if self.going_on else []
-        last = 0
         if self.world:
             section = local_light(self.tree, self.world, self.node, MOST_LIGHTS)
-            section.formula, last = LOCAL, 1
+            section.formula = LOCAL
             if self.turned:
                 section.add("each L rotated into this plane about n")
-                last = 2
             sections.append(section)
+        last = 1 + self.turned if self.world else 0
         self.marks += formula_column(sections, last, (WORDS, TOP, WIDTH - 12.0, BOTTOM), self.size, self.theme)
