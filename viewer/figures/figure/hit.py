@@ -191,7 +191,7 @@ class _Drawing:
         title = "total internal reflection: no ray is refracted"
         near = Text("bar", (CENTER[0] + 1.9 * size, CENTER[1] + 1.1 * size), NO_RAY, size, color, "start", title=title)
         corner = (RIGHT - 0.5 * size - text_width(NO_RAY, size), BOTTOM - 0.9 * size)
-        crossed = any(clip_shares(stub, widened(near.box(), LIGHT_SIGN * size)) for stub in self._stubs())
+        crossed = any(clip_shares(stub, near.box()) for stub in self._stubs())
         text = replace(near, at=corner) if crossed else near
         self.marks += [*signs.cross("bar", (text.at[0] - 0.7 * size, text.at[1]), size, color), text]
 
