@@ -145,6 +145,21 @@ class TreeTable:
     def _away(self) -> np.ndarray:
         return faces_away(self.nodes, self.nodes)
 
+    def adds_nothing(self, i: int) -> bool:
+        """Whether ray i adds no light to its pixel, whatever light is at its end: its factor or weight is 0, or it is a
+        shadow ray and its light's share of the local term is 0.
+        """
+        return bool(self._nothing[i])
+
+    @cached_property
+    def _nothing(self) -> np.ndarray:
+        factor, weight, share = ((self.nodes[name] == 0.0).all(axis=1) for name in ("factor", "weight", "radiance"))
+        return factor | weight | (self.nodes["kind"] == SHADOW) & (self._away | share)
+
+    def from_inside(self, i: int) -> bool:
+        """Whether ray i meets its surface from the side away from the outward normal: it leaves the object's medium."""
+        return bool(self.details.hit_side[i] < 0.0)
+
     def digits(self, i: int) -> int:
         """The number of correct decimal digits of the hit point, 0 to 15."""
         row = self.nodes[i]

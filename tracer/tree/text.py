@@ -27,6 +27,8 @@ END_REASONS = {
     "blocked": "blocked",
 }
 
+FACES_AWAY = "adds nothing: the surface faces away"
+
 MAX_INDENT = 60  # levels that are indented; a deeper tree shows its levels as numbers
 
 
@@ -161,7 +163,7 @@ def end_reason(tree: TreeTable, i: int) -> str:
     """The reason why no ray follows ray i; for a shadow ray, whether it reaches its light."""
     if tree.end(i) == "tolerance" and tree.missing_allowed is not None:
         return "cut: within the light that may be missing"
-    return "adds nothing: the surface faces away" if tree.faces_away(i) else END_REASONS[tree.end(i)]
+    return FACES_AWAY if tree.faces_away(i) else END_REASONS[tree.end(i)]
 
 
 def _pair(first: str, second: str) -> str:

@@ -128,10 +128,11 @@ def public_rows(
     propagate_light_errors(world.arrays, rows, told, count, model, bends)
     _fill_angles(nodes)
     nodes.flags.writeable = False
-    start, surface, magnitude, face_normal = (
-        table[name][:count].copy() for name in ("start", "surface", "magnitude", "face_normal")
+    start, surface, magnitude, face_normal, hit_side = (
+        table[name][:count].copy() for name in ("start", "surface", "magnitude", "face_normal", "hit_side")
     )
-    return nodes, Details(start, surface, magnitude, face_normal, bends)
+    hit_side[np.isnan(nodes["normal"][:, 0])] = 0.0  # the kernel leaves it as it was
+    return nodes, Details(start, surface, magnitude, face_normal, bends, hit_side)
 
 
 def _fill_angles(nodes: np.ndarray) -> None:

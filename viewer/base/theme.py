@@ -53,7 +53,7 @@ class RayStyle:
 
 
 # The camera ray is thickest, so that the eye finds the start first. Shadow rays are dashed, since no light is followed
-# along them. A blocked one has shorter dashes and ends in a cross.
+# along them. A blocked one has shorter dashes and ends in a cross. A ray that adds nothing is dotted, also in print.
 STYLES = {
     "camera": RayStyle("camera ray", SYMBOLS["camera"], "#FFFFFF", "#000000", 3.0, (0, 0), Arrow.FILLED),
     "reflection": RayStyle("reflected", SYMBOLS["reflection"], "#56B4E9", "#0072B2", 2.4, (0, 0), Arrow.OPEN),
@@ -63,6 +63,7 @@ STYLES = {
 }
 BLOCKED_DASH = (4.0, 5.0)
 FILTERED_DASH = (12.0, 4.0)
+NOTHING_DASH = (1.6, 5.0)
 
 HALO = 1.6  # pixels of background colour on either side of a ray, so that it is visible on any image
 HIDDEN = 0.30  # opacity of what is behind or inside an opaque object

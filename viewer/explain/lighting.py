@@ -1,5 +1,7 @@
 """The local term at a hit (ambient light and the contributions of the lights), with its numbers."""
 
+import sys
+
 import numpy as np
 
 from tracer.formulas.shading import surface_color
@@ -12,8 +14,8 @@ from viewer.explain.scattering import local_error
 from viewer.explain.sections import Section
 
 
-def local_light(tree: RayTree, world: World, i: int) -> Section:
-    """The local term of hit i, light by light."""
+def local_light(tree: RayTree, world: World, i: int, most: int = sys.maxsize) -> Section:
+    """The local term of hit i, light by light; if there are more than `most` lights, with one line for all of them."""
     row = tree.nodes[i]
     material = world.scene.objects[row["object"]].material
     section = Section("Local light", "I = A ka C + Σ S L (kd C (N·L) + ks (R·V)ᵖ)")
@@ -22,6 +24,18 @@ def local_light(tree: RayTree, world: World, i: int) -> Section:
     section.add("colour C", format_rgb(color, 3))
     section.add("ka  kd  ks  p", "  ".join(format_number(x, 3) for x in _numbers(material)))
     section.add(f"ambient: A · {format_number(material.ambient)} · C", format_rgb(ambient, 4))
+    lights = world.scene.lights
+    if len(lights) <= most:
+        _add_lights(section, tree, world, i)
+    else:
+        of_lights = np.sum([tree.nodes["local"][c] for c in tree.children[i] if tree.nodes["light"][c] >= 0], axis=0)
+        section.add(f"Σ over {len(lights)} lights", format_color(of_lights, local_error(tree, i)))
+    section.add("local", format_color(row["local"], local_error(tree, i)))
+    return section
+
+
+def _add_lights(section: Section, tree: RayTree, world: World, i: int) -> None:
+    """Add the share of each light at hit i."""
     rows = {int(tree.nodes["light"][child]): child for child in tree.children[i]}
     for j, light in enumerate(world.scene.lights):
         name = world.scene.light_name(j)
@@ -39,8 +53,6 @@ def local_light(tree: RayTree, world: World, i: int) -> Section:
         section.add(
             f"{name}: {detail}", format_color(tree.nodes["radiance"][child], tree.nodes["radiance_error"][child])
         )
-    section.add("local", format_color(row["local"], local_error(tree, i)))
-    return section
 
 
 def one_light(tree: RayTree, world: World, i: int, j: int) -> Section:

@@ -21,6 +21,7 @@ from viewer.base.wording import (
     format_rgb,
     format_weight,
 )
+from viewer.explain.fate import ray_fate
 from viewer.explain.lighting import local_light, one_light
 from viewer.explain.scattering import (
     brought_error,
@@ -46,22 +47,12 @@ def headline(tree: RayTree, i: int) -> tuple[str, str]:
     name = f"{KIND_NAMES[tree.kind(i)]} {tree.label(i)}"
     if row["kind"] == SHADOW:
         from_object = tree.object_name(int(row["parent"]))
-        return name, f"from {from_object} to {tree.light_name(i)}: {_shadow_fate(tree, i)}"
-    met = tree.object_name(i)
-    fate = f"meets {met}" if met else "meets nothing"
-    if met and tree.digits(i) == 0:
+        return name, f"from {from_object} to {tree.light_name(i)}: {ray_fate(tree, i)}"
+    fate = ray_fate(tree, i)
+    if tree.object_name(i) and tree.digits(i) == 0:
         fate = f"{fate}, but rounding has left no correct digit of the point"
     why = END_REASONS[tree.end(i)]
     return name, f"{fate}; {why}" if why else fate
-
-
-def _shadow_fate(tree: RayTree, i: int) -> str:
-    met = tree.object_name(i)
-    if tree.faces_away(i):
-        return "adds nothing, the surface faces away from the light"
-    return {"blocked": f"blocked by {met}", "filtered": f"dimmed by {met}, straight through"}.get(
-        tree.end(i) or "", "nothing in its way"
-    )
 
 
 def ray_numbers(tree: RayTree, i: int) -> Section:

@@ -17,6 +17,7 @@ from viewer.figures.export_options import ExportOptions
 from viewer.figures.figure import both, tree
 from viewer.figures.figure.hit import hit_row
 from viewer.figures.layout.tree_plan import fitting_size
+from viewer.figures.lights import many_lights
 from viewer.figures.marks import Figure, Text
 from viewer.figures.pages import pages
 from viewer.figures.ray_lines import MOST_IN_FIGURE
@@ -78,6 +79,7 @@ def make(
     stem = stem_of(scene, options.pixel)
     drawn = pages(options.figure, subject, style) if any(FORMATS[name].figures for name in target.formats) else []
     notes = ray_notes(drawn, options.figure, subject) + fold_notes(drawn, options.figure, subject, style)
+    notes += size_notes(drawn, options.figure, style)
     files: list[tuple[Path, bytes]] = []
     for name in target.formats:
         kind = FORMATS[name]
@@ -154,11 +156,18 @@ def orbit_of(numbers: tuple[float, ...] | None, world: World, view: ViewAngles |
 
 
 def ray_notes(drawn: Sequence[Figure], figure: str, subject: Subject) -> list[str]:
-    """A note on rays that a figure of the scene leaves out because they are too many."""
-    rays = len(subject.steps[-1].tree)
-    if not drawn or figure not in ("both", "scene") or rays <= MOST_IN_FIGURE:
+    """Notes on rays that a figure of the scene leaves out because they are too many."""
+    tree = subject.steps[-1].tree
+    if not drawn or figure not in ("both", "scene"):
         return []
-    return [f"{figure}: of {rays:,} rays, the heaviest {MOST_IN_FIGURE:,} are drawn in the scene"]
+    notes = []
+    left_out = many_lights(tree)
+    if len(tree) - len(left_out) > MOST_IN_FIGURE:
+        of = f"{len(tree) - len(left_out):,} rays"
+        notes.append(f"{figure}: of {of}, the heaviest {MOST_IN_FIGURE:,} are drawn in the scene")
+    if left_out:
+        notes.append(f"{figure}: the rays to {len(tree.scene.lights)} lights are not drawn in the scene")
+    return notes
 
 
 def fold_notes(drawn: Sequence[Figure], figure: str, subject: Subject, style: FigureStyle) -> list[str]:
@@ -169,6 +178,14 @@ def fold_notes(drawn: Sequence[Figure], figure: str, subject: Subject, style: Fi
     size = fitting_size([step.tree for step in subject.steps], tree.tree_style(style, where))
     helps = f", and --text-size {size:g} shows all branches" if size else ""
     return [f"{figure}: branches that do not fit are folded; a smaller --depth has fewer branches{helps}"]
+
+
+def size_notes(drawn: Sequence[Figure], figure: str, style: FigureStyle) -> list[str]:
+    """A note on text that is smaller than asked for, because it does not fit."""
+    size = min((mark.size for page in drawn for mark in page.marks if isinstance(mark, Text)), default=style.text_size)
+    if size >= style.text_size:
+        return []
+    return [f"{figure}: text of {style.text_size:g} points does not fit: the tree's has {size:g}"]
 
 
 def letter_notes(drawn: Sequence[Figure], format_name: str) -> list[str]:

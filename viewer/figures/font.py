@@ -6,6 +6,7 @@ formulas. Other characters need a font of the program that shows the figure.
 """
 
 import unicodedata
+from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
@@ -62,6 +63,18 @@ def fitted(content: str, wide: float, size: float) -> str:
     while content and text_width(f"{content}…", size) > wide:
         content = content[:-1].rstrip()
     return f"{content}…"
+
+
+def wrapped(parts: Sequence[str], wide: float, size: float) -> list[str]:
+    """The parts of a list in lines of at most this width, with commas; a part that is wider has a line of its own."""
+    lines: list[str] = []
+    for k, part in enumerate(parts):
+        words = f"{part}," if k + 1 < len(parts) else part
+        if lines and text_width(f"{lines[-1]} {words}", size) <= wide:
+            lines[-1] = f"{lines[-1]} {words}"
+        else:
+            lines.append(words)
+    return lines
 
 
 def text_box(at: tuple[float, float], content: str, size: float, anchor: str) -> tuple[float, float, float, float]:

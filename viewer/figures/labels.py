@@ -8,19 +8,13 @@ from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import STYLES
 from viewer.base.wording import format_number
+from viewer.explain.fate import ray_fate
 
 LONGEST = 13  # characters of the label of a shadow ray
 
 # Texts under a leaf, short enough for a slide.
-ENDS = {
-    "surface": "opaque",
-    "background": "",
-    "depth": "cut: depth",
-    "weight": "cut: weight",
-    "tolerance": "cut: tolerance",
-    "nodes": "cut: limit",
-    "invalid": "no direction",
-}
+CUTS = {"depth": "cut: depth", "weight": "cut: weight", "tolerance": "cut: tolerance", "nodes": "cut: limit"}
+ENDS = {"surface": "opaque", "background": "", "invalid": "no direction", **CUTS}
 
 
 def ray_label(tree: RayTree, i: int) -> str:
@@ -47,11 +41,7 @@ def end_label(tree: RayTree, i: int) -> str:
 def ray_title(tree: RayTree, i: int) -> str:
     """A sentence about a ray, shown when the mouse points at it."""
     row = tree.nodes[i]
-    style = STYLES[tree.kind(i)]
+    what, fate = f"{tree.label(i)}: {STYLES[tree.kind(i)].label}", ray_fate(tree, i)
     if row["kind"] == SHADOW:
-        fate = {"lit": "reaches it", "filtered": "reaches it through glass"}.get(
-            tree.end(i) or "", f"is blocked by {tree.object_name(i)}"
-        )
-        return f"{tree.label(i)}: {style.label} to {tree.light_name(i)}, {fate}"
-    weight = format_number(float(row["weight"].max()), 3)
-    return f"{ray_label(tree, i)}: {style.label}, meets {hit_label(tree, i)}, weight {weight}"
+        return f"{what} to {tree.light_name(i)}, {fate}"
+    return f"{what}, {fate}, weight {format_number(float(row['weight'].max()), 3)}"

@@ -9,6 +9,7 @@ from viewer.base.theme import STYLES, Theme
 from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.layout.free_space import FreeSpace
+from viewer.figures.lights import FATE
 from viewer.figures.marks import Line, Mark, Point, Rectangle, Stroke, Text
 
 LINE = 1.3  # from line to line, in text sizes
@@ -81,6 +82,6 @@ def _entry(entry: Entry, at: Point, size: float, theme: Theme) -> list[Mark]:
         style = STYLES[entry.what]
         stroke = Stroke(theme.ray(entry.what), style.width, style.dash)
         return [Line(name, (x, y), (x + 2.0 * size, y), stroke, style.arrow, 0.65), words]
-    dash = STYLES["shadow"].dash
-    stub = Line(name, (x, y), (x + 1.1 * size, y), Stroke(theme.ray("shadow"), STYLES["shadow"].width, dash))
+    stroke = Stroke(theme.ray("shadow"), STYLES["shadow"].width, FATE[entry.what].dash)
+    stub = Line(name, (x, y), (x + 1.1 * size, y), stroke)
     return [stub, *signs.light_end(entry.what, name, (x + 1.6 * size, y), size, theme), words]

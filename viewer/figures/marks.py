@@ -37,6 +37,19 @@ def clip_shares(piece: Piece, box: Rectangle) -> tuple[float, float] | None:
     return (enters, leaves) if enters < leaves else None
 
 
+def overlap(a: Rectangle, b: Rectangle) -> bool:
+    return min(a[2], b[2]) > max(a[0], b[0]) and min(a[3], b[3]) > max(a[1], b[1])
+
+
+def inside(point: Point, box: Rectangle) -> bool:
+    return box[0] < point[0] < box[2] and box[1] < point[1] < box[3]
+
+
+def widened(box: Rectangle, by: float) -> Rectangle:
+    """The rectangle, wider by this length on each side."""
+    return (box[0] - by, box[1] - by, box[2] + by, box[3] + by)
+
+
 def point_along(piece: Piece, share: float) -> Point:
     (x0, y0), (x1, y1) = piece
     return (x0 + share * (x1 - x0), y0 + share * (y1 - y0))

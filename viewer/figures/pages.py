@@ -5,18 +5,16 @@ from pkgutil import resolve_name
 from tracer.tree.digits import rgb_text
 from tracer.tree.raytree import RayTree
 from viewer.figures.catalogue import FIGURES
-from viewer.figures.export_options import TEXT_SIZE
 from viewer.figures.marks import Figure, with_line_width
-from viewer.figures.subject import FigureStyle, Subject
+from viewer.figures.subject import FigureStyle, Subject, line_share
 
 MOST_DOUBTS = 3  # that a description lists
-THINNEST, THICKEST = 0.45, 1.6  # factors of the line width, which follows the text size
 
 
 def pages(name: str, subject: Subject, style: FigureStyle, command: str = "") -> list[Figure]:
     """One page of the named figure for each step. ValueError if the subject or the style does not allow it."""
     marks_of = resolve_name(next(kind.function for kind in FIGURES if kind.name == name))
-    width = min(THICKEST, max(THINNEST, style.text_size / TEXT_SIZE))
+    width = line_share(style.text_size)
     made = [[with_line_width(mark, width) for mark in marks] for marks in marks_of(subject, style)]
     return [
         Figure(title(step.tree), description(step.tree), command, tuple(marks), style.theme.ground, style.ground)

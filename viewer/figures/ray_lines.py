@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tracer.kernel.nodes import BLOCKED, FILTERED, KINDS, SHADOW
+from tracer.kernel.nodes import BLOCKED, KINDS, SHADOW
 from tracer.tree.raytree import RayTree
 from tracer.tree.text import heaviest_rows
 from viewer.base.orbit import Frame
-from viewer.base.theme import BLOCKED_DASH, ESCAPE, FILTERED_DASH, STYLES
+from viewer.base.theme import ESCAPE
+from viewer.figures.lights import ray_dash
 
 MOST_DRAWN = 20_000  # rays in the window: the heaviest, if a tree has more
 MOST_IN_FIGURE = 2_000  # the same in a figure of the scene
@@ -26,7 +27,7 @@ class RayLine:
     end: np.ndarray
     dash: tuple[float, float]
     escapes: bool  # it leaves the scene, and is drawn for a short length only
-    blocked: bool
+    blocked: bool  # by something between a surface that faces the light, and the light
 
 
 def drawn_rows(tree: RayTree, selected: int | None = None) -> list[int]:
@@ -53,14 +54,8 @@ def ray_lines(tree: RayTree, rows: Sequence[int], frame: Frame, kinds: Set[str])
         escapes = bool(np.isnan(end).any())
         if escapes:
             end = _escape(start, nodes["direction"][i])
-        dash, blocked = STYLES[kind].dash, False
-        if code == SHADOW:
-            blocked = nodes["end"][i] == BLOCKED
-            if blocked:
-                dash = BLOCKED_DASH
-            elif nodes["end"][i] == FILTERED:
-                dash = FILTERED_DASH
-        found.append(RayLine(i, kind, start, end, dash, escapes, bool(blocked)))
+        blocked = code == SHADOW and nodes["end"][i] == BLOCKED and not tree.faces_away(i)
+        found.append(RayLine(i, kind, start, end, ray_dash(tree, i), escapes, bool(blocked)))
     return found
 
 

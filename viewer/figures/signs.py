@@ -18,9 +18,9 @@ def eye(at: Point, size: float, theme: Theme) -> list[Mark]:
     ]
 
 
-def sun(name: str, at: Point, size: float, color: Color, ring: Color | None = None) -> list[Mark]:
+def sun(name: str, at: Point, size: float, color: Color, ring: Color | None = None, title: str = "") -> list[Mark]:
     """A light that is reached: a disc with eight rays, with a ring if the light comes through glass."""
-    marks: list[Mark] = [Disc(name, at, 0.2 * size, color, None)]
+    marks: list[Mark] = [Disc(name, at, 0.2 * size, color, None, title=title)]
     for k in range(8):
         dx, dy = math.cos(k * math.pi / 4), math.sin(k * math.pi / 4)
         start = (at[0] + 0.28 * size * dx, at[1] + 0.28 * size * dy)
@@ -46,13 +46,22 @@ def bar(name: str, at: Point, size: float, color: Color) -> list[Mark]:
     return [Line(name, (at[0] - 0.36 * size, at[1]), (at[0] + 0.36 * size, at[1]), Stroke(color, 3.0))]
 
 
+def arc(center: Point, radius: float, begin: float, end: float) -> tuple[Point, ...]:
+    """The corners of an arc between two directions, clockwise from above, in steps of at most two degrees."""
+    steps = max(1, math.ceil(abs(end - begin) / math.radians(2.0)))
+    turns = (begin + (end - begin) * k / steps for k in range(steps + 1))
+    return tuple((center[0] + radius * math.sin(turn), center[1] - radius * math.cos(turn)) for turn in turns)
+
+
 def light_end(end: str, name: str, at: Point, size: float, theme: Theme) -> list[Mark]:
-    """The end of a shadow ray: lit, filtered, blocked, or away if the surface faces away from the light."""
+    """The sign at the end of a shadow ray of this fate."""
     color = theme.ray("shadow")
     match end:
         case "away":
             return bar(name, at, 0.7 * size, color)
         case "blocked":
             return cross(name, at, size, color)
+        case "nothing":
+            return [Disc(name, at, 0.26 * size, None, Stroke(color, 1.5))]
         case _:
             return sun(name, at, size, theme.sun, color if end == "filtered" else None)

@@ -19,6 +19,13 @@ if TYPE_CHECKING:
 
 Pages = list[list[Mark]]
 
+THINNEST, THICKEST = 0.45, 1.6  # factors of the line width
+
+
+def line_share(text_size: float) -> float:
+    """The factor of line widths, which follow the text size."""
+    return min(THICKEST, max(THINNEST, text_size / TEXT_SIZE))
+
 
 @dataclass(frozen=True)
 class FigureStyle:

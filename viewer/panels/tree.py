@@ -9,11 +9,12 @@ from imgui_bundle import imgui
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.text import cut_summary
 from viewer.base.srgb import display_color
-from viewer.base.theme import BLOCKED_DASH, DIMMED, SMALL, STYLES, faded
+from viewer.base.theme import DIMMED, SMALL, STYLES, faded
 from viewer.base.wording import format_number
 from viewer.explain.ray import headline
-from viewer.figures.labels import ray_label
+from viewer.figures.labels import CUTS, ray_label
 from viewer.figures.layout.tidy_tree import Place, heaviest_places
+from viewer.figures.lights import fate_of, ray_dash
 from viewer.figures.ray_lines import relatives
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
@@ -142,12 +143,11 @@ class _Diagram:
         kind = tree.kind(i)
         style = STYLES[kind]
         unit = d.unit()
-        color = faded(self.theme.ray(kind), self.opacity(i))
+        color, dash = faded(self.theme.ray(kind), self.opacity(i)), ray_dash(tree, i)
         a, b = self._top(i), self.at[i]
         if i == 0:
             a = (a[0], a[1] + 0.65 * self.radius)
         width = style.width * unit * (1.7 if i == self.session.selected else 1.0)
-        dash = BLOCKED_DASH if tree.end(i) == "blocked" else style.dash
         d.line(self.pad, a, b, color, width, (dash[0] * unit * 0.8, dash[1] * unit * 0.8))
         d.arrow(self.pad, a, b, 0.72, color, 9.0 * unit, style.arrow)
 
@@ -187,8 +187,7 @@ class _Diagram:
 
     def _node_label(self, i: int, x: float, y: float, opacity: float) -> None:
         name = self.tree.object_name(i) or "background"
-        end = self.tree.end(i)
-        note = {"depth": "cut: depth", "weight": "cut: weight", "nodes": "cut: limit"}.get(end or "", "")
+        note = CUTS.get(self.tree.end(i) or "", "")
         size = self.text_size
         color = faded(self.theme.text, opacity)
         # The label is at the node's height, between the incoming and the outgoing edges.
@@ -222,17 +221,21 @@ class _Diagram:
         return min(right, x + 3.0 * self.step_x) - x - self.radius - 6.0 * d.unit()
 
     def _light_end(self, i: int) -> None:
-        """A small sun if the light is reached, otherwise a cross. Faint if the surface faces away."""
+        """The sign of what becomes of the shadow ray, as in figures."""
         x, y = self.at[i]
-        opacity = self.opacity(i) * (DIMMED if self.tree.faces_away(i) else 1.0)
-        r = 0.62 * self.radius
+        opacity, r = self.opacity(i), 0.62 * self.radius
         ink = faded(self.theme.ray("shadow"), opacity)
-        if self.tree.end(i) == "blocked":
-            d.cross(self.pad, (x, y), 0.6 * r, ink, 2.2 * d.unit())
-        else:
-            d.sun(self.pad, (x, y), r, faded(self.theme.sun, opacity), self.theme.panel)
-            if self.tree.end(i) == "filtered":
-                self.pad.add_circle((x, y), 1.35 * r, d.u32(ink), 0, 1.2 * d.unit())
+        match fate_of(self.tree, i).name:
+            case "away":
+                d.line(self.pad, (x - 0.5 * r, y), (x + 0.5 * r, y), ink, 3.0 * d.unit())
+            case "nothing":
+                self.pad.add_circle((x, y), 0.6 * r, d.u32(ink), 0, 1.5 * d.unit())
+            case "blocked":
+                d.cross(self.pad, (x, y), 0.6 * r, ink, 2.2 * d.unit())
+            case fate:
+                d.sun(self.pad, (x, y), r, faded(self.theme.sun, opacity), self.theme.panel)
+                if fate == "filtered":
+                    self.pad.add_circle((x, y), 1.35 * r, d.u32(ink), 0, 1.2 * d.unit())
         if i == self.session.selected:
             self.pad.add_circle((x, y), 1.5 * r, d.u32(self.theme.accent), 0, 2.5 * d.unit())
 

@@ -68,7 +68,7 @@ def test_json_has_every_field_and_reads_back_to_the_same_bits(tree: tracer.RayTr
 def test_table_cannot_be_written_to(tree: tracer.RayTree) -> None:
     with pytest.raises(ValueError, match="read-only"):
         tree.nodes["t"] = 0.0
-    assert tree.nodes.dtype.names == tuple(FIELDS[:-3])
+    assert tree.nodes.dtype.names == tuple(FIELDS[:-5])
 
 
 def test_hits_lie_where_the_ray_says(tree: tracer.RayTree) -> None:

@@ -1,16 +1,18 @@
 """The figure of a hit in its plane of incidence: angles have their true size, nothing overlaps."""
 
 import math
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings, strategies as st
 
 import tracer
 from tests.conftest import LESSONS
-from tests.scenes import box, world_of
+from tests.scenes import ball, box, plane, world_of
 from tests.viewer.figures.geometry import check
 from tracer.kernel.nodes import SHADOW
-from tracer.scene import Light, Material
+from tracer.scene import Light, Material, Object
+from tracer.shapes.polygon import Polygon
 from viewer.figures.figure.hit import CENTER
 from viewer.figures.marks import Figure, Line, Text
 from viewer.figures.pages import pages
@@ -105,3 +107,46 @@ def test_a_hit_without_rays_to_go_on_has_no_formulas_of_them(worlds: dict[str, t
     assert all("local" in page for page in words)
     assert "r = v − 2 (n·v) n" not in words[0]
     assert {"r = v − 2 (n·v) n", "n₁ sin θ₁ = n₂ sin θ₂"} <= words[1]
+
+
+def names_of(tree: tracer.RayTree) -> list[tuple[str, float]]:
+    """Of each hit, outwards along the refracted rays: the object's name, and how far it stands below the surface."""
+    found, node = [], 0
+    while True:
+        (figure,) = pages("hit", Subject(by_depth([tree]), tree.world), FigureStyle(node=node))
+        check(figure)
+        (text,) = (m for m in figure.marks if isinstance(m, Text) and m.name == "surface")
+        found.append((text.content, text.at[1] - CENTER[1]))
+        below = [c for c in tree.children[node] if tree.kind(c) in ("refraction", "tir") and tree.object_name(c)]
+        if not below:
+            return found
+        (node,) = below
+
+
+@pytest.mark.parametrize("aside", (0.05, 0.3, 0.47))
+def test_a_name_stands_in_the_medium_that_it_names(aside: float) -> None:
+    """A ray through water in a ball, a sheet and into a floor: below the surface where it enters, above where it
+    leaves, on the surface of the sheet, which has no inside.
+    """
+    glass, water = Material("glass", transmit=0.9, ior=1.5), Material("water", transmit=0.9, ior=1.33)
+    inner = replace(ball((0.0, 0.0, 0.0), 0.5, water, "water"), priority=1)
+    sheet = Object(Polygon(((-9, -2, -9), (-9, -2, 9), (9, -2, 9), (9, -2, -9))), glass, "sheet", thin=True)
+    floor = plane((0.0, -3.0, 0.0), (0.0, 1.0, 0.0), Material("floor", diffuse=1.0), "floor")
+    lamp = Light("lamp", position=(4.0, 9.0, 0.0))
+    world = world_of(inner, ball((0.0, 0.0, 0.0), 1.0, glass, "ball"), sheet, floor, lights=[lamp])
+    names = names_of(tracer.trace(world, ray=((aside, 5.0, 0.0), (0.0, -1.0, 0.0)), depth=6))
+    sides = [(name, int(math.copysign(1.0, below)) if below else 0) for name, below in names]
+    assert sides == [("ball", 1), ("water", 1), ("water", -1), ("ball", -1), ("sheet", 0), ("floor", 1)]
+
+
+@pytest.mark.parametrize("degrees", (0.0, 10.0, 30.0, 48.0, 60.0, 75.0, 85.0, 89.0))
+def test_a_name_under_water_keeps_clear_of_rays(degrees: float) -> None:
+    """Seen from under water, with and without total internal reflection, also a long name."""
+    for name in ("water", "water in the lake with a very long name"):
+        lake = box((-99.0, -99.0, -99.0), (99.0, 99.0, 0.0), Material("water", transmit=1.0, ior=1.33), name=name)
+        lamps = [Light(str(k), position=(math.cos(k) * 9.0, math.sin(k), 3.0 * math.sin(2.0 * k))) for k in range(4)]
+        a = math.radians(degrees)
+        ray = ((-math.sin(a), 0.0, -math.cos(a)), (math.sin(a), 0.0, math.cos(a)))
+        ((words, below),) = names_of(tracer.trace(world_of(lake, lights=lamps), ray=ray, depth=1))[:1]
+        assert below < 0.0
+        assert words[:5] == "water"

@@ -19,7 +19,7 @@ from tracer.shapes.sphere import Sphere
 from viewer.base.orbit import Frame, Orbit, initial_orbit
 from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text, clip_shares
 from viewer.figures.pages import pages
-from viewer.figures.steps import by_depth
+from viewer.figures.steps import by_depth, by_ray
 from viewer.figures.subject import FigureStyle, Subject
 from viewer.figures.visible.outlines import FINE, is_too_fine, label_spots
 from viewer.figures.visible.rings import sharpen_corners, simplify, straighten
@@ -284,3 +284,46 @@ def test_round_outlines_stay_round() -> None:
         assert set(map(tuple, done)) == set(map(tuple, simplify(ring)))
         across = np.hypot(*done.T)
         assert np.abs(across - radius).max() < 1e-9
+
+
+def test_all_of_each_glass_object_is_drawn() -> None:
+    """Also a ball inside a ball, and a mirror in it: each outline is that of the object alone."""
+    glass, clear = Material("glass", transmit=0.9, ior=1.5), Material("water", transmit=0.9, ior=1.33)
+    alone = [
+        Object(Sphere((0.0, 0.0, 0.0), 1.0), glass, "ball"),
+        Object(Sphere((0.1, 0.1, 0.0), 0.5), clear, "bubble", priority=1),
+        box((-3.0, -1.2, -1.2), (1.2, 1.2, 1.2), clear, name="tank"),
+        Object(Sphere((-2.0, 0.0, 0.0), 0.4), glass, "bead", priority=1),
+    ]
+    mirror = Object(Sphere((-2.0, 0.0, 0.0), 0.2), Material("mirror", reflect=0.9), "mirror")
+    world = world_of(*alone, mirror)
+    camera = orbit_camera(Orbit(0.6, 0.3, 3.2), Frame.of(world))
+    seen = visible_parts(world, camera, CANVAS)
+    assert [part.number for part in seen.opaque] == [4]
+    assert [part.number for part in seen.glass] == [0, 1, 2, 3]
+    for part in seen.glass:
+        only = visible_parts(world_of(alone[part.number]), camera, CANVAS)
+        assert [[area.outline for area in face] for face in part.faces] == [
+            [area.outline for area in face] for face in only.glass[0].faces
+        ]
+
+
+@pytest.mark.parametrize("lights", (4, 5, 64))
+def test_rays_to_many_lights_are_left_out_and_the_figure_says_so(lights: int) -> None:
+    glass = Object(Sphere((0.0, 0.0, 0.0), 1.0), Material("glass", transmit=0.9, reflect=0.1, ior=1.5), "ball")
+    lamps = [Light(f"lamp {k}", position=(2.0 * math.sin(k), 2.0, 2.0 * math.cos(k))) for k in range(lights)]
+    world = world_of(glass, lights=lamps)
+    tree = tracer.trace(world, ray=((0.0, 0.2, 4.0), (0.0, 0.0, -1.0)), depth=2)
+    for name in ("scene", "both"):
+        (figure,) = pages(
+            name, Subject(by_depth([tree]), world, initial_orbit(world, Frame.of(world), None)), FigureStyle()
+        )
+        shadows = {f"ray-{i}" for i in np.flatnonzero(tree.nodes["kind"] == SHADOW)}
+        words = {m.content for m in figure.marks if isinstance(m, Text)}
+        assert bool(shadows & {m.name for m in figure.marks}) == (lights == 4)
+        said = {f"L: rays to {lights} lights are left out", f"{lights} lights: rays left out"}
+        assert bool(said & words) == (lights > 4)
+    (_, *last) = pages(
+        "scene", Subject(by_ray(tree)[:3], world, initial_orbit(world, Frame.of(world), None)), FigureStyle()
+    )
+    assert any(m.name == "ray-2" for m in last[-1].marks)  # the ray that a step adds is drawn

@@ -10,18 +10,22 @@ from hypothesis import given, settings, strategies as st
 
 import tracer
 from tests.conftest import LESSONS
+from tests.scenes import MATTE, ball, world_of
 from tests.viewer.figures.geometry import check
 from tests.viewer.figures.random_tree import random_tree
 from tests.viewer.panels.test_layout import plates
 from tracer.kernel.nodes import SHADOW
+from tracer.scene import Light, Material
 from tracer.tree.raytree import RayTree
 from viewer.base.orbit import Frame, initial_orbit
 from viewer.base.theme import DARK, LIGHT, MONO, Theme
+from viewer.explain.ray import headline
 from viewer.figures.labels import ray_label
 from viewer.figures.layout.folds import percent
 from viewer.figures.layout.placing import EYES
 from viewer.figures.layout.sizes import TreeStyle
 from viewer.figures.layout.tree_plan import plan_tree
+from viewer.figures.lights import FATE, fate_of, many_lights, shadow_rays
 from viewer.figures.marks import Box, Disc, Figure, Line, Text
 from viewer.figures.pages import pages
 from viewer.figures.steps import by_color, by_depth, by_ray
@@ -40,11 +44,29 @@ def folded(figure: Figure) -> int:
     )
 
 
+def in_lines(figure: Figure, tree: RayTree) -> int:
+    """The number of shadow rays for which lines of words, or of signs with numbers, stand. Each stands for all of its
+    hit.
+    """
+    found = 0
+    for hit in hits(figure):
+        words = [m.content for m in figure.marks if isinstance(m, Text) and m.name == f"lights-{hit}"]
+        if words:
+            assert words[0].startswith("L:")
+            assert sum(int(n) for n in re.findall(r"\d+", " ".join(words))) == len(shadow_rays(tree, hit))
+            found += len(shadow_rays(tree, hit))
+    return found
+
+
 def check_whole(figure: Figure, tree: RayTree, size: float = 18.0) -> None:
-    """Each ray of the tree is drawn, with its label, or counted in a folded branch."""
+    """Each ray of the tree is drawn, with its label, or counted in a folded branch or in a line of shadow rays. If
+    there is no room for these lines, all are left out.
+    """
     check(figure, size)
     drawn = {int(m.name[4:]) for m in figure.marks if isinstance(m, Line) and m.name.startswith("ray-")}
-    assert len(drawn) + folded(figure) == len(tree)
+    lines = in_lines(figure, tree)
+    left_out = sum(len(shadow_rays(tree, hit)) for hit in hits(figure)) if not lines and many_lights(tree) else 0
+    assert len(drawn) + folded(figure) + lines + left_out == len(tree)
     words = [m.content for m in figure.marks if isinstance(m, Text)]
     shadows = {i for i in drawn if tree.nodes["kind"][i] == SHADOW}
     named = "L" not in words  # otherwise their lights stand in the order of the legend
@@ -56,7 +78,8 @@ def check_whole(figure: Figure, tree: RayTree, size: float = 18.0) -> None:
 
 @settings(max_examples=150, deadline=None)
 @given(
-    st.integers(0, 2**32), st.integers(1, 300), st.integers(0, 4), st.integers(0, 7), st.booleans(),
+    st.integers(0, 2**32), st.integers(1, 300), st.sampled_from((0, 1, 2, 3, 4, 5, 9, 64)), st.integers(0, 7),
+    st.booleans(),
     st.sampled_from((6.0, 9.0, 18.0, 24.0)), st.sampled_from(EYES),
 )  # fmt: skip
 def test_random_trees(seed: int, most: int, lights: int, depth: int, swatches: bool, size: float, eye: str) -> None:
@@ -254,3 +277,94 @@ def test_the_legend_explains_every_sign_and_hides_nothing(worlds: dict[str, trac
             if mark.name.startswith("legend-") and isinstance(mark, Line):
                 for x, y in (mark.start, mark.end):
                     assert abs(x - eye.center[0]) > 18.0 or abs(y - eye.center[1]) > 18.0
+
+
+ROOM = world_of(
+    ball((0.0, 0.0, 0.0), 1.0, Material("glass", transmit=0.9, reflect=0.1, ior=1.5, diffuse=0.1), "ball"),
+    ball((0.0, 3.0, 0.7), 0.3, MATTE, "moon"),
+    lights=[
+        Light("up", position=(0.0, 9.0, 0.1)),  # behind the moon
+        Light("front", position=(0.0, 1.0, 9.0)),
+        Light("off", position=(1.0, 0.0, 9.0), color=(0.0, 0.0, 0.0)),
+        Light("back", position=(0.0, 0.0, -9.0)),
+    ],
+)
+RAY = ((0.0, 0.2, 4.0), (0.0, 0.12, -1.0))  # meets the ball in front, above its middle
+
+
+def with_lights(count: int) -> tracer.World:
+    """The same with this number of lights: the four in turn."""
+    lights = tuple(replace(ROOM.scene.lights[k % 4], name=f"lamp {k}") for k in range(count))
+    return tracer.prepare(replace(ROOM.scene, lights=lights))
+
+
+def test_many_lights_are_one_line() -> None:
+    """Of five lights, in words: only the parts that occur, with the right number of the verb."""
+    for count, words in (
+        (5, "L: 2 reach, 1 faces away, 2 blocked"),
+        (12, "L: 6 reach, 3 face away, 3 blocked"),
+        (64, "L: 32 reach, 16 face away, 16 blocked"),
+    ):
+        tree = tracer.trace(with_lights(count), ray=RAY, depth=1)
+        for name in ("tree", "hit"):
+            (figure,) = pages(name, Subject(by_depth([tree]), tree.world), FigureStyle())
+            assert words in [m.content for m in figure.marks if isinstance(m, Text)], (count, name)
+            idle = next(m.title for m in figure.marks if m.name == "lights-0")
+            assert idle == f"{words}; {count // 4} add{'s' * (count // 4 == 1)} nothing, though nothing blocks " + (
+                "it" if count // 4 == 1 else "them"
+            )
+            assert not {f"ray-{i}" for i in shadow_rays(tree, 0)} & {m.name for m in figure.marks}
+    four = tracer.trace(with_lights(4), ray=RAY, depth=1)
+    (figure,) = pages("tree", Subject(by_depth([four])), FigureStyle())
+    assert {f"ray-{i}" for i in shadow_rays(four, 0)} <= {m.name for m in figure.marks}
+
+
+@pytest.mark.parametrize("lights", (5, 12, 64))
+@pytest.mark.parametrize("eye", EYES)
+def test_no_ray_is_folded_for_lights(lights: int, eye: str) -> None:
+    """The rays that are drawn are those of the figure without rays to lights."""
+    for seed, size in itertools.product(range(12), (12.0, 18.0)):
+        tree = random_tree(seed, 40, lights, 3)
+        drawn = [
+            set(hits(pages("tree", Subject(by_depth([tree])), FigureStyle(text_size=size, eye=eye, lights=on))[0]))
+            for on in (True, False)
+        ]
+        assert len(drawn[0]) >= len(drawn[1])
+
+
+def test_rays_that_add_nothing_look_otherwise_and_say_so() -> None:
+    """Their dash is that of the legend and of no ray that adds light, in every theme; the title is the window's."""
+    tree = tracer.trace(ROOM, ray=RAY, depth=2)
+    fates = {i: fate_of(tree, i) for hit in (0, *tree.children[0]) for i in shadow_rays(tree, hit)}
+    assert {"lit", "filtered", "blocked", "away", "nothing"} == {fate.name for fate in fates.values()}
+    for name, theme in itertools.product(("tree", "scene", "both", "hit"), (LIGHT, DARK, MONO)):
+        orbit = initial_orbit(ROOM, Frame.of(ROOM), None)
+        (figure,) = pages(name, Subject(by_depth([tree]), ROOM, orbit), FigureStyle(theme))
+        lines = [m for m in figure.marks if isinstance(m, Line) and m.stroke.dash != (0.0, 0.0)]
+        found = set()
+        for i, fate in fates.items():
+            for line in lines:
+                if line.name == f"ray-{i}" and line.title:
+                    found.add(fate.name)
+                    assert line.stroke.dash == pytest.approx(fate.dash)
+                    assert headline(tree, i)[1].split(": ", 1)[1] in line.title
+                    assert ("adds nothing" in line.title) == (fate.name in ("away", "nothing"))
+        assert {"away", "nothing", "lit"} <= found
+        for line in lines:
+            if line.name.startswith("legend-") and line.name[7:] in FATE:
+                assert line.stroke.dash == pytest.approx(FATE[line.name[7:]].dash)
+    dashes = {fate.dash for fate in FATE.values() if fate.name not in ("away", "nothing")}
+    assert not dashes & {FATE["away"].dash, FATE["nothing"].dash}
+
+
+def test_a_ray_of_factor_0_says_so() -> None:
+    tree = tracer.trace(ROOM, ray=RAY, depth=1)
+    nodes = tree.nodes.copy()
+    (i,) = (k for k in range(len(tree)) if tree.kind(k) == "reflection")
+    nodes["factor"][i] = nodes["weight"][i] = 0.0
+    none = replace(tree, nodes=nodes)
+    (figure,) = pages("tree", Subject(by_depth([none])), FigureStyle())
+    (line,) = (m for m in figure.marks if isinstance(m, Line) and m.name == f"ray-{i}")
+    assert "adds nothing: its factor is 0" in line.title
+    assert line.stroke.dash == FATE["nothing"].dash
+    assert "adds nothing: its factor is 0" in headline(none, i)[1]

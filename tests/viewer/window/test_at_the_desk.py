@@ -68,7 +68,7 @@ def test_the_remote_blanks_the_screen(desk: Desk, name: str) -> None:
     hand("key", "0")
     desk.until(lambda: not desk.session.is_blank, "the key that brings the window back")
     assert desk.session.depth == depth  # it does nothing else
-    desk.until(lambda: desk.window_picture().any(), "the window")
+    desk.until(lambda: bool(desk.window_picture().any()), "the window")
     hand("key", name)
     desk.until(lambda: desk.session.is_blank, "the black screen")
     before = desk.session.pixel

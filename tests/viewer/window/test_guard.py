@@ -26,7 +26,7 @@ object = [
     {{ shape = "polygon", vertices = {vertices}, material = "m" }},
 ]
 """
-SQUARE = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+SQUARE = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]]
 
 
 def write(path: Path, ior: float = 1.5, transmit: float = 0.5, vertices: list[list[float]] = SQUARE) -> Path:

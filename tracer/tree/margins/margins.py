@@ -28,6 +28,7 @@ DECISIONS = (
     "whether the surface faces the light",
 )
 TIR, CHECKER, HORIZON = range(5, 8)
+NOWHERE = np.zeros(0)  # in tables that were not traced
 
 
 class Details(NamedTuple):
@@ -38,6 +39,7 @@ class Details(NamedTuple):
     magnitude: np.ndarray  # as in `tracer.rays.Ray`
     face_normal: np.ndarray  # (n, 3) of the face hit
     bend: np.ndarray  # error of the normal at the hit, radians
+    hit_side: np.ndarray = NOWHERE  # +1 or -1: the side of the outward normal from which the ray hits; 0 for none
 
 
 class Margins(NamedTuple):

@@ -11,16 +11,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from tracer.formulas.vector import Vector
 from tracer.kernel.nodes import KINDS, SHADOW
-from tracer.scene import Material
 from tracer.tree.raytree import RayTree
 from tracer.tree.text import heaviest_rows
-from viewer.base.srgb import LUMINANCE, display_color
-from viewer.base.theme import ARROW_AT, HALO, STYLES, Arrow, Color, Theme, faded
+from viewer.base.theme import HALO, STYLES, Arrow, Color, Theme, faded
 from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.labels import ray_label, ray_title
 from viewer.figures.layout.label_placement import LabelPlacer, Spot
+from viewer.figures.lights import many_lights
 from viewer.figures.marks import (
     HEIGHT,
     WIDTH,
@@ -31,22 +31,26 @@ from viewer.figures.marks import (
     Rectangle,
     Shape,
     Stroke,
-    clip_shares,
+    inside,
     point_along,
+    widened,
 )
 from viewer.figures.ray_lines import MOST_IN_FIGURE, RayLine, ray_lines
 from viewer.figures.steps import Step
-from viewer.figures.subject import FigureStyle, Pages, Subject
+from viewer.figures.subject import FigureStyle, Pages, Subject, line_share
+from viewer.figures.visible.looks import between, surface_look
 from viewer.figures.visible.outlines import Area
 from viewer.figures.visible.scene_view import SceneView
 from viewer.figures.visible.scenery import Part
 
-PALE = 0.45  # share of the background's colour in an object's colour, so that rays stand out
 SHADE = 0.09  # opacity of the shade
 GLASS = 0.13  # opacity of glass
 OUTLINE, CREASE = 1.3, 0.8  # widths
 FAINT = 0.3  # opacity of the hidden part of a ray
 SLIM = 0.7  # of a ray's width, for shadow rays: there are many, and the figure is not about them
+STRONG = 1.8  # factor of a ray's width on the page that adds it
+HEAD_ROOM = 8.0  # from an arrow's middle to the border, in widths of its ray: the tail of a double arrow is 7 away
+SIGN_ROOM = 1.0  # from the middle of an eye or a light to the border, in text sizes
 SPOTS = (0.4, 0.5, 0.3, 0.6, 0.7, 0.2, 0.8, 0.1, 0.9)  # places for a name, as shares of the visible part of a ray
 ROOMY = 2.2  # a ray this many times longer than its name has its name on it, a shorter one beside it
 LABELS = 24  # rays that are named: the heaviest
@@ -78,11 +82,15 @@ class _Drawing:
         self.scene = view.world.scene
         self.marks: list[Mark] = []
         self.names = LabelPlacer(view.where, size, theme)
+        self.share = line_share(size)
         for part in view.seen.opaque:
             self._thing(part, 1.0)
         for part in view.seen.glass:
             self._thing(part, GLASS)
-        rows = sorted(step.rows & heaviest_rows(self.tree, MOST_IN_FIGURE))
+        # Dashes to many lights would hide all other rays: the figure has only the one that the step adds.
+        left_out = many_lights(self.tree) - {step.current}
+        self.has_many = bool(left_out)
+        rows = sorted(step.rows & heaviest_rows(self.tree, MOST_IN_FIGURE, set(range(len(self.tree))) - left_out))
         self.lines = ray_lines(self.tree, rows, view.frame, frozenset(KINDS))
         for line in sorted(self.lines, key=lambda line: -line.row):  # the first rays lie over the later ones
             self._ray(line)
@@ -104,8 +112,7 @@ class _Drawing:
         checker = item.material.checker
         if opacity == 1.0 and checker:
             other = surface_look(replace(item.material, color=checker.color), theme)
-            between = _between(fill, other)
-            for colored, areas in ((between, part.mingled), (other, part.checks)):
+            for colored, areas in ((between(fill, other), part.mingled), (other, part.checks)):
                 for area in areas:
                     self._area(name, area, colored, None)
         if opacity == 1.0:
@@ -114,20 +121,29 @@ class _Drawing:
                     self._area(name, area, (0.0, 0.0, 0.0, SHADE), None)
 
     def _area(self, name: str, area: Area, fill: Color, stroke: Stroke | None, title: str = "") -> None:
-        self.marks.append(Shape(name, area.outline, fill, stroke, holes=area.holes, title=title))
+        half = 0.5 * self.share * stroke.width if stroke else 0.0
+        outline, *holes = (self._clamped(ring, half) for ring in (area.outline, *area.holes))
+        self.marks.append(Shape(name, outline, fill, stroke, holes=tuple(holes), title=title))
+
+    def _clamped(self, ring: Sequence[Point], rim: float) -> tuple[Point, ...]:
+        """A ring that keeps this distance from the figure's border, so that its line lies inside."""
+        left, top, right, bottom = widened(self.view.where, -rim)
+        return tuple((min(max(x, left), right), min(max(y, top), bottom)) for x, y in ring)
 
     # --- rays ---------------------------------------------------------------------------------------------------------
 
     def _ray(self, line: RayLine) -> None:
         style, color = STYLES[line.kind], self.theme.ray(line.kind)
         name, title = f"ray-{line.row}", ray_title(self.tree, line.row)
-        strong = 1.8 if line.row == self.step.current else 1.0
         slim = SLIM if line.kind == "shadow" else 1.0
-        stroke = Stroke(color, strong * slim * style.width, line.dash)
+        halo = 2.0 * HALO if line.kind != "shadow" else 0.0
+        stroke = Stroke(color, (STRONG if line.row == self.step.current else 1.0) * slim * style.width, line.dash)
         faint = Stroke(faded(color, FAINT), style.width, line.dash)
-        arrow = self._arrow_at(line)
+        strong = self.share * STRONG * style.width
+        arrow = self.view.arrow_at(line, 0.0 if style.arrow is Arrow.NONE else HEAD_ROOM * strong)
+        widest = strong + self.share * halo  # on any page: a ray keeps its ends
         for stretch in self.view.parts(line):
-            piece = self._on_canvas(line, stretch.begin, stretch.end)
+            piece = self.view.piece(line, stretch.begin, stretch.end, widest)
             if piece is None:
                 continue
             a, b = piece
@@ -135,79 +151,51 @@ class _Drawing:
             if not stretch.seen:
                 self.marks.append(Line(name, a, b, faint, title=title))
                 continue
-            if line.kind != "shadow":
-                self.marks.append(Line("halo", a, b, Stroke(self.theme.ground, stroke.width + 2.0 * HALO)))
+            if halo:
+                self.marks.append(Line("halo", a, b, Stroke(self.theme.ground, stroke.width + halo)))
             self.marks.append(Line(name, a, b, stroke, title=title))
-            head = self._on_canvas(line, stretch.begin, arrow) if stretch.begin < arrow < stretch.end else None
+            head = self.view.piece(line, stretch.begin, arrow) if stretch.begin < arrow < stretch.end else None
             if head and style.arrow is not Arrow.NONE and math.dist(*head) > 1.0:
                 self.marks.append(Line(name, *_last(head, 2.0), Stroke(color, stroke.width), style.arrow, 1.0))
                 self.names.take(head[1], 0.9 * self.size)
-        met = self._on_canvas(line, 0.999, 1.0)
+        met = self.view.piece(line, 0.999, 1.0)
         if met and line.kind != "shadow":  # the end of a shadow ray has a sign of its own
             self.names.take(met[1], 0.5 * self.size)
-        if met and line.blocked:
+        if met and line.blocked and inside(met[1], widened(self.view.where, -0.5 * self.size)):
             self.marks += signs.cross(name, met[1], self.size, color)
-
-    def _arrow_at(self, line: RayLine) -> float:
-        """The place of a ray's arrow: the usual one, or the middle of the visible part."""
-        shares = np.linspace(0.0, 1.0, 101)
-        places, depths = self.view.at(line.start + shares[:, None] * (line.end - line.start))
-        left, top, right, bottom = self.view.where
-        x, y = places.T
-        inside = (depths > 0.0) & (x > left) & (x < right) & (y > top) & (y < bottom)
-        if inside[round(100 * ARROW_AT)] or not inside.any():
-            return ARROW_AT
-        return float(np.median(shares[inside]))
-
-    def _on_canvas(self, line: RayLine, begin: float, end: float) -> Piece | None:
-        """The part of a segment that is in front of the camera and inside the figure; None if there is none."""
-        ends = np.array([line.start + share * (line.end - line.start) for share in (begin, end)])
-        places, depths = self.view.at(ends)
-        near = 1e-3  # of the scene's radius
-        if (depths <= near).all():
-            return None
-        if (depths <= near).any():
-            share = (near - depths[0]) / (depths[1] - depths[0])
-            ends[int(np.argmin(depths))] = ends[0] + share * (ends[1] - ends[0])
-            places, _ = self.view.at(ends)
-        piece = _pair(places)
-        inside = clip_shares(piece, self.view.where)
-        return (point_along(piece, inside[0]), point_along(piece, inside[1])) if inside else None
 
     # --- signs and labels ---------------------------------------------------------------------------------------------
 
-    def _place(self, point: np.ndarray) -> Point | None:
-        """A point of the frame on the canvas; None if it is not well inside."""
-        places, depths = self.view.at(point[None])
-        x, y = places[0].tolist()
-        left, top, right, bottom = self.view.where
-        room = 0.8 * self.size
-        inside = left + room < x < right - room and top + room < y < bottom - room
-        return (x, y) if depths[0] > 0.0 and inside else None
+    def _place(self, point: Vector) -> Point | None:
+        """A point of the scene on the canvas, if there is room for a sign."""
+        return self.view.place(self.view.frame.inside(point), SIGN_ROOM * self.size)
 
     def _lights(self) -> dict[int, Point]:
         """The places of the lights in the picture."""
         found = {}
         for j, light in enumerate(self.scene.lights):
-            at = self._place(self.view.frame.inside(light.position)) if light.position else None
+            at = self._place(light.position) if light.position else None
             if at:
-                self.marks += signs.sun(f"light-{j}", at, 1.4 * self.size, self.theme.sun)
+                name = self.scene.light_name(j)
+                self.marks += signs.sun(f"light-{j}", at, 1.4 * self.size, self.theme.sun, title=name)
                 self.names.take(at, 1.2 * self.size)
                 found[j] = at
         return found
 
     def _eye(self) -> None:
-        at = self._place(self.view.frame.inside(self.view.world.view().eye))
+        at = self._place(self.view.world.view().eye)
         if at:
             self.marks += signs.eye(at, self.size, self.theme)
             self.names.take(at, 1.6 * self.size)
 
     def named(self) -> list[Named]:
-        """Names of lights, then of rays, the heaviest first, then of the objects that these meet. A shadow ray needs
-        none beside that of its light.
+        """A note on what is left out, then names of lights if they are few, then of rays, the heaviest first, then of
+        the objects that these meet. A shadow ray needs no name beside that of its light.
         """
         found: list[Named] = []
-        for j, at in self.lights.items():
+        if self.has_many:
+            found.append((frozenset(), self._note(len(self.scene.lights))))
+        for j, at in self.lights.items() if not found else ():
             name = self.scene.light_name(j)
             found.append((frozenset(), self.names.label(f"light-{j}", name, [Spot(at)], self.theme.text)))
         nodes = self.tree.nodes
@@ -215,7 +203,7 @@ class _Drawing:
         shadows = [line for line in self.lines if nodes["kind"][line.row] == SHADOW]
         rays.sort(key=lambda line: (-nodes["weight"][line.row].max(), line.row))
         for k, line in enumerate(rays[:LABELS]):
-            piece = self._on_canvas(line, 0.0, 1.0)
+            piece = self.view.piece(line, 0.0, 1.0)
             if piece:
                 label, color = ray_label(self.tree, line.row), self.theme.ray(line.kind)
                 spots = self._along(f"ray-{line.row}", label, piece)
@@ -235,6 +223,21 @@ class _Drawing:
                 found.append((rows, label))
         return found
 
+    def _note(self, lights: int) -> list[Mark]:
+        """What is said of lights whose rays are left out, in a corner."""
+        left, top, right, bottom = self.view.where
+        for words in (
+            f"L: rays to {lights} lights are left out",
+            f"{lights} lights: rays left out",
+            f"{lights} lights",
+        ):
+            half = (0.5 * text_width(words, self.size) + 0.5 * self.size, 0.9 * self.size)
+            corners = [(x, y) for y in (bottom - half[1], top + half[1]) for x in (left + half[0], right - half[0])]
+            marks = self.names.label("lights", words, [Spot(at, upon=True) for at in corners], self.theme.text)
+            if marks:
+                return marks
+        return []
+
     def _along(self, name: str, label: str, piece: Piece) -> list[Spot]:
         """Spots for a label: on the ray if it is long enough, and beside it."""
         upon = math.dist(*piece) > ROOMY * max(self.size, text_width(label, self.size))
@@ -249,7 +252,7 @@ class _Drawing:
             ends: list[Spot] = []
             rows: set[int] = set()
             for line in shadows:
-                piece = self._on_canvas(line, 0.0, 1.0) if self.tree.nodes["light"][line.row] == j else None
+                piece = self.view.piece(line, 0.0, 1.0) if self.tree.nodes["light"][line.row] == j else None
                 if piece is None:
                     continue
                 x, y = piece[1]
@@ -267,22 +270,6 @@ class _Drawing:
 def _wide(part: Part) -> float:
     across = [x for face in part.faces for area in face for x, _ in area.outline]
     return max(across) - min(across)
-
-
-def surface_look(material: Material, theme: Theme) -> Color:
-    """An object's own colour, paler. A grey for one that only reflects."""
-    strength = min(1.0, material.ambient + material.diffuse)
-    color = np.array(material.color) * strength + 0.55 * min(1.0, material.reflect)
-    encoded = np.array(display_color(color)[:3])
-    if theme.mono:
-        encoded = np.full(3, 0.55 + 0.45 * float(encoded @ LUMINANCE))
-    r, g, b = ((1.0 - PALE) * encoded + PALE * np.array(theme.ground[:3])).tolist()
-    return (r, g, b, 1.0)
-
-
-def _between(a: Color, b: Color) -> Color:
-    red, green, blue, opacity = (0.5 * (x + y) for x, y in zip(a, b, strict=True))
-    return (red, green, blue, opacity)
 
 
 def _last(piece: Piece, length: float) -> Piece:

@@ -12,11 +12,12 @@ import numpy as np
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.srgb import LUMINANCE, display_color
-from viewer.base.theme import BLOCKED_DASH, STYLES, Color, Theme
+from viewer.base.theme import STYLES, Color, Theme
 from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.labels import end_label, hit_label, ray_label, ray_title
 from viewer.figures.layout.folds import Fold
+from viewer.figures.layout.light_line import NO_LINE, SIGN, WORDS, LightLine
 from viewer.figures.layout.sizes import (
     BARE_NOTE,
     LINE,
@@ -24,26 +25,24 @@ from viewer.figures.layout.sizes import (
     NO_RAY,
     NOTE,
     PADDING,
-    SIGN,
     SWATCH,
     TreeStyle,
     edge_label,
     stub_label,
 )
+from viewer.figures.layout.tree_legend import tree_entries
 from viewer.figures.layout.tree_plan import TreePlan, plan_tree
-from viewer.figures.legend import Entry, legend
+from viewer.figures.legend import legend
+from viewer.figures.lights import (
+    MOST_LIGHTS,
+    fate_of,
+    light_title,
+    ray_dash,
+    shadow_rays,
+)
 from viewer.figures.marks import HEIGHT, WIDTH, Box, Disc, Line, Mark, Point, Rectangle, Stroke, Text
 from viewer.figures.steps import Step
 from viewer.figures.subject import FigureStyle, Pages, Subject
-
-MOST_LIGHTS = 4  # with more lights than this, the legend does not name them
-LIGHT_ENDS = {
-    "lit": "to a light",
-    "filtered": "through glass",
-    "blocked": "blocked",
-    "away": "faces away",
-}
-
 
 WHERE = (0.0, WIDTH)  # left and right of the tree on the canvas
 
@@ -56,7 +55,8 @@ def pages(subject: Subject, style: FigureStyle, where: tuple[float, float] = WHE
 
 def tree_style(style: FigureStyle, where: tuple[float, float] = WHERE) -> TreeStyle:
     """The part of a figure's style that decides on the tree's layout."""
-    return TreeStyle(style.text_size, style.swatches, style.fold, where, style.eye, style.lights)
+    lights, line = (MOST_LIGHTS, WORDS) if style.lights else (0, NO_LINE)
+    return TreeStyle(style.text_size, style.swatches, style.fold, where, style.eye, lights, line)
 
 
 def plan_pages(plan: TreePlan, steps: Sequence[Step], theme: Theme) -> Pages:
@@ -67,7 +67,7 @@ def plan_pages(plan: TreePlan, steps: Sequence[Step], theme: Theme) -> Pages:
     left, right = plan.style.where
     margin = MARGIN * plan.size
     where: Rectangle = (left + margin, margin, right - margin, HEIGHT - margin)
-    signs_meant = legend(_entries(plan), [mark for marks in drawn for mark in marks], where, plan.size, theme)
+    signs_meant = legend(tree_entries(plan), [mark for marks in drawn for mark in marks], where, plan.size, theme)
     return [[*signs_meant, *marks] for marks in drawn]
 
 
@@ -89,6 +89,7 @@ class _Drawing:
                 self._fold_edge(fold.row)
         for i in hits:
             self._bar(i)
+            self._light_line(i)
             self._box(i)
         for fold in folds:
             self._fold(fold)
@@ -122,7 +123,7 @@ class _Drawing:
             f"ray-{i}",
             start,
             end,
-            Stroke(color, strong * style.width, style.dash),
+            Stroke(color, strong * style.width, ray_dash(self.tree, i)),
             style.arrow,
             0.5,
             leaves,
@@ -152,10 +153,8 @@ class _Drawing:
         parent = int(tree.nodes["parent"][i])
         x, y = self.plan.at[parent]
         at = self.plan.at[i]
-        end = tree.end(i)
+        fate = fate_of(tree, i)
         color = self.theme.ray("shadow")
-        style = STYLES["shadow"]
-        dash = BLOCKED_DASH if end == "blocked" else style.dash
         label = stub_label(tree, i, self.plan.style)
         sign, text = self._side_by_side(at, label)
         start = (x + 0.6 * (sign[0] - x), y + 0.5 * self.plan.box[1])
@@ -166,18 +165,39 @@ class _Drawing:
                 name,
                 start,
                 stop,
-                Stroke(color, strong * style.width, dash),
+                Stroke(color, strong * STYLES["shadow"].width, fate.dash),
                 leaves=f"hit-{parent}",
                 title=ray_title(tree, i),
             )
         )
-        self.marks += signs.light_end("away" if tree.faces_away(i) else end or "", name, sign, self.size, self.theme)
+        self.marks += signs.light_end(fate.name, name, sign, self.size, self.theme)
         self.marks.append(Text(name, text, label, self.size, color, "start"))
 
     def _side_by_side(self, at: Point, label: str) -> tuple[Point, Point]:
         """(centre of the sign, left end of its label): side by side, centred on the stub's place."""
         left = at[0] - 0.5 * (SIGN * self.size + text_width(label, self.size))
         return (left + 0.45 * self.size, at[1]), (left + SIGN * self.size, at[1])
+
+    def _light_line(self, i: int) -> None:
+        """A stub with the line that stands for the shadow rays of a hit, as far as the step has them."""
+        middle = self.plan.places.lines.get(i)
+        shadows = [c for c in shadow_rays(self.tree, i) if c in self.step.rows]
+        if middle is None or not shadows:
+            return
+        name, (x, y), size = f"lights-{i}", middle, self.size
+        top = self.plan.at[i][1] + 0.5 * self.plan.box[1]
+        strong = 1.8 if self.step.current in shadows else 1.0
+        stroke = Stroke(self.theme.ray("shadow"), strong * STYLES["shadow"].width, STYLES["shadow"].dash)
+        title = light_title(self.tree, shadows)
+        self.marks.append(Line(name, (x, top), (x, y - 0.5 * size), stroke, leaves=f"hit-{i}", title=title))
+        line = LightLine.of(self.tree, shadows, self.plan.style.line, size)
+        left = x - 0.5 * line.width
+        for part in line.parts:
+            at = left + part.left
+            if part.sign:
+                self.marks += signs.light_end(part.sign, name, (at + 0.45 * size, y), size, self.theme)
+                at += SIGN * size
+            self.marks.append(Text(name, (at, y), part.text, size, stroke.color, "start"))
 
     def _bar(self, i: int) -> None:
         """The refracted ray that does not exist because of total internal reflection."""
@@ -226,12 +246,12 @@ class _Drawing:
     def _under(self, i: int) -> Point:
         """The middle of the first line under a box and its stubs."""
         x, y = self.plan.at[i]
-        stubs = i in self.plan.places.bars or any(c in self.plan.rows for c in self._shadows(i))
+        hanging = (*shadow_rays(self.tree, i), i)
+        stubs = (
+            i in self.plan.places.lines or i in self.plan.places.bars or any(c in self.plan.rows for c in hanging[:-1])
+        )
         bare = 0.5 * self.plan.box[1] + BARE_NOTE * self.size
         return (x, y + (self.plan.hang + NOTE * self.size if stubs else bare))
-
-    def _shadows(self, i: int) -> list[int]:
-        return [c for c in self.tree.children[i] if self.tree.nodes["kind"][c] == SHADOW]
 
     # --- folded branches ----------------------------------------------------------------------------------------------
 
@@ -257,20 +277,6 @@ class _Drawing:
         self.marks.append(Box(name, (x, y), size, 0.28 * self.size, None, stroke, title=title))
         for words, dy in ((many, -0.6), (share, 0.6)):
             self.marks.append(Text(name, (x, y + dy * self.size), words, self.size, self.theme.muted, inside=name))
-
-
-def _entries(plan: TreePlan) -> list[Entry]:
-    """The signs that the legend explains: those of the deepest step."""
-    tree = plan.tree
-    kinds = {tree.kind(i) for i in plan.rows}
-    entries = [Entry(kind, STYLES[kind].label) for kind in ("reflection", "refraction", "tir") if kind in kinds]
-    shadows = [i for i in plan.rows if tree.nodes["kind"][i] == SHADOW]
-    ends = {"away" if tree.faces_away(i) else tree.end(i) or "" for i in shadows}
-    entries += [Entry(end, words) for end, words in LIGHT_ENDS.items() if end in ends]
-    lights = [tree.scene.light_name(j) for j in range(len(tree.scene.lights))]
-    if ends and len(lights) <= MOST_LIGHTS:  # each hit has a stub for each light, in this order
-        entries.append(Entry("lights", f"L: {', '.join(lights)}"))
-    return entries
 
 
 def swatch(tree: RayTree, i: int, theme: Theme) -> Color:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.wording import format_number
+from viewer.figures.lights import shadow_rays
 
 
 @dataclass(frozen=True)
@@ -32,16 +33,17 @@ def percent(share: float) -> str:
 
 
 def fold_branches(
-    tree: RayTree, kept: set[int], last: int, lights: bool
+    tree: RayTree, kept: set[int], last: int, lights: int
 ) -> tuple[set[int], dict[int, Fold], dict[int, int]]:
     """(rows drawn as themselves, folds, fold of each folded row). The branches of a hit that are not kept make one
     fold.
 
-    There are no boxes below the level `last`. `lights`: whether shadow rays are drawn.
+    There are no boxes below the level `last`. A hit's shadow rays are drawn if there are no more than `lights`.
     """
     nodes = tree.nodes
     weights = nodes["weight"].max(axis=1)
-    rows = kept | {c for i in kept for c in tree.children[i] if lights and nodes["kind"][c] == SHADOW}
+    shadows = [shadow_rays(tree, i) for i in kept]
+    rows = kept | {c for rays in shadows if len(rays) <= lights for c in rays}
     folds: dict[int, Fold] = {}
     inside: dict[int, int] = {}
     for i in sorted(kept):

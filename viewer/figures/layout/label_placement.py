@@ -2,17 +2,18 @@
 
 import math
 import sys
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 from viewer.base.theme import Color, Theme, faded
-from viewer.figures.font import text_box
-from viewer.figures.marks import Disc, Line, Mark, Piece, Point, Rectangle, Shape, Stroke, Text, clip_shares
+from viewer.figures.font import text_box, wrapped
+from viewer.figures.marks import Disc, Line, Mark, Piece, Point, Rectangle, Shape, Stroke, Text, clip_shares, overlap
 
 BACKING, SOLID = 0.7, 0.9  # opacity of the background behind a label: normally, and over a line
 RINGS = (0.75, 1.3, 2.0, 2.9, 3.8)  # distances of a name from its spot, in text sizes
 LED = 2.0  # from this distance on, a thin line leads to the spot
 APART = 0.2  # between two names side by side
+DOT = 0.11  # radius of the disc at the end of that line
 TURNS = 12  # number of directions
 
 
@@ -60,11 +61,39 @@ class LabelPlacer:
         _, at, anchor, box, spot = best
         left, top, right, bottom = box
         self.taken.append((left - APART * self.size, top, right + APART * self.size, bottom))
-        corners = ((left - 2.0, top), (right + 2.0, top), (right + 2.0, bottom), (left - 2.0, bottom))
+        left, right = max(left - 2.0, self.where[0]), min(right + 2.0, self.where[2])
+        corners = ((left, top), (right, top), (right, bottom), (left, bottom))
         backing = SOLID if spot.spare else BACKING
         paper = Shape(f"{name}-label", corners, faded(self.theme.ground, backing), None)
         text = Text(f"{name}-label", at, content, self.size, color, anchor)
         return [*(self._leader(name, box, spot.at) if (lead or ring >= LED) and not spot.upon else []), paper, text]
+
+    def paragraph(
+        self,
+        text: Text,
+        parts: Sequence[str],
+        widths: Sequence[float],
+        line: float,
+        places: Callable[[float], Sequence[tuple[Point, str]]],
+    ) -> list[Mark]:
+        """Place a list, in lines of the first of these widths with which one of the places is free, and crossed by no
+        ray; empty if there is none.
+
+        `line` is the distance of lines. `places` are (first line's position, anchor) for the distance of the first line
+        and the last. `text` is the mark for each line.
+        """
+        for wide in widths:
+            lines = wrapped(parts, wide, self.size)
+            for (x, y), anchor in places((len(lines) - 1) * line):
+                found = [
+                    replace(text, at=(x, y + k * line), content=words, anchor=anchor) for k, words in enumerate(lines)
+                ]
+                boxes = [each.box() for each in found]
+                crossed = any(clip_shares(piece, box) for _, piece in self.ways for box in boxes)
+                if not crossed and all(map(self.free, boxes)):
+                    self.taken += boxes
+                    return [*found]
+        return []
 
     def fits(self, content: str, spots: Sequence[Spot]) -> bool:
         """Whether there is room at one of these spots."""
@@ -72,15 +101,20 @@ class LabelPlacer:
         return any(self.free(box) for box in boxes)
 
     def free(self, box: Rectangle) -> bool:
-        return _within(box, self.where) and not any(_overlap(box, other) for other in self.taken)
+        return _within(box, self.where) and not any(overlap(box, other) for other in self.taken)
 
     def _leader(self, name: str, box: Rectangle, to: Point) -> list[Mark]:
-        """A line from the nearest point of a name's box."""
+        """A line from the nearest point of a name's box to a disc, which lies inside the picture."""
         left, top, right, bottom = box
+        rim = DOT * self.size + 1.0
+        to = (
+            min(max(to[0], self.where[0] + rim), self.where[2] - rim),
+            min(max(to[1], self.where[1] + rim), self.where[3] - rim),
+        )
         start = (min(max(to[0], left), right), min(max(to[1], top), bottom))
         ink = self.theme.text
         line = Line(f"{name}-label", start, to, Stroke(ink, 1.0))
-        return [line, Disc(f"{name}-label", to, 0.11 * self.size, ink, None)]
+        return [line, Disc(f"{name}-label", to, DOT * self.size, ink, None)]
 
     def _around(self, spot: Spot) -> list[tuple[tuple[float, int], Point, str]]:
         """(rank, position, anchor of the text), the nearest first."""
@@ -95,10 +129,6 @@ class LabelPlacer:
                 at = (spot.at[0] + ring * self.size * right, spot.at[1] + ring * self.size * down)
                 found.append(((ring, turn), at, anchor))
         return found
-
-
-def _overlap(a: Rectangle, b: Rectangle) -> bool:
-    return min(a[2], b[2]) > max(a[0], b[0]) and min(a[3], b[3]) > max(a[1], b[1])
 
 
 def _within(a: Rectangle, b: Rectangle) -> bool:

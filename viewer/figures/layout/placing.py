@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
-from viewer.figures.layout.sizes import BOX, LINE, MARGIN, NOTE, STUB, Sizes
+from viewer.figures.layout.sizes import BOX, LINE, MARGIN, NOTE, SLOT, STUB, Sizes, bar_width
 from viewer.figures.layout.tidy_tree import Layout, Spacing, tidy_layout
 from viewer.figures.marks import HEIGHT, Point
 
@@ -31,10 +31,13 @@ EYES = ("top", "left")
 
 @dataclass(frozen=True)
 class Places:
-    """Centres of boxes and of signs at ends of stubs, ends of the bars of total internal reflection, the eye."""
+    """Centres of boxes and of signs at ends of stubs, ends of the bars of total internal reflection, middles of the
+    lines that stand for shadow rays, the eye.
+    """
 
     at: dict[int, Point]
     bars: dict[int, Point]
+    lines: dict[int, Point]
     eye: Point
 
 
@@ -107,7 +110,20 @@ def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
 
     at |= {i: hanging(int(parents[i]), place.x) for i, place in laid.places.items() if kinds[i] == SHADOW}
     bars = {i: hanging(i, place.x) for i, place in laid.bars.items()}
-    return Places(at, bars, (at[0][0], margin + EYE * size))
+    return Places(at, *_lines(task, at, bars), (at[0][0], margin + EYE * size))
+
+
+def _lines(task: LayoutTask, at: dict[int, Point], bars: dict[int, Point]) -> tuple[dict[int, Point], dict[int, Point]]:
+    """(ends of bars, middles of lines): a line hangs in the middle below its hit, with the bar on its right."""
+    lines: dict[int, Point] = {}
+    moved = dict(bars)
+    for i, wide in task.sizes.lines.items():
+        x, y = at[i][0], at[i][1] + 0.5 * task.sizes.box + STUB * task.size
+        bar = bar_width(task.size) if i in bars else 0.0
+        lines[i] = (x - 0.5 * bar, y)
+        if i in bars:
+            moved[i] = (x + 0.5 * (wide + SLOT * task.size), y)
+    return moved, lines
 
 
 def _room_right(sizes: Sizes, size: float, where: tuple[float, float]) -> float:
@@ -145,7 +161,7 @@ def place_rightwards(task: LayoutTask, anyhow: bool) -> Places | None:
         if barred:
             bars[i] = ends.pop()
         at |= dict(zip(stubs, ends, strict=True))
-    return Places(at, bars, (eye, at[0][1]))
+    return Places(at, *_lines(task, at, bars), (eye, at[0][1]))
 
 
 def _across(

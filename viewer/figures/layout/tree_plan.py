@@ -6,12 +6,14 @@ all rays leave at the right side, reflected ones upwards. If the tree does not f
 into boxes that give their number of rays and weight.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.figures.layout.folds import Fold, fold_branches
+from viewer.figures.layout.light_line import NO_LINE, SIGNS, WORDS
 from viewer.figures.layout.placing import (
     LayoutTask,
     Places,
@@ -21,6 +23,7 @@ from viewer.figures.layout.placing import (
     place_rightwards,
 )
 from viewer.figures.layout.sizes import EDGE_LABEL, FOLD, SHORT, STUB, Sizes, TreeStyle, name_in_box
+from viewer.figures.lights import many_lights
 from viewer.figures.marks import Point
 
 SMALLEST = 8.0  # points: the smallest text size
@@ -29,7 +32,9 @@ MORE = 40  # if the whole tree does not fit, this many of the other rays are tri
 
 @dataclass(frozen=True)
 class TreePlan:
-    """Positions in points. `rows` are drawn as themselves; `inside` gives the fold of the others."""
+    """Positions in points. `rows` are drawn as themselves; `inside` gives the fold of the others, apart from the shadow
+    rays for which a line stands.
+    """
 
     tree: RayTree  # the deepest
     style: TreeStyle
@@ -38,6 +43,8 @@ class TreePlan:
     inside: dict[int, int]  # a folded row -> the row of its fold
     places: Places
     box: tuple[float, float]
+    fits: bool  # on its part of the canvas
+    lights_left_out: bool = False  # for want of room
 
     @property
     def size(self) -> float:
@@ -67,15 +74,37 @@ class TreePlan:
 
 
 def plan_tree(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
-    """The plan for these steps of one tree, the deepest last. Names of objects are cut, and those of lights left to the
-    legend, if more rays fit then.
+    """The plan for these steps of one tree, the deepest last. If text is so large that not even the first hit fits, it
+    is smaller.
     """
+    plan = _plan_lights(trees, style)
+    while not plan.fits and plan.size > SMALLEST:
+        plan = _plan_lights(trees, replace(style, size=max(SMALLEST, math.ceil(plan.size) - 1.0)))
+    return plan
+
+
+def _plan_lights(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
+    """The plan for a text size. No ray is folded for the lines that stand for many shadow rays: if their words do not
+    fit, they have signs, and if these do not, they are left out.
+    """
+    if style.line == NO_LINE or not many_lights(trees[-1]):
+        return _named(trees, style)
+    bare = _named(trees, replace(style, line=NO_LINE))
+    for form in (WORDS, SIGNS):
+        plan = _named(trees, replace(style, line=form))
+        if plan.fits and len(plan.rows) >= len(bare.rows):
+            return plan
+    return replace(bare, lights_left_out=True)
+
+
+def _named(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
+    """The plan in which names of lights are left to the legend, and names of objects cut, if more rays fit then."""
     best = _plan(trees, style)
-    for shorter in ({"named": False}, {"named": False, "longest": SHORT}):
-        if not best.folds:
+    for shorter in (replace(style, named=False), replace(style, named=False, longest=SHORT)):
+        if best.fits and not best.folds:
             break
-        found = _plan(trees, replace(style, **shorter))
-        if len(found.rows) > len(best.rows):
+        found = _plan(trees, shorter)
+        if (found.fits, len(found.rows)) > (best.fits, len(best.rows)):
             best = found
     return best
 
@@ -85,7 +114,7 @@ def fitting_size(trees: Sequence[RayTree], style: TreeStyle) -> float | None:
     rays = {i for i in range(len(trees[-1])) if trees[-1].nodes["kind"][i] != SHADOW}
     deepest = int(trees[-1].nodes["depth"].max())
     for size in range(int(style.size), int(SMALLEST) - 1, -1):
-        asked = replace(style, size=float(size), longest=SHORT, named=False)
+        asked = replace(style, size=float(size), longest=SHORT, named=False, line=NO_LINE)
         if deepest <= _last_level(trees, asked) and _try(trees, rays, asked, deepest):
             return float(size)
     return None
@@ -152,4 +181,4 @@ def _try(
     places = (place_rightwards if style.eye == "left" else place_downwards)(task, anyhow)
     if places is None:
         return None
-    return TreePlan(trees[-1], style, frozenset(rows), folds, inside, places, (sizes.column, sizes.box))
+    return TreePlan(trees[-1], style, frozenset(rows), folds, inside, places, (sizes.column, sizes.box), not anyhow)

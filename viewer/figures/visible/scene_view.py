@@ -3,6 +3,7 @@
 It is computed once for all steps of a figure. Whether a point is hidden is decided by a ray of the tracer.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,12 +11,14 @@ import numpy as np
 import tracer
 from tracer.kernel.world import World
 from viewer.base.orbit import Frame, Orbit, project
-from viewer.figures.marks import Rectangle
+from viewer.base.theme import ARROW_AT
+from viewer.figures.marks import Piece, Point, Rectangle, clip_shares, inside, point_along, widened
 from viewer.figures.ray_lines import RayLine
 from viewer.figures.visible.scenery import occluder_world, orbit_camera, visible_parts
 
 PIECES = 24  # a ray is tested at this many points; the limits between visible and hidden parts are then bisected
 HALVINGS = 7
+NEAR = 1e-3  # of the scene's radius: nothing nearer to the camera is drawn
 
 
 @dataclass(frozen=True)
@@ -44,6 +47,45 @@ class SceneView:
         """(places on the canvas, depths) of points of the frame (n, 3)."""
         places, depths = project(points, self.matrix, self.size)
         return places + self.where[:2], depths
+
+    def piece(self, line: RayLine, begin: float, end: float, width: float = 0.0) -> Piece | None:
+        """The part of a ray, from share to share of its length, that is in front of the camera and inside the figure
+        with a line of this width; None if there is none.
+        """
+        ends = np.array([line.start + share * (line.end - line.start) for share in (begin, end)])
+        places, depths = self.at(ends)
+        if (depths <= NEAR).all():
+            return None
+        if (depths <= NEAR).any():
+            share = (NEAR - depths[0]) / (depths[1] - depths[0])
+            ends[int(np.argmin(depths))] = ends[0] + share * (ends[1] - ends[0])
+            places, _ = self.at(ends)
+        (x0, y0), (x1, y1) = places.tolist()
+        half = 0.5 * width / max(1e-9, math.hypot(x1 - x0, y1 - y0))
+        aside, above = half * abs(y1 - y0), half * abs(x1 - x0)
+        left, top, right, bottom = self.where
+        piece: Piece = ((x0, y0), (x1, y1))
+        within = clip_shares(piece, (left + aside, top + above, right - aside, bottom - above))
+        return (point_along(piece, within[0]), point_along(piece, within[1])) if within else None
+
+    def arrow_at(self, line: RayLine, room: float) -> float:
+        """The place of a ray's arrow: the usual one, or the middle of the visible part. 0 if there is none that is at
+        least `room` away from the figure's border.
+        """
+        shares = np.linspace(0.0, 1.0, 101)
+        places, depths = self.at(line.start + shares[:, None] * (line.end - line.start))
+        left, top, right, bottom = widened(self.where, -room)
+        x, y = places.T
+        seen = (depths > 0.0) & (x > left) & (x < right) & (y > top) & (y < bottom)
+        if seen[round(100 * ARROW_AT)]:
+            return ARROW_AT
+        return float(np.median(shares[seen])) if seen.any() else 0.0
+
+    def place(self, point: np.ndarray, room: float) -> Point | None:
+        """A point of the frame on the canvas; None if it is not inside, at least `room` away from the border."""
+        places, depths = self.at(point[None])
+        x, y = places[0].tolist()
+        return (x, y) if depths[0] > 0.0 and inside((x, y), widened(self.where, -room)) else None
 
     def hidden(self, point: np.ndarray) -> bool:
         """Whether an opaque object is between the camera and a point of the frame."""

@@ -17,6 +17,7 @@ from tracer.scene import Background, Camera, Checker, Image, Light, Material, Ob
 from tracer.shapes.shape import Shape
 from viewer.base.orbit import FOV, Frame, Orbit
 from viewer.figures.marks import Point, Rectangle
+from viewer.figures.visible.layers import layers
 from viewer.figures.visible.outlines import (
     FINE,
     SMALL,
@@ -87,17 +88,34 @@ def visible_parts(world: World, camera: Camera, where: Rectangle) -> Scenery:
     opaque = _parts(objects, solid, camera, where, solid)
     if not clear:
         return Scenery(opaque, ())
-    # Opaque objects get their name where no glass is in front of them, glass where nothing opaque is behind it.
-    together = _parts(objects, [*solid, *clear], camera, where, [*solid, *clear])
-    free = {part.number: part.spots for part in together}
-    opaque = tuple(replace(part, spots=free.get(part.number, part.spots)) for part in opaque)
-    behind = [area for part in opaque for face in part.faces for area in face]
+    # One sees through glass: all of a glass object is drawn that nothing opaque hides, also inside other glass.
     glass = [
-        replace(part, spots=tuple(sorted(part.spots, key=lambda spot: any(area.covers(spot) for area in behind))))
-        for part in together
-        if part.number in clear
+        part
+        for layer in layers(objects, clear, camera)
+        for part in _parts(objects, [*solid, *layer], camera, where, layer)
     ]
-    return Scenery(opaque, tuple(glass))
+    glass.sort(key=lambda part: part.number)
+    # A name stands where the fewest other objects are in front or behind: glass over opaque objects or other glass.
+    parts = (*opaque, *glass)
+    named = [replace(part, spots=_free_first(part, [other for other in parts if other is not part])) for part in parts]
+    return Scenery(tuple(named[: len(opaque)]), tuple(named[len(opaque) :]))
+
+
+def _free_first(part: Part, others: Sequence[Part]) -> tuple[Point, ...]:
+    """The spots of a part, those first over which the fewest other parts lie."""
+    boxes = [(other, _frame(other)) for other in others]
+
+    def covered(spot: Point) -> int:
+        near = [other for other, box in boxes if box[0] <= spot[0] <= box[2] and box[1] <= spot[1] <= box[3]]
+        return sum(any(area.covers(spot) for face in other.faces for area in face) for other in near)
+
+    return tuple(sorted(part.spots, key=covered))
+
+
+def _frame(part: Part) -> Rectangle:
+    """The rectangle around a part."""
+    across, down = zip(*(point for face in part.faces for area in face for point in area.outline), strict=True)
+    return (min(across), min(down), max(across), max(down))
 
 
 def _parts(
