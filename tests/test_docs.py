@@ -1,11 +1,13 @@
 """The README and docs/ agree with what the program does."""
 
+import json
 import re
 import shlex
 import textwrap
 from pathlib import Path
 
 import numpy as np
+import PIL.Image
 import pytest
 
 import tracer
@@ -13,10 +15,13 @@ from tests import ROOT
 from tracer.formulas.media import INDICES
 from tracer.scene import Camera, Image, Light, Material, Object, Tracing
 from tracer.tree.text import tree_text
+from viewer.cli import main
 from viewer.cli.main import make_parser
+from viewer.cli.view import CONTENTS
 from viewer.lessons import lesson
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+MAKEFILE = (ROOT / "Makefile").read_text(encoding="utf-8")
 FORMAT = (ROOT / "docs" / "scene-format.md").read_text(encoding="utf-8")
 
 
@@ -89,3 +94,14 @@ def test_every_named_index_is_listed() -> None:
     assert listed
     pairs = (part.rsplit(" ", 1) for part in listed[1].replace("\n", " ").split(", "))
     assert {name: float(n) for name, n in pairs} == INDICES
+
+
+def test_the_picture_of_the_viewer_is_of_this_version(tmp_path: Path) -> None:
+    """It names the menus, panels, legend and rays that are to be seen in it. `make picture` draws it again."""
+    (command,) = re.findall(r"^picture:.*\n\t\$\(BIN\)/raytree (view .*)docs/viewer.png$", MAKEFILE, re.MULTILINE)
+    assert main.main([*command.split(), str(tmp_path / "now.png")]) == 0
+    pictures = [PIL.Image.open(path) for path in (ROOT / "docs" / "viewer.png", tmp_path / "now.png")]
+    old, new = (json.loads(picture.info[CONTENTS]) for picture in pictures)
+    assert old == new and set(new) == {"menus", "panels", "legend", "rays"}
+    assert pictures[0].size == pictures[1].size
+    assert len(new["rays"]) > 3 and "Ray tree" in new["panels"]

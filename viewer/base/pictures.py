@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import io
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from viewer.base.files import Unusable, write_atomically
@@ -16,16 +17,19 @@ if TYPE_CHECKING:
 COMPRESSION = 4  # zlib's level: takes half the time of its default, 6, for 5 % more bytes
 
 
-def png(pixels: np.ndarray) -> bytes:
-    """PNG of linear RGB (height, width, 3), or of 8-bit sRGB."""
+def png(pixels: np.ndarray, texts: Mapping[str, str] = MappingProxyType({})) -> bytes:
+    """PNG of linear RGB (height, width, 3), or of 8-bit sRGB, with text chunks."""
     import numpy as np
-    from PIL import Image
+    from PIL import Image, PngImagePlugin
 
     from viewer.base.srgb import srgb
 
     buffer = io.BytesIO()
     encoded = pixels if pixels.dtype == np.uint8 else srgb(pixels)
-    Image.fromarray(encoded).save(buffer, "PNG", compress_level=COMPRESSION)
+    chunks = PngImagePlugin.PngInfo()
+    for name, text in texts.items():
+        chunks.add_text(name, text)
+    Image.fromarray(encoded).save(buffer, "PNG", compress_level=COMPRESSION, pnginfo=chunks)
     return buffer.getvalue()
 
 

@@ -1,5 +1,6 @@
 """`raytree view`: the viewer in a window; or a screenshot of it, which needs no display."""
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -7,8 +8,8 @@ import platformdirs
 
 import tracer
 from tracer.formats.source import shown_path
-from viewer.base.files import Unusable, check_writable, is_there
-from viewer.base.pictures import write_picture
+from viewer.base.files import Unusable, check_writable, is_there, write_atomically
+from viewer.base.pictures import png
 from viewer.base.progress import Progress
 from viewer.cli.loading import faults, find, prepared
 from viewer.cli.options import ViewOptions
@@ -20,6 +21,7 @@ from viewer.window.app import App
 from viewer.window.backend import NoWindow, Offscreen, Window
 
 SIZE = (1280, 720)
+CONTENTS = "raytree window"  # the text in a screenshot that names what is shown
 
 
 def view(options: ViewOptions) -> int:
@@ -66,7 +68,7 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: ViewOptions, tar
                 progress.say(doing)
 
             app.settle(say=say, progress=progress)
-            write_picture(target, app.surface.grab())
+            write_atomically(target, png(app.surface.grab(), {CONTENTS: json.dumps(app.contents())}))
     finally:
         app.close()
 

@@ -1,5 +1,7 @@
 """The menu bar."""
 
+from collections.abc import Callable
+
 from imgui_bundle import imgui
 
 from viewer.base.files import Unusable
@@ -17,32 +19,10 @@ def draw(session: Session) -> bool:
     """Draw the menu bar. Returns whether the panels are to be put back in place."""
     reset = False
     if imgui.begin_main_menu_bar():
-        if imgui.begin_menu("File"):
-            if imgui.menu_item_simple("Open ...", "Ctrl+O"):
-                session.requests.append(Request.OPEN_DIALOG)
-            if imgui.menu_item_simple("Reload", "Ctrl+R", False, session.loader.opening is not None):
-                session.loader.reload()
-            imgui.separator()
-            if imgui.menu_item_simple("Save the image as PNG", "", False, session.world is not None):
-                save_image(session)
-            imgui.separator()
-            if imgui.menu_item_simple("Quit", "Ctrl+Q"):
-                session.requests.append(Request.QUIT)
-            imgui.end_menu()
-        if imgui.begin_menu("Figure"):
-            _figure_menu(session)
-            imgui.end_menu()
-        if imgui.begin_menu("Lessons"):
-            for name in lessons.names():
-                _lesson_item(session, name)
-            imgui.end_menu()
-        if imgui.begin_menu("View"):
-            reset = _view_menu(session)
-            imgui.end_menu()
-        if imgui.begin_menu("Help"):
-            if imgui.menu_item_simple("Keys and mouse", "H"):
-                session.shows_help = True
-            imgui.end_menu()
+        for title, draw_menu in MENUS.items():
+            if imgui.begin_menu(title):
+                reset = draw_menu(session) is True or reset
+                imgui.end_menu()
         _title(session)
         imgui.end_main_menu_bar()
     return reset
@@ -55,6 +35,19 @@ def open_lesson(session: Session, name: str) -> None:
         session.show_faults(list(unusable.faults))
         return
     session.loader.open(lesson.scene, lesson)
+
+
+def _file_menu(session: Session) -> None:
+    if imgui.menu_item_simple("Open ...", "Ctrl+O"):
+        session.requests.append(Request.OPEN_DIALOG)
+    if imgui.menu_item_simple("Reload", "Ctrl+R", False, session.loader.opening is not None):
+        session.loader.reload()
+    imgui.separator()
+    if imgui.menu_item_simple("Save the image as PNG", "", False, session.world is not None):
+        save_image(session)
+    imgui.separator()
+    if imgui.menu_item_simple("Quit", "Ctrl+Q"):
+        session.requests.append(Request.QUIT)
 
 
 def _figure_menu(session: Session) -> None:
@@ -78,6 +71,11 @@ def _figure_menu(session: Session) -> None:
     for name, label in {"": "The window's theme", **{name: f"{name.capitalize()} theme" for name in THEMES}}.items():
         if imgui.menu_item_simple(label, "", export.theme == name):
             export.theme = name
+
+
+def _lessons_menu(session: Session) -> None:
+    for name in lessons.names():
+        _lesson_item(session, name)
 
 
 def _lesson_item(session: Session, name: str) -> None:
@@ -120,6 +118,11 @@ def _view_menu(session: Session) -> bool:
     return imgui.menu_item_simple("Reset the panels")
 
 
+def _help_menu(session: Session) -> None:
+    if imgui.menu_item_simple("Keys and mouse", "H"):
+        session.shows_help = True
+
+
 def _title(session: Session) -> None:
     """The notice, or the scene's title, at the right end of the bar."""
     if session.notice.text:
@@ -133,3 +136,12 @@ def _title(session: Session) -> None:
     if place > imgui.get_cursor_pos_x():
         imgui.set_cursor_pos_x(place)
         imgui.text_colored(session.appearance.theme.muted, content)
+
+
+MENUS: dict[str, Callable[[Session], bool | None]] = {
+    "File": _file_menu,
+    "Figure": _figure_menu,
+    "Lessons": _lessons_menu,
+    "View": _view_menu,
+    "Help": _help_menu,
+}

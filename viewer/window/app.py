@@ -8,6 +8,7 @@ from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
 from viewer.base.cached import Changed
+from viewer.base.theme import STYLES
 from viewer.gl.canvas import Canvas
 from viewer.panels import PANELS, bar, blank, help, menu, messages, open_dialog
 from viewer.panels.panel import Corner, Panel
@@ -118,6 +119,16 @@ class App:
         if len(guard.caught) == caught:
             self.session.approve()
         self.canvas.frame_took(time.perf_counter() - began)
+
+    def contents(self) -> dict[str, list[str]]:
+        """The names in the window: menus, panels, the legend, and the labels of the rays on show."""
+        session, tree = self.session, self.session.tree
+        return {
+            "menus": list(menu.MENUS),
+            "panels": [panel.title for panel in PANELS if panel.exists(session)],
+            "legend": [style.label for style in STYLES.values()],
+            "rays": [tree.label(i) for i in range(len(tree))] if tree else [],
+        }
 
     def close(self) -> None:
         self.session.close()
