@@ -22,7 +22,8 @@ from pathlib import Path
 from typing import Any
 
 from tracer import fields
-from tracer.formats.source import Fault, read_text, shown_path
+from tracer.formats.source import Fault, read_text
+from tracer.printable import shown_path
 from viewer.base.files import Unusable, is_there
 from viewer.base.orbit import AZIMUTH, DISTANCE, ELEVATION
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
+from tracer.printable import printable
 from viewer.base.files import Unusable
 from viewer.base.pictures import write_picture
 from viewer.base.theme import THEMES
@@ -98,7 +99,7 @@ def _figure_menu(session: Session) -> None:
 
 def _lesson_item(session: Session, name: str) -> None:
     try:
-        title = lessons.read(name).title
+        title = printable(lessons.read(name).title)
     except Unusable:
         title = name
     on = session.lesson is not None and session.lesson.name == name

@@ -13,6 +13,7 @@ from tracer.compile.numba_private import NOTE
 from tracer.formats import UP_AXES
 from tracer.kernel.limits import Limits, image_max_nodes, make_limits
 from tracer.kernel.world import World
+from tracer.printable import printable
 from tracer.tree.raytree import RayTree
 from viewer.base.clipboard import copy_to_clipboard
 from viewer.base.files import Unusable
@@ -109,6 +110,9 @@ class Session:
     def update(self) -> bool:
         """Process the results of background threads since the last frame. Returns whether a redraw is needed."""
         news = self.notice.expires() | self.calls.run_posted()
+        if self.warmup.ready and self.warmup.note:
+            self.notice.say(self.warmup.note)
+            self.warmup.note, news = "", True
         self.loader.look()
         if self.world and self.warmup.ready:
             if self.pixel and not self.tree:
@@ -275,7 +279,7 @@ class Session:
             self.show_faults(list(unusable.faults))
 
     def show_faults(self, faults: list[str]) -> None:
-        self.faults = faults
+        self.faults = [printable(fault) for fault in faults]
 
     # --- how it is looked at ------------------------------------------------------------------------------------------
 
