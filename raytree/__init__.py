@@ -42,7 +42,7 @@ _check_ours("tracer")
 
 import tracer
 
-__all__ = [*tracer.__all__, "cluster", "tree_svg", "__version__"]
+__all__ = [*dir(tracer), "cluster", "tree_svg", "__version__"]
 
 
 def __getattr__(name: str) -> Any:
@@ -55,7 +55,7 @@ def __getattr__(name: str) -> Any:
     if name == "tree_svg":
         _check_ours("viewer")
         return importlib.import_module("viewer.figures.notebook").tree_svg
-    if name in tracer.__all__:
+    if name in dir(tracer):
         return getattr(tracer, name)
     raise AttributeError(f"module 'raytree' has no attribute {name!r}", name=name)
 

@@ -13,7 +13,7 @@ import pytest
 
 from tests import ROOT
 
-# Each package may import from itself and from the packages listed after it. `raytree`, `tracer` and `viewer` are in one list.
+# Each package may import from itself and from the packages after it. `raytree`, `viewer` and `tracer` share one list.
 ORDER = (
     "raytree",
     "viewer.cli", "viewer.report", "viewer.window", "viewer.panels", "viewer.gl", "viewer.session", "viewer.lessons",

@@ -13,7 +13,6 @@ from tracer.compile.numba_private import NOTE
 from tracer.formats import UP_AXES
 from tracer.kernel.limits import Limits, image_max_nodes, make_limits
 from tracer.kernel.world import World
-from tracer.printable import printable
 from tracer.tree.raytree import RayTree
 from viewer.base.clipboard import copy_to_clipboard
 from viewer.base.files import Unusable
@@ -38,7 +37,7 @@ class Session:
     def __init__(self) -> None:
         self.calls = CallQueue()
         self.requests: list[Request] = []  # to the window
-        self.warmup = Warmup()
+        self.warmup = Warmup(lambda note: self.calls.post(lambda: self.notice.say(note)))
         self.loader = SceneLoader(self.calls, self.warmup, self._show, self.show_faults)
         self.image = ImageRenderer(self.calls.post)
         self.refinement = Refinement(self.image)
@@ -110,9 +109,6 @@ class Session:
     def update(self) -> bool:
         """Process the results of background threads since the last frame. Returns whether a redraw is needed."""
         news = self.notice.expires() | self.calls.run_posted()
-        if self.warmup.ready and self.warmup.note:
-            self.notice.say(self.warmup.note)
-            self.warmup.note, news = "", True
         self.loader.look()
         if self.world and self.warmup.ready:
             if self.pixel and not self.tree:
@@ -279,7 +275,7 @@ class Session:
             self.show_faults(list(unusable.faults))
 
     def show_faults(self, faults: list[str]) -> None:
-        self.faults = [printable(fault) for fault in faults]
+        self.faults = faults
 
     # --- how it is looked at ------------------------------------------------------------------------------------------
 
