@@ -61,7 +61,7 @@ def raytree(*arguments: str) -> list[str]:
 
 
 def imports(names: str) -> list[str]:
-    return [sys.executable, "-c", f"import {names}"]
+    return [sys.executable, "-P", "-c", f"import {names}"]
 
 
 def seconds(command: Sequence[str], more: Mapping[str, str] | None = None) -> float:

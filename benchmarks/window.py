@@ -5,7 +5,6 @@ The scene is a small sphereflake at 1600x1200: its image takes some seconds, in 
 
 import json
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from benchmarks.results.figure import Figure, Spread, compared
 from benchmarks.results.task import Options, Task
 from benchmarks.scenes.sphereflake import sphereflake
 from tests.viewer.screen import missing
+from tracer.processes import python_command
 
 IMAGE = (1600, 1200)
 FRAME_MOST = 1.3
@@ -27,7 +27,8 @@ def window(options: Options) -> list[Task]:
         with tempfile.TemporaryDirectory() as folder:
             scene = Path(folder) / "flake.nff"
             scene.write_text(sphereflake(2, IMAGE))
-            command = [sys.executable, "-m", "benchmarks.desk", str(scene), str(options.runs)]
+            command = python_command("from benchmarks.desk import main; main()")
+            command += [str(scene), str(options.runs)]
             run = subprocess.run(command, capture_output=True, text=True, check=False)
         if run.returncode != 0:
             raise RuntimeError(run.stderr.strip()[-2000:])

@@ -60,6 +60,15 @@ def test_python_example(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     assert len(space["tree"]) == 1
 
 
+def test_example_of_the_public_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (example,) = blocks("import raytree")
+    (tmp_path / "scene.toml").write_text(blocks("format = 1")[0])
+    monkeypatch.chdir(tmp_path)
+    space: dict = {}
+    exec(example, space)  # the README's own example
+    assert space["tree"].radiance.tolist() == [0.0, 0.0, 0.0]
+
+
 def test_scene_format_is_read_and_its_defaults_are_those(tmp_path: Path) -> None:
     """The example in docs/scene-format.md loads, and each value that it calls a default is one."""
     example = FORMAT.split("```toml\n")[1].split("```")[0]

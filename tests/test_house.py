@@ -13,19 +13,20 @@ import pytest
 
 from tests import ROOT
 
-# Each package may import from itself and from the packages listed after it. `tracer` and `viewer` are in one list.
+# Each package may import from itself and from the packages after it. `raytree`, `viewer` and `tracer` share one list.
 ORDER = (
+    "raytree",
     "viewer.cli", "viewer.report", "viewer.window", "viewer.panels", "viewer.gl", "viewer.session", "viewer.lessons",
     "viewer.figures", "viewer.explain", "viewer.base",
     "tracer", "tracer.optics", "tracer.nodes", "tracer.cluster",  # the public modules
     "tracer.whitted", "tracer.measure", "tracer.image", "tracer.tree", "tracer.kernel", "tracer.formats",
     "tracer.scene", "tracer.accel", "tracer.shapes", "tracer.fields", "tracer.rays", "tracer.formulas",
-    "tracer.compile", "tracer.choices", "tracer.extras",
+    "tracer.compile", "tracer.processes", "tracer.printable", "tracer.choices", "tracer.extras",
 )  # fmt: skip
 PUBLIC = ("tracer", "tracer.optics", "tracer.nodes", "tracer.cluster")
 
-SOURCES = [path for top in ("tracer", "viewer") for path in sorted((ROOT / top).rglob("*.py"))]
-REFERENCE = re.compile(r"((?:tracer|viewer)(?:\.\w+)+):[\w.]+")  # "module:function", imported on first use
+SOURCES = [path for top in ("raytree", "tracer", "viewer") for path in sorted((ROOT / top).rglob("*.py"))]
+REFERENCE = re.compile(r"((?:raytree|tracer|viewer)(?:\.\w+)+):[\w.]+")  # "module:function", imported on first use
 MAX_FILES = 16  # in a folder
 MAX_LINES = 300
 
@@ -155,7 +156,7 @@ def test_kernels_are_compiled_for_one_set_of_types() -> None:
 def test_machine_code_is_kept_where_it_can_be_written(tmp_path: Path) -> None:
     """If the cache folder cannot be written to, compiled code is kept in a temporary folder instead."""
     program = "from tracer.compile.kernel_cache import cache_folder; print(cache_folder())"
-    for home, expected in ((tmp_path, str(tmp_path)), (Path("/dev/null"), "")):
+    for home, expected in ((tmp_path, str(tmp_path)), (Path("/dev/null"), str(tmp_path / "raytree-"))):
         environment = {**os.environ, "XDG_CACHE_HOME": str(home), "TMPDIR": str(tmp_path)}
         run = subprocess.run(
             [sys.executable, "-c", program], capture_output=True, text=True, env=environment, check=True

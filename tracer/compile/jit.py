@@ -13,7 +13,7 @@ import numba
 from numba.extending import register_jitable
 
 from tracer.compile.kernel_cache import cache_folder
-from tracer.compile.numba_private import IR_ONLY, NO_RUNTIME, use_cache_folder
+from tracer.compile.numba_private import IR_ONLY, NO_RUNTIME, is_stored, use_cache_folder
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -42,12 +42,10 @@ def kernel(function: Callable[P, R]) -> Callable[P, R]:
     return entry
 
 
-def cache_in(entry: Any, folder: Path) -> None:
-    """Load and store an entry point's machine code in this folder."""
-    if not hasattr(entry, "py_func"):
-        return  # compilation is switched off
-    folder.mkdir(parents=True, exist_ok=True)
-    use_cache_folder(entry, folder)
+def cache_in(entry: Any, folder: Path | None) -> None:
+    """Load and store an entry point's machine code in this folder; None: nowhere."""
+    if folder is not None and not is_uncompiled(entry):
+        use_cache_folder(entry, folder)
 
 
 def is_compiled(entry: Any) -> bool:
@@ -56,7 +54,11 @@ def is_compiled(entry: Any) -> bool:
 
 
 def is_cached(entry: Any) -> bool:
-    """Whether machine code of an entry point is on disk, from an earlier start."""
-    function = getattr(entry, "py_func", entry)
-    name = f"{function.__module__.rpartition('.')[2]}.{function.__name__}-*.nbi"
-    return any(cache_folder().glob(f"*/{name}"))
+    """Whether machine code of an entry point is on disk, undamaged."""
+    folder = cache_folder()
+    return folder is not None and not is_uncompiled(entry) and is_stored(entry, folder)
+
+
+def is_uncompiled(entry: Any) -> bool:
+    """Whether an entry point runs as plain Python, since compilation is switched off."""
+    return not hasattr(entry, "py_func")

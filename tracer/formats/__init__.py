@@ -41,7 +41,8 @@ def load(path: str | Path, progress: Progress = lambda share: None, up: str = UP
     `progress` is called with the fraction that has been read, if the reader knows it. `up` is the axis of a mesh file
     that points upwards, one of UP_AXES. Raises SceneError with every fault.
     """
-    from tracer.formats.source import Fault, check_regular, shown_path
+    from tracer.formats.source import Fault, check_regular
+    from tracer.printable import shown_path
     from tracer.scene import SceneError
     from tracer.scene.garbage import no_garbage_collection
 

@@ -7,8 +7,9 @@ import numpy as np
 
 from tracer import fields
 from tracer.formats.notes import Notes
-from tracer.formats.source import Fault, printable
+from tracer.formats.source import Fault
 from tracer.formulas.double_double import dd_cross, exact_difference
+from tracer.printable import printable
 from tracer.scene import Camera, Image, Light, Material
 from tracer.shapes.mesh import Geometry
 

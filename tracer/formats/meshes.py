@@ -13,9 +13,10 @@ import numpy as np
 
 from tracer.formats import MESH_READERS, OTHER_MESHES
 from tracer.formats.mesh_part import MOST_FACES, MeshFile, Part
-from tracer.formats.source import Fault, shown_path
+from tracer.formats.source import Fault
 from tracer.formulas.rotation import rotation_matrix
 from tracer.formulas.vector import Vector, as_floats
+from tracer.printable import shown_path
 from tracer.scene import Camera, Light, Object, Scene, SceneError
 from tracer.scene.defaults import default_lights, default_surroundings
 from tracer.shapes.mesh import Body, Mesh

@@ -14,8 +14,9 @@ from typing import NamedTuple
 from tracer import fields
 from tracer.formats.mesh_part import AMBIENT, CLAY
 from tracer.formats.notes import Notes
-from tracer.formats.source import Fault, lines_of, printable, read_text
+from tracer.formats.source import Fault, lines_of, read_text
 from tracer.formulas.vector import Vector
+from tracer.printable import printable
 from tracer.scene import Material
 
 COLORS = ("kd", "ks", "tf", "ka")

@@ -26,9 +26,10 @@ import numpy as np
 from tracer import fields
 from tracer.formats.nff_polygons import Patches, flattened
 from tracer.formats.notes import Notes
-from tracer.formats.source import Fault, read_text, shown_path
+from tracer.formats.source import Fault, read_text
 from tracer.formats.words import Word, Words
 from tracer.formulas.vector import Vector, as_floats, rescale, unit
+from tracer.printable import shown_path
 from tracer.scene import Background, Camera, Image, Light, Material, Object, Scene, SceneError, Shape
 from tracer.shapes.cone import Cone
 from tracer.shapes.planar import unit_normal

@@ -1,6 +1,6 @@
 """Notes of a reader: what a file has and the scene has not. One line for each kind, with a count."""
 
-from tracer.formats.source import printable
+from tracer.printable import printable
 from tracer.scene.notes import listed
 
 

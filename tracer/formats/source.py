@@ -2,7 +2,6 @@
 
 import re
 import stat
-import unicodedata
 from pathlib import Path
 
 MOST_TEXT = 256 * 2**20  # bytes of a text file
@@ -94,21 +93,3 @@ def lines_of(text: str) -> list[str]:
     stand in comments.
     """
     return re.split(r"\r\n|\r|\n", text)
-
-
-def shown_path(path: Path | str) -> str:
-    """A path that can be printed, even if its name is not valid UTF-8 or has control characters."""
-    return printable(str(path))
-
-
-def printable(text: str) -> str:
-    """A text on one line, with escapes in place of control characters and of characters that no encoding has."""
-    if text.isprintable():
-        return text
-    return "".join(ascii(c)[1:-1] if is_control(c) else c for c in text)
-
-
-def is_control(c: str) -> bool:
-    """Whether a character is a control character, a line end or unassigned. Joiners belong to words."""
-    kind = unicodedata.category(c)
-    return kind in ("Zl", "Zp") or (kind.startswith("C") and c not in "\u200c\u200d")

@@ -12,7 +12,8 @@ from typing import Any, TypeVar
 from tracer import fields
 from tracer.formats.mesh_part import MeshFile
 from tracer.formats.meshes import load_mesh, part_objects
-from tracer.formats.source import MOST_TEXT, Fault, decode, read_bytes, shown_path
+from tracer.formats.source import MOST_TEXT, Fault, decode, read_bytes
+from tracer.printable import shown_path
 from tracer.scene import Background, Camera, Checker, Image, Light, Material, Object, Scene, SceneError, Tracing
 from tracer.scene.scene import place
 from tracer.shapes import SHAPE_NAMES, SHAPES

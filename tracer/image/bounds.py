@@ -26,6 +26,7 @@ from tracer.image.render import Progress
 from tracer.image.task import Cancelled, never
 from tracer.kernel.limits import image_max_nodes
 from tracer.kernel.world import World, prepare
+from tracer.processes import safe_path
 from tracer.scene import Scene
 from tracer.tree.trace import trace
 from tracer.tree.verified.balls import flint
@@ -86,7 +87,7 @@ def render_bounds(
         "sampler": sampler,
         "samples": points.count,
     }
-    numbers = (None,) if points.sampler.kind == CENTER else tuple(range(points.count))
+    numbers = (None,) if points.sampler.kind == CENTER else range(points.count)
     low, high = (np.zeros((view.height, view.width, 3)) for _ in range(2))
     decisions = certified = 0
     variance = 0.0
@@ -115,17 +116,23 @@ class Row:
 
 @contextmanager
 def row_maker(
-    world: World, processes: int, options: dict[str, Any], numbers: tuple[int | None, ...], cancelled: Cancelled
+    world: World, processes: int, options: dict[str, Any], numbers: Sequence[int | None], cancelled: Cancelled
 ) -> Iterator[Any]:
     """A function of the image's height that gives its rows in order, made here or in other processes."""
     if processes == 1:
         yield lambda height: map(partial(bound_row, world, options, numbers, cancelled), range(height))
         return
     processes_of = get_context("spawn")
-    stop = processes_of.Event()
+    with safe_path():
+        stop = processes_of.Event()
+
+    def rows(height: int) -> Iterator[Row]:
+        with safe_path():
+            return pool.map(_row, range(height))  # starts the processes
+
     with ProcessPoolExecutor(processes, processes_of, _prepare, (world.scene, options, numbers, stop)) as pool:
         try:
-            yield lambda height: pool.map(_row, range(height))
+            yield rows
         except BaseException:
             stop.set()  # a row may take minutes
             pool.shutdown(cancel_futures=True)
@@ -135,7 +142,7 @@ def row_maker(
 _here: dict[str, Any] = {}  # in a process that makes rows: the function that its calls share
 
 
-def _prepare(scene: Scene, options: dict[str, Any], numbers: tuple[int | None, ...], stop: Event) -> None:
+def _prepare(scene: Scene, options: dict[str, Any], numbers: Sequence[int | None], stop: Event) -> None:
     Thread(target=_end_with_parent, daemon=True).start()
     _here["row"] = partial(bound_row, prepare(scene), options, numbers, stop.is_set)
 
@@ -152,9 +159,7 @@ def _row(y: int) -> Row:
     return _here["row"](y)
 
 
-def bound_row(
-    world: World, options: dict[str, Any], numbers: tuple[int | None, ...], stopped: Cancelled, y: int
-) -> Row:
+def bound_row(world: World, options: dict[str, Any], numbers: Sequence[int | None], stopped: Cancelled, y: int) -> Row:
     """The bounds of row y: of each pixel, the means of its samples' lowest and highest colours, rounded outwards.
 
     Stopped if `stopped` returns true.
@@ -162,10 +167,10 @@ def bound_row(
     width = options["size"][0]
     row = Row(np.zeros((width, 3)), np.zeros((width, 3)), 0, 0, 0.0)
     for x in range(width):
-        if stopped():
-            raise Stopped
         lows, highs, colors = [], [], []
         for number in numbers:
+            if stopped():
+                raise Stopped
             tree = trace(world, (x, y), sample=number, **options)
             found = verify(world, tree)
             row.decisions += found.decisions

@@ -14,13 +14,14 @@ import re
 import time
 import warnings
 from collections.abc import Callable, Iterator
-from concurrent.futures import CancelledError, Future
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from typing import Any
 
 from tracer.compile.kernel_cache import machine, versions
 from tracer.extras import missing_extra
 from tracer.image.task import Mismatch, RemoteExecutor, Task, difference
 from tracer.image.warmup import warm_up as warm_up_kernels
+from tracer.printable import printable
 
 CONNECTING = 5  # seconds for the scheduler to answer
 WAITING = 120.0  # seconds for a first worker to appear
@@ -106,6 +107,7 @@ def connect(
     say(f"connect to {address}")
     with contextlib.ExitStack() as stack:
         stack.enter_context(quiet())
+        check_scheduler(address)
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # about Dask's versions; ours are compared below
@@ -147,6 +149,43 @@ def quiet() -> Iterator[None]:
     finally:
         for logger, level in zip(loggers, levels, strict=True):
             logger.setLevel(level)
+
+
+def check_scheduler(address: str) -> None:
+    """ClusterError if no Dask scheduler answers within CONNECTING seconds.
+
+    Dask's client stops only its attempts to connect after that time, and waits for ever for the first answer of a
+    program that accepts the connection. Its own thread runs this, since a notebook has an event loop in the main one.
+    """
+    runner = ThreadPoolExecutor(1)
+    try:
+        runner.submit(asyncio.run, _ask(address)).result()
+    except TimeoutError:
+        raise ClusterError(f"{address}: no Dask scheduler answers within {CONNECTING} s") from None
+    except (OSError, ValueError, TypeError) as error:
+        raise ClusterError(f"{address}: no Dask scheduler answers: {_line(error)}") from None
+    except Exception:  # of any kind: the decoder of Dask's messages takes whatever another program says for one
+        raise ClusterError(f"{address}: no Dask scheduler answers, but another program") from None
+    finally:
+        runner.shutdown(wait=False)
+
+
+async def _ask(address: str) -> None:
+    """Ask a scheduler who it is. TimeoutError after CONNECTING seconds."""
+    from distributed.comm.core import connect as open_comm
+    from distributed.security import Security
+
+    async def answered() -> None:
+        comm = await open_comm(address, timeout=CONNECTING, **Security().get_connection_args("client"))
+        try:
+            await comm.write({"op": "identity", "reply": True})
+            answer = await comm.read()
+        finally:
+            comm.abort()
+        if not isinstance(answer, dict) or answer.get("type") != "Scheduler":
+            raise RuntimeError("another program")
+
+    await asyncio.wait_for(answered(), CONNECTING)
 
 
 def wait_for_worker(client: Any, address: str, waiting: float) -> None:
@@ -201,4 +240,4 @@ def _several(workers: list[str]) -> str:
 
 
 def _line(error: BaseException) -> str:
-    return " ".join(str(error).split())[:200] or type(error).__name__
+    return printable(" ".join(str(error).split())[:200]) or type(error).__name__

@@ -2,7 +2,8 @@
 
 import time
 
-from tracer.compile.jit import is_cached, is_compiled
+from tracer.compile.jit import is_cached, is_compiled, is_uncompiled
+from tracer.compile.kernel_cache import unwritable_cache
 from tracer.kernel.entry import trace_pixels
 from tracer.kernel.world import prepare
 from tracer.scene import Material, Object, Scene
@@ -15,6 +16,11 @@ BALL = Scene((Object(Sphere((0.0, 0.0, -1.0), 0.5), Material()),))
 def are_kernels_cached() -> bool:
     """Whether the kernels are on disk from an earlier start, so that nothing needs to be compiled."""
     return is_cached(trace_pixels)
+
+
+def unkept_kernels() -> str:
+    """One line for the user if compiled kernels could not be stored for later starts, else empty."""
+    return "" if are_kernels_cached() or is_uncompiled(trace_pixels) else unwritable_cache()
 
 
 def warm_up() -> float:

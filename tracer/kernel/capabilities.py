@@ -7,6 +7,7 @@ from enum import StrEnum
 from tracer.accel.bvh import MAX_UNBOXED
 from tracer.choices import FILTER, FRESNEL, MODELS, SHADOWS
 from tracer.compile.simd import WIDTH
+from tracer.printable import printable
 from tracer.scene import Material, Object, Scene
 
 
@@ -102,7 +103,7 @@ def _hierarchy(surfaces: int, nodes: int, blocks: int) -> str:
 
 
 def _checkered(materials: Sequence[Material]) -> str:
-    names = [f'"{m.name}"' for m in materials if m.checker]
+    names = [f'"{printable(m.name)}"' for m in materials if m.checker]
     return ", ".join(names) or "no material has a checker"
 
 

@@ -28,9 +28,9 @@ from tracer.kernel.trace import trace_tree
 from tracer.kernel.workspace import Eyes, Space, Workspace
 from tracer.rays import make_ray
 
-# After so many rays of one kind, some tenths of a second, a call returns before its list is done, so that it can be
-# cancelled.
-ENOUGH = 2**20
+# After so many rays of one kind, about a tenth of a second, a call returns before its list is done, even between two
+# samples of a pixel, so that it can be cancelled.
+ENOUGH = 2**18
 
 
 class PixelRow(Row):
@@ -75,20 +75,24 @@ def trace_pixels(
     """Trace the samples of each pixel, and add them up.
 
     `before` (n, 4) are the sums over the samples so far: red, green, blue, and the weight that was cut. `sums` (n,
-    4) become the new sums. Returns the number of finished pixels: all, or fewer after ENOUGH rays. Returns -1 if a
-    tree needs a longer table; the call must then be repeated.
+    4) become the new sums. Returns the number of finished pixels: all, or fewer after ENOUGH rays. Of the next pixel,
+    `sums` are then those over its samples before number `space.resume`. Returns -1 if a tree needs a longer table; the
+    call must then be repeated.
     """
     rays = space.rays
     rays[:] = 0
     space.tests[:] = 0
     space.limited[:] = 0
     for k in range(len(pixels)):
-        if is_enough(rays):
-            return k
         if sampler.kind == CENTER and k % BATCH == 0:
             center_directions(world.formulas.pixel_direction, view, pixels, k, space.directions)
         total, residual = vector(before[k]), before[k, 3]
         for sample in range(pixels[k].first, pixels[k].end):
+            if is_enough(rays):
+                store(sums[k], total)
+                sums[k, 3] = residual
+                space.resume[0] = sample
+                return k
             direction = camera_direction(world, view, sampler, pixels, k, sample, space)
             start_camera_ray(world, view.eye, space.eye_solids, space.eye_surfaces, limits, direction, space)
             if not trace_one(world, limits, space):
@@ -274,6 +278,9 @@ def trace_list(
             return sums, counts
         if cancelled():
             return None
+        pixels, before = pixels.copy(), before.copy()  # the caller's stay as they are
+        pixels["first"][done] = workspace.arrays.resume[0]
+        before[done] = sums[done]
 
 
 def one_pixel(x: int, y: int, first: int = 0, end: int = 1) -> Rows[PixelRow]:

@@ -67,6 +67,7 @@ class Space(NamedTuple):
     rays: Numbers  # traced in this call, by kind
     tests: Numbers  # (1,): ray-surface intersection tests in this call; a block of eight triangles counts as eight
     limited: Numbers  # (1,): trees in this call that the limit of rows ended
+    resume: Numbers  # (1,): of the pixel at which the call returned early, the next sample
     tree: Numbers  # of the last tree: rows (-1: the table was too short), residual, 1 if the limit of rows ended it
 
 
@@ -89,6 +90,7 @@ class Workspace:
             rays=np.zeros(len(KINDS), np.int64),
             tests=np.zeros(1, np.int64),
             limited=np.zeros(1, np.int64),
+            resume=np.zeros(1, np.int64),
             tree=np.zeros(3),
         )
         self._bundle()

@@ -17,6 +17,7 @@ from tracer.kernel.capabilities import Need, needs
 from tracer.kernel.formulas import STABLE, Formulas
 from tracer.kernel.packing import pack_lights, pack_materials, pack_objects, pack_surfaces
 from tracer.kernel.workspace import Eye, Eyes
+from tracer.printable import printable, shown_path
 from tracer.scene import Material, Scene, SceneError
 from tracer.scene.cameras import scene_view
 from tracer.scene.garbage import no_garbage_collection
@@ -54,11 +55,12 @@ class World:
         """Warnings, one line each: valid input that is probably not intended."""
         names = [item.name or item.shape.name for item in self.scene.objects]
         found = [*self.scene.notes, *turned_notes([names[k] for k in self.turned])]
-        return found + open_notes(self.solids, names) + hidden_notes(self.solids, names)
+        found += open_notes(self.solids, names) + hidden_notes(self.solids, names)
+        return [printable(note) for note in found]
 
     def __repr__(self) -> str:
         scene = self.scene
-        name = scene.title or scene.path or "a scene"
+        name = shown_path(scene.title or scene.path or "a scene")
         return f"<World of {name}: {len(scene.objects)} objects, {len(scene.lights)} lights>"
 
     def view(self, size: tuple[int, int] | None = None) -> View:

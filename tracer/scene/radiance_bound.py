@@ -12,6 +12,7 @@ import math
 from typing import NamedTuple
 
 from tracer.formulas.vector import Vector
+from tracer.printable import printable
 from tracer.scene.scene import Material, Scene
 
 MARGIN = 2.0**-48  # relative: of the rounding errors between a sum of weights and the light that it can bring
@@ -25,7 +26,7 @@ class RadianceBound(NamedTuple):
     """B for each channel, linear RGB; inf where there is no bound."""
 
     rgb: Vector
-    reason: str  # the material because of which a channel has no bound; empty if all have one
+    reason: str  # the material because of which a channel has no bound, as it is shown; empty if all have one
 
     @property
     def largest(self) -> float:
@@ -61,7 +62,7 @@ def radiance_bound(scene: Scene) -> RadianceBound:
                 most[k] = max(most[k], local[material][k] / (1.0 - passed_on))
             elif local[material][k] > 0.0 or (passed_on > 1.0 and shines):
                 most[k], reason = math.inf, reason or name
-    return RadianceBound((most[0], most[1], most[2]), reason)
+    return RadianceBound((most[0], most[1], most[2]), printable(reason))
 
 
 def local_bound(scene: Scene, material: Material) -> Vector:

@@ -15,6 +15,7 @@ from tracer import fields
 from tracer.choices import MODELS, SHADOWS
 from tracer.formulas.media import INDICES
 from tracer.formulas.vector import Vector
+from tracer.printable import printable
 from tracer.shapes import Shape
 
 
@@ -148,17 +149,17 @@ class Scene:
 
     @property
     def caption(self) -> str:
-        """Its title, else the name of its file."""
-        return self.title or (self.path.name if self.path else "scene")
+        """Its title, else the name of its file, as it is shown."""
+        return printable(self.title or (self.path.name if self.path else "scene"))
 
     def object_name(self, k: int) -> str:
-        """The name of object k, or its shape and number if the author gave none."""
+        """The name of object k as it is shown, or its shape and number if the author gave none."""
         item = self.objects[k]
-        return item.name or f"{item.shape.name} {k}"
+        return printable(item.name) or f"{item.shape.name} {k}"
 
     def light_name(self, j: int) -> str:
-        """The name of light j, or its number if the author gave none."""
-        return self.lights[j].name or f"light {j}"
+        """The name of light j as it is shown, or its number if the author gave none."""
+        return printable(self.lights[j].name) or f"light {j}"
 
     def faults(self) -> list[str]:
         """Every value that is not allowed, a line each, by the same rules as for a file."""
@@ -178,7 +179,7 @@ class Scene:
             if id(item.material) not in materials:
                 materials.add(id(item.material))
                 here = place("object", k, item.name)
-                parts.append((f'{here}: material "{item.material.name}"', item.material))
+                parts.append((f'{here}: material "{printable(item.material.name)}"', item.material))
         found = []
         for here, part in parts:
             faults = fields.value_faults(part)
@@ -199,14 +200,14 @@ class SceneError(ValueError):
     """A scene that cannot be used. `faults` has a line for each fault, `files` are those that were read."""
 
     def __init__(self, faults: list[str], files: tuple[Path, ...] = ()) -> None:
-        super().__init__("\n".join(faults))
-        self.faults = faults
+        self.faults = [printable(fault) for fault in faults]
+        super().__init__("\n".join(self.faults))
         self.files = files
 
 
 def place(table: str, k: int, name: str = "") -> str:
     """The place of a fault in a file, like `object[2] "ball"`: the k-th table of a kind, counted from 0."""
-    return f'{table}[{k}] "{name}"' if name else f"{table}[{k}]"
+    return f'{table}[{k}] "{printable(name)}"' if name else f"{table}[{k}]"
 
 
 def middle_and_radius(bounds: np.ndarray) -> tuple[np.ndarray, float]:

@@ -1,6 +1,5 @@
 """The ray tree that users get: a `TreeTable` that can show itself as text, as JSON, and in a notebook."""
 
-import json
 import math
 from importlib.metadata import entry_points
 from typing import Any
@@ -8,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from tracer.kernel.nodes import PUBLIC
+from tracer.printable import json_text
 from tracer.tree.table import TreeTable
 from tracer.tree.text import tree_text
 from tracer.tree.verified.enclosures import VerifiedTree
@@ -48,8 +48,8 @@ class RayTree(TreeTable):
         """The tree as JSON, a line per node. Floats are the shortest text that reads back to the same bits."""
         tree = self.to_dict(verified)
         nodes = tree.pop("nodes")
-        head = json.dumps(tree, allow_nan=False, ensure_ascii=False)
-        lines = ",\n  ".join(json.dumps(node, allow_nan=False, ensure_ascii=False) for node in nodes)
+        head = json_text(tree)
+        lines = ",\n  ".join(map(json_text, nodes))
         return f'{head[:-1]}, "nodes": [\n  {lines}]}}\n'
 
     def _node(self, i: int, verified: VerifiedTree | None) -> dict[str, Any]:
@@ -62,9 +62,11 @@ class RayTree(TreeTable):
                 case "end":
                     node[field] = self.end(i)
                 case "object":
-                    node[field] = self.object_name(i)
+                    k = int(row[field])
+                    node[field] = self.scene.objects[k].name or self.object_name(i) if k >= 0 else None
                 case "light":
-                    node[field] = self.light_name(i)
+                    j = int(row[field])
+                    node[field] = self.scene.lights[j].name or self.light_name(i) if j >= 0 else None
                 case "parent":
                     node[field] = int(row[field]) if row[field] >= 0 else None
                 case "theta1" | "theta2":

@@ -9,7 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from viewer.base.files import Unusable, write_atomically
+from viewer.base.files import Unusable, part_file, write_atomically
 
 if TYPE_CHECKING:
     import numpy as np
@@ -52,10 +52,9 @@ def exr_file(channels: dict[str, np.ndarray]) -> bytes:
     import OpenEXR
 
     header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "image.exr"
-        OpenEXR.File(header, channels).write(str(path))
-        return path.read_bytes()
+    with part_file(Path(tempfile.gettempdir())) as part:
+        OpenEXR.File(header, channels).write(str(part.path))
+        return part.path.read_bytes()
 
 
 def bounds_npy(low: np.ndarray, high: np.ndarray) -> bytes:

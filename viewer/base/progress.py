@@ -7,7 +7,9 @@ compiler or a library reports nothing.
 import sys
 import threading
 import time
-from typing import TextIO
+
+from tracer.printable import printable
+from viewer.base.streams import put, put_error, put_raw_error
 
 SHORT = 1.0  # seconds before anything is shown on a terminal
 LONG = 5.0  # the same elsewhere: a line in a log stays
@@ -20,7 +22,7 @@ class Progress:
     """A context that shows what is being done, the share that is done, and the time left."""
 
     def __init__(self, doing: str, at_once: bool = False) -> None:
-        self.terminal = sys.stderr.isatty()
+        self.terminal = sys.stderr is not None and sys.stderr.isatty()
         self.patience = 0.0 if at_once else SHORT if self.terminal else LONG
         self.writing = threading.Lock()
         self.over = threading.Event()
@@ -49,20 +51,26 @@ class Progress:
         self.told = time.perf_counter()
         self.share = share
 
-    def put(self, line: str, stream: TextIO | None = None) -> None:
-        """Write a line that stays, to stderr by default."""
+    def put(self, line: str) -> None:
+        """Write a line that stays, to standard error."""
         with self.writing:
             self._clear()
-            print(line, file=stream or sys.stderr, flush=True)
+            put_error(line)
+
+    def put_result(self, line: str) -> None:
+        """Write a line that stays, to standard output."""
+        with self.writing:
+            self._clear()
+            put(f"{printable(line)}\n")
 
     def line(self, now: float) -> str:
         """For example `render glass-ball 43 %, 12 s left`; the time so far if no share is known."""
-        share = self.share
+        share, doing = self.share, printable(self.doing)
         if share == 0.0:
             passed = now - self.began
-            return f"{self.doing} ({duration(passed)})" if passed >= SHORT else self.doing
+            return f"{doing} ({duration(passed)})" if passed >= SHORT else doing
         left = (self.told - self.began) * (1.0 - share) / share - (now - self.told)
-        return f"{self.doing} {100 * share:.0f} %, {duration(max(0.0, left))} left"
+        return f"{doing} {100 * share:.0f} %, {duration(max(0.0, left))} left"
 
     def _run(self) -> None:
         while True:
@@ -76,22 +84,18 @@ class Progress:
     def show(self, now: float) -> None:
         """Update the line on a terminal; in a log, write a line after every tenth."""
         if self.terminal:
-            self._write(CLEAR + self.line(now))
+            put_raw_error(CLEAR + self.line(now))
             self.shown = True
             return
         percent = int(100 * self.share) // STEP * STEP
         if percent > self.logged and self.share < 1.0:
             self.logged = percent
-            self._write(f"{self.line(now)}\n")
+            put_error(self.line(now))
 
     def _clear(self) -> None:
         if self.shown:
-            self._write(CLEAR)
+            put_raw_error(CLEAR)
             self.shown = False
-
-    def _write(self, text: str) -> None:
-        sys.stderr.write(text)
-        sys.stderr.flush()
 
 
 def duration(seconds: float) -> str:

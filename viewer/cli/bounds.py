@@ -1,7 +1,6 @@
 """`raytree render --bounds`: guaranteed bounds of each pixel, into a file."""
 
 import math
-import sys
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
@@ -69,10 +68,10 @@ def put_summary(progress: ProgressLine, name: str, scene: Scene, bounds: Bounds)
         if wide.size
         else "",
     ]
-    progress.put(name + "bounds: " + "; ".join(part for part in parts if part), sys.stdout)
+    progress.put_result(name + "bounds: " + "; ".join(part for part in parts if part))
     if not math.isnan(bounds.sampling_error):
         error = f"{bounds.sampling_error:.2g} (RMSE, linear light)"
-        progress.put(f"{name}estimated sampling error {error}, which the bounds do not contain", sys.stdout)
+        progress.put_result(f"{name}estimated sampling error {error}, which the bounds do not contain")
 
 
 def bounds_stats(bounds: Bounds) -> dict[str, Any]:

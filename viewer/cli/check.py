@@ -1,7 +1,6 @@
 """`raytree check`: for each case the exact answer, the textbook's and ours, with their errors in the same unit."""
 
 import difflib
-import json
 import textwrap
 import time
 from collections import Counter
@@ -13,11 +12,13 @@ from typing import Any
 from tracer.measure.check.case import TOPICS, Case, Reading, Result, compare
 from tracer.measure.check.check import CASES, run_all, to_dict
 from tracer.measure.check.distribution import QUANTILES, ours, the_textbooks
+from tracer.printable import json_text
 from tracer.tree.text import columns
 from viewer.base.files import Unusable
 from viewer.base.progress import Progress
+from viewer.base.streams import put
 from viewer.cli.options import CheckOptions
-from viewer.cli.terminal import compile_once, put
+from viewer.cli.terminal import compile_once
 
 LONGEST = 20  # characters of a word in the table
 NONE = "–"  # the textbook has no formula to compare with
@@ -46,7 +47,7 @@ def check(options: CheckOptions) -> int:
     with Progress("check") as progress:
         results = run_all(cases, progress)
     if options.json:
-        put(json.dumps(to_dict(results), indent=1, allow_nan=False, ensure_ascii=False) + "\n")
+        put(json_text(to_dict(results), indent=1) + "\n")
     elif options.explain:
         put("\n".join([*map(explained, results), UNITS]))
     else:

@@ -2,10 +2,12 @@
 
 from dataclasses import replace
 
+from tracer.printable import shown_path
 from viewer.base.files import Unusable, collect
 from viewer.base.progress import Progress
+from viewer.base.streams import put
 from viewer.cli.loading import faults, find, prepared
-from viewer.cli.terminal import compile_once, put
+from viewer.cli.terminal import compile_once
 from viewer.figures.export import check_options, make
 from viewer.figures.export_options import ExportOptions
 from viewer.figures.targets import target_of
@@ -31,5 +33,5 @@ def export(options: ExportOptions) -> int:
             for note in made.notes:
                 progress.put(f"note: {note}")
     for file, _ in made.files:
-        put(f"{file}\n")
+        put(f"{shown_path(file)}\n")
     return 0

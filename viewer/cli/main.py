@@ -4,7 +4,6 @@ A command's module is imported when the command is run, so that `--help` and err
 """
 
 import argparse
-import contextlib
 import difflib
 import os
 import sys
@@ -16,6 +15,7 @@ from typing import Any, NoReturn
 from viewer.base.files import Unusable
 from viewer.base.interruption import Interrupted, interruptible
 from viewer.base.options import add_arguments, joined, options_of, valued_flags
+from viewer.base.streams import ReaderGone, put, put_error
 from viewer.cli import options
 from viewer.figures.export_options import ExportOptions
 
@@ -62,27 +62,44 @@ class Parser(argparse.ArgumentParser):
 
     def __init__(self, *arguments: Any, **settings: Any) -> None:
         super().__init__(*arguments, allow_abbrev=False, **settings)
+        self.color = False  # Python 3.14 colours its help, with control characters
 
     def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+        put_error(f"{self.prog}: {message} (see {self.prog} --help)")
+        self.exit(2)
+
+    def print_help(self, file: Any = None) -> None:
+        """Write the help to standard output."""
+        put(self.format_help())
 
 
 def program() -> NoReturn:
-    """Run `main`, and exit without Python's own cleaning up, which takes a fifth of a second."""
-    status = main()
-    with contextlib.suppress(BrokenPipeError):  # whoever reads our output has closed it
-        sys.stdout.flush()
+    """Run `main`, and exit without Python's own cleaning up, which takes a fifth of a second and would write what could
+    not be written once more.
+    """
+    try:
+        status = main()
+    except SystemExit as end:  # --help, --version, wrong arguments
+        status = end.code if isinstance(end.code, int) else 0
     os._exit(status)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command. Returns its exit status: 0 success, 1 a check failed, 2 unusable input or arguments."""
-    command, chosen = parse(sys.argv[1:] if arguments is None else arguments)
+    """Run one command. Returns its exit status: 0 success, 1 a check failed, 2 unusable input or arguments, or output
+    that cannot be written.
+    """
     try:
         with interruptible():
-            return run(command, chosen)
+            command, chosen = parse(sys.argv[1:] if arguments is None else arguments)
+            return resolve_name(command.function)(chosen)
+    except Unusable as unusable:
+        for fault in unusable.faults:
+            put_error(fault)
+        return 2
+    except ReaderGone:
+        return 0
     except Interrupted as asked:
-        print("stopped", file=sys.stderr, flush=True)
+        put_error("stopped")
         status = asked.status
     # The exception is gone, and with its frames what they held, like the semaphores of worker processes.
     os._exit(status)  # at once: Python would wait for threads in C code of libraries
@@ -103,25 +120,13 @@ def parse(arguments: Sequence[str]) -> tuple[Command, Any]:
     return command, options_of(command.options, parsed)
 
 
-def run(command: Command, chosen: Any) -> int:
-    """Call the command's function. Returns the exit status."""
-    try:
-        return resolve_name(command.function)(chosen)
-    except Unusable as unusable:
-        print(unusable, file=sys.stderr)
-        return 2
-    except BrokenPipeError:  # whoever reads our output has closed it
-        sys.stderr.close()
-        return 0
-
-
 class PrintVersion(argparse.Action):
     """`--version`. Looks the version up only when asked: that takes a third of the time of a start."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         from importlib.metadata import version
 
-        print(f"raytree {version('raytree')}")
+        put(f"raytree {version('raytree')}\n")
         parser.exit()
 
 

@@ -1,6 +1,5 @@
 """`raytree plan`: which capabilities a scene needs, which are left out, and with `--measure` what each costs."""
 
-import json
 import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -8,12 +7,14 @@ from typing import Any
 
 from tracer.kernel.capabilities import Need
 from tracer.measure.plan.savings import Measured, Saving, measure
+from tracer.printable import json_text
 from tracer.scene import Scene
 from tracer.shapes.polygon import Polygon
 from viewer.base.progress import Progress
+from viewer.base.streams import put
 from viewer.cli.loading import faults, find, prepared
 from viewer.cli.options import PlanOptions
-from viewer.cli.terminal import compile_once, put
+from viewer.cli.terminal import compile_once
 from viewer.gl.features import shader_needs
 
 FORMAT = "raytree-plan/1"
@@ -144,7 +145,7 @@ def as_json(plan: Plan) -> str:
         savings = {saving.need.name: _saving(saving) for saving in image.savings}
     document["needs"] = [{"of": "image", **_need(need), **savings.get(need.name, {})} for need in plan.image]
     document["needs"] += [{"of": "frame", **_need(need)} for need in plan.window]
-    return json.dumps(document, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
+    return json_text(document, indent=1) + "\n"
 
 
 def _need(need: Need) -> dict[str, Any]:

@@ -1,9 +1,7 @@
 """`raytree render`: the image of a scene into a file, or of several scenes into a folder; here or on a cluster."""
 
 import contextlib
-import json
 import math
-import sys
 import time
 from collections import Counter
 from collections.abc import Iterator
@@ -16,9 +14,10 @@ import tracer
 from tracer.image.progressive import MAX_SAMPLES, RoundStats
 from tracer.image.render import Image
 from tracer.kernel.limits import MAX_NODES
+from tracer.printable import json_text
 from tracer.tree.digits import number_text
 from tracer.tree.text import missing_light, within
-from viewer.base.files import Unusable, check_writable, write_atomically
+from viewer.base.files import Unusable, check_writable, has_folder, is_there, write_atomically
 from viewer.base.pictures import SUFFIXES, check_bounds_format, check_format, write_bounds, write_picture
 from viewer.base.progress import Progress
 from viewer.cli.bounds import bounds_of, bounds_stats, check_bounds, put_summary
@@ -50,14 +49,15 @@ def render(options: RenderOptions) -> int:
             except Unusable as fault:
                 if not many:
                     raise
-                progress.put(str(fault))  # and go on with the other scenes
+                for line in fault.faults:
+                    progress.put(line)  # and go on with the other scenes
                 continue
             if not stats:
                 figures["seconds"]["compile"] += compiling + connecting
             stats.append(figures)
     if options.stats:
         document = {"images": stats} if many else stats[0]
-        write_atomically(options.stats, (json.dumps(document, indent=1) + "\n").encode("utf-8"))
+        write_atomically(options.stats, (json_text(document, indent=1) + "\n").encode("utf-8"))
     return 0 if len(stats) == len(jobs) else 2
 
 
@@ -134,14 +134,14 @@ def render_one(
     job.target.parent.mkdir(exist_ok=True)
     write_picture(job.target, image.pixels)
     if image.stats:
-        progress.put(name + summary(image, image.stats, options), sys.stdout)
+        progress.put_result(name + summary(image, image.stats, options))
     if image.limited:
-        progress.put(name + limit_reached(image), sys.stdout)
+        progress.put_result(name + limit_reached(image))
     if image.tolerance is not None or image.limited or (image.stats and image.residual["max"] > 0.0):
         most = number_text(image.residual["max"])
         lacks = missing_light(image.bound, image.unbounded) + within(image.bound, image.missing_allowed)
         missing = f"a pixel's rays that were cut carry at most {most} of the weight{lacks}"
-        progress.put(name + missing, sys.stdout)
+        progress.put_result(name + missing)
     return {
         "scene": str(job.scene),
         "image": str(job.target),
@@ -204,7 +204,7 @@ def jobs_of(options: RenderOptions) -> list[RenderJob]:
     """The images to render. Unusable, with all faults, if a scene or a target cannot be used."""
     into = Path(options.output)
     slash = options.output.endswith(("/", "\\"))
-    folder = len(options.scenes) > 1 or into.is_dir() or slash
+    folder = len(options.scenes) > 1 or has_folder(into) or slash
     unusable: list[str] = []
     jobs = []
     for scene in options.scenes:
@@ -218,7 +218,7 @@ def jobs_of(options: RenderOptions) -> list[RenderJob]:
     for name, count in Counter(job.name for job in jobs).items():
         if count > 1:
             unusable.append(f"raytree render: {count} scenes would be written to the same file: {name}")
-    if folder and not into.is_dir() and (into.exists() or (into.suffix.lower() in SUFFIXES and not slash)):
+    if folder and not has_folder(into) and (is_there(into) or (into.suffix.lower() in SUFFIXES and not slash)):
         unusable.append(f"raytree render: the images of several scenes need a folder, got {into}")
     if options.format and not folder:
         unusable.append(f"raytree render: --format is for images in a folder; {into} has a suffix")
@@ -230,7 +230,7 @@ def jobs_of(options: RenderOptions) -> list[RenderJob]:
             check_bounds_format(job.target)
     elif not folder:
         check_format(into)
-    targets = [into] if folder and not into.is_dir() else [job.target for job in jobs]
+    targets = [into] if folder and not has_folder(into) else [job.target for job in jobs]
     for path in filter(None, (*targets, options.stats)):
         check_writable(path)
     return jobs

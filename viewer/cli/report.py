@@ -9,12 +9,14 @@ from pathlib import Path
 from tracer.compile.kernel_cache import versions
 from tracer.extras import missing_extra
 from tracer.image.render import processors
+from tracer.printable import shown_path
 from viewer.base.files import Unusable, check_folder, collect, write_atomically
 from viewer.base.options import words
 from viewer.base.progress import Progress
+from viewer.base.streams import put
 from viewer.cli.loading import faults, find, prepared
 from viewer.cli.options import ReportOptions
-from viewer.cli.terminal import compile_once, put
+from viewer.cli.terminal import compile_once
 from viewer.lessons import lesson as lessons
 from viewer.report.chapter import Chapter, draw, scene_chapter, stiff_chapter
 from viewer.report.data import as_csv, as_json
@@ -52,7 +54,7 @@ def report(options: ReportOptions) -> int:
     }
     for name, content in pages.items():
         write_atomically(folder / name, content)
-    put(f"{len(files)} plots as SVG and PDF, report.csv, report.json and\n{folder / 'report.html'}\n")
+    put(f"{len(files)} plots as SVG and PDF, report.csv, report.json and\n{shown_path(folder / 'report.html')}\n")
     return 0
 
 

@@ -1,19 +1,13 @@
-"""Output of commands, and the message while the kernels are compiled."""
+"""The message while the kernels are compiled."""
 
-import sys
 import time
 
 from tracer.compile.numba_private import NOTE, USES_PRIVATE
-from tracer.image.warmup import are_kernels_cached, fill_cache
+from tracer.image.warmup import are_kernels_cached, fill_cache, unkept_kernels
 from viewer.base.progress import Progress
+from viewer.base.streams import put_note
 
 COMPILING = "compile the kernels (only at the first start, about twenty seconds)"
-
-
-def put(text: str) -> None:
-    """Write to the terminal, in UTF-8 whatever the system's own encoding is."""
-    sys.stdout.buffer.write(text.encode("utf-8"))
-    sys.stdout.buffer.flush()
 
 
 def compile_once() -> float:
@@ -25,9 +19,6 @@ def compile_once() -> float:
     began = time.perf_counter()
     with Progress(COMPILING, at_once=True):
         fill_cache()
+    if note := unkept_kernels():
+        put_note(note)
     return time.perf_counter() - began
-
-
-def put_note(note: str) -> None:
-    """Write a note beside the command's output."""
-    print(f"note: {note}", file=sys.stderr)

@@ -3,9 +3,10 @@
 import tracer
 from viewer.base.files import Unusable, check_writable, write_atomically
 from viewer.base.progress import Progress
+from viewer.base.streams import put
 from viewer.cli.loading import extra, faults, find, prepared
 from viewer.cli.options import TraceOptions, limits_of
-from viewer.cli.terminal import compile_once, put
+from viewer.cli.terminal import compile_once
 from viewer.figures.catalogue import FORMATS
 
 

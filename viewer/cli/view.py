@@ -7,13 +7,14 @@ from pathlib import Path
 import platformdirs
 
 import tracer
-from tracer.formats.source import shown_path
+from tracer.printable import shown_path
 from viewer.base.files import Unusable, check_writable, is_there, write_atomically
 from viewer.base.pictures import png
 from viewer.base.progress import Progress
+from viewer.base.streams import put
 from viewer.cli.loading import faults, find, prepared
 from viewer.cli.options import ViewOptions
-from viewer.cli.terminal import COMPILING, compile_once, put
+from viewer.cli.terminal import COMPILING, compile_once
 from viewer.lessons import lesson as lessons
 from viewer.lessons.lesson import Lesson
 from viewer.session.session import Session
@@ -34,14 +35,14 @@ def view(options: ViewOptions) -> int:
         check_writable(options.screenshot)
         take_screenshot(path, lesson, options, options.screenshot)
         return 0
+    folder = _settings_folder()
     try:
-        settings = _settings()
-        window = Window("raytree", options.size or SIZE, settings and settings / "panels.ini")
+        window = Window("raytree", options.size or SIZE, folder / "panels.ini" if folder else None)
     except NoWindow as reason:
         return without_display(path, lesson, options, str(reason))
     app = App(window, Session())
-    if settings:
-        app.session.export.remember(settings / "figure.json")
+    if folder:
+        app.session.export.remember(folder / "figure.json")
     try:
         app.session.loader.open(path, lesson, options.depth, options.pixel, options.model, options.up)
         app.run()
@@ -84,18 +85,20 @@ def without_display(path: Path, lesson: Lesson | None, options: ViewOptions, rea
         depth = options.depth if options.depth is not None else lesson and lesson.depth
         tree = tracer.trace(world, pixel, depth=depth, model=options.model)
     target = Path("out") / f"{lesson.name if lesson else path.stem}.png"
-    put(f"Drawing the viewer into {target} instead; this is the ray tree it shows:\n\n{tree.to_text()}")
+    put(f"Drawing the viewer into {shown_path(target)} instead; this is the ray tree it shows:\n\n{tree.to_text()}")
     target.parent.mkdir(exist_ok=True)
     check_writable(target)
     take_screenshot(path, lesson, replace(options, pixel=pixel), target)
     return 0
 
 
-def _settings() -> Path | None:
-    """The folder that keeps the places of the panels from one start to the next; None if it cannot be made."""
-    folder = platformdirs.user_config_path("raytree")
+def _settings_folder() -> Path | None:
+    """The folder for what is kept from one start to the next: the places of the panels, the last choice of a figure.
+    None if there can be none.
+    """
     try:
+        folder = platformdirs.user_config_path("raytree")
         folder.mkdir(parents=True, exist_ok=True)
-    except OSError:
+    except (OSError, RuntimeError):
         return None
     return folder

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import tracer
 from tracer.kernel.world import World
+from tracer.printable import printable
 from viewer.base.files import Unusable, write_atomically
 from viewer.base.options import words
 from viewer.base.orbit import STEEPEST, Frame, Orbit, ViewAngles, initial_orbit, orbit_beside
@@ -101,7 +102,7 @@ def command_line(options: ExportOptions, format_name: str) -> str:
     """The command that makes the same figure again, without its output."""
     width = options.width if format_name == "png" else None
     same = replace(options, format=(format_name,), width=width)
-    return shlex.join(["raytree", "export", *words(same, leave_out=("output",))])
+    return printable(shlex.join(["raytree", "export", *words(same, leave_out=("output",))]))
 
 
 def steps_of(world: World, options: ExportOptions, depths: range) -> list[Step]:

@@ -1,4 +1,5 @@
-"""The marks that figures consist of. Layouts make marks, writers write them to a file.
+"""The marks that figures consist of. Layouts make marks, writers write them to a file. All their text is printable, so
+no writer has to care for control characters in the names of a scene.
 
 Lengths are points (1/72 inch) from the canvas's top left corner, y downwards. The canvas is a slide of 16:9, so a
 text of 18 points is 18 points high if the figure fills the slide.
@@ -8,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 
+from tracer.printable import printable
 from viewer.base.theme import Arrow, Color
 from viewer.figures.font import text_box
 
@@ -67,6 +69,12 @@ class Stroke:
         return Stroke(self.color, share * self.width, (share * on, share * off))
 
 
+def make_printable(made: object, *names: str) -> None:
+    """Make these texts of a new, frozen dataclass printable."""
+    for name in names:
+        object.__setattr__(made, name, printable(getattr(made, name)))
+
+
 @dataclass(frozen=True)
 class Mark:
     """`name` identifies the object that the mark shows, like `ray-3`; marks with the same name belong together. `title`
@@ -75,6 +83,9 @@ class Mark:
 
     name: str
     title: str = field(default="", kw_only=True)
+
+    def __post_init__(self) -> None:
+        make_printable(self, "name", "title")
 
 
 @dataclass(frozen=True)
@@ -149,6 +160,9 @@ class Text(Mark):
     inside: str = ""  # the box that the text stands in
     on_line: bool = False  # it interrupts the line that it stands on
 
+    def __post_init__(self) -> None:
+        make_printable(self, "name", "title", "content")
+
     def box(self) -> Rectangle:
         return text_box(self.at, self.content, self.size, self.anchor)
 
@@ -171,6 +185,9 @@ class Figure:
     ground: bool = False  # whether it has that background; otherwise it is transparent
     width: float = WIDTH
     height: float = HEIGHT
+
+    def __post_init__(self) -> None:
+        make_printable(self, "title", "description", "command")
 
     def groups(self) -> Iterator[tuple[str, str, list[Mark]]]:
         """(name, title, marks) for each run of marks with the same name."""

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from viewer.base.files import Unusable, check_folder, check_writable
+from viewer.base.files import Unusable, check_folder, check_writable, has_folder
 from viewer.figures.catalogue import FORMATS, FormatKind, format_of
 from viewer.figures.export_options import ExportOptions
 from viewer.figures.steps import Step
@@ -28,7 +28,7 @@ def target_of(options: ExportOptions) -> Target:
     written.
     """
     path = Path(options.output)
-    is_folder = path.is_dir() or options.output.endswith(("/", "\\"))
+    is_folder = has_folder(path) or options.output.endswith(("/", "\\"))
     formats = options.format
     if is_folder:
         check_folder(path)

@@ -21,8 +21,9 @@ from pathlib import Path
 from typing import Any
 
 from tracer import fields
-from tracer.formats.source import MOST_TEXT, Fault, read_bytes, shown_path, utf8
+from tracer.formats.source import MOST_TEXT, Fault, read_bytes, utf8
 from tracer.formats.toml import parsed
+from tracer.printable import shown_path
 from viewer.base.files import Unusable, is_there
 from viewer.base.orbit import AZIMUTH, DISTANCE, ELEVATION
 

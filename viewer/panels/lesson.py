@@ -2,6 +2,7 @@
 
 from imgui_bundle import imgui
 
+from tracer.printable import printable
 from viewer.gl.canvas import Canvas
 from viewer.panels.panel import Corner, Panel
 from viewer.session.session import Session
@@ -11,7 +12,7 @@ from viewer.session.view_state import Request
 def draw(session: Session, canvas: Canvas) -> None:
     assert session.lesson  # otherwise there is no such panel
     for block in session.lesson.text.split("\n\n"):
-        content = " ".join(block.split())
+        content = printable(" ".join(block.split()))
         imgui.push_text_wrap_pos(0.0)
         if block.startswith("#"):
             imgui.text_colored(session.appearance.theme.accent, content.lstrip("# "))
@@ -19,7 +20,7 @@ def draw(session: Session, canvas: Canvas) -> None:
             for item in block.split("\n- "):
                 imgui.bullet()
                 imgui.same_line()
-                imgui.text(" ".join(item.removeprefix("- ").split()))  # it wraps, unlike bullet_text
+                imgui.text(printable(" ".join(item.removeprefix("- ").split())))  # it wraps, unlike bullet_text
         else:
             imgui.text(content)
         imgui.pop_text_wrap_pos()

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
+from tracer.printable import printable
 from viewer.base.files import Unusable
 from viewer.base.theme import THEMES
 from viewer.figures.catalogue import FIGURES, FORMATS, PICTURES
@@ -80,7 +81,7 @@ def _lessons_menu(session: Session) -> None:
 
 def _lesson_item(session: Session, name: str) -> None:
     try:
-        title = lessons.read(name).title
+        title = printable(lessons.read(name).title)
     except Unusable:
         title = name
     on = session.lesson is not None and session.lesson.name == name

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
+from tracer.printable import printable
 from viewer.base.theme import Color
 from viewer.panels import draw as d
 from viewer.session.session import Session
@@ -53,7 +54,7 @@ def _box(title: str, head: str, lines: Sequence[str], color: Color, session: Ses
         imgui.text_colored(color, head)
         imgui.separator()
         for line in lines:
-            imgui.text(line)
+            imgui.text(printable(line))
         imgui.pop_text_wrap_pos()
     imgui.end()
     imgui.pop_style_var()

@@ -5,6 +5,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from tracer.formats import MESH_READERS, READERS, UP_AXES
+from tracer.printable import shown_path
 from viewer.panels import draw as d
 from viewer.session.session import Session
 
@@ -34,7 +35,7 @@ def draw(session: Session) -> None:
         imgui.set_keyboard_focus_here()
     elif dialog.not_found and not imgui.is_any_item_active():
         imgui.set_keyboard_focus_here()  # the typed path stays, to be corrected
-    shown = dialog.not_found or str(dialog.folder)
+    shown = shown_path(dialog.not_found or dialog.folder)
     entered, written = imgui.input_text("##path", shown, imgui.InputTextFlags_.enter_returns_true)
     if entered:
         _go(session, dialog.folder / Path(written.strip()).expanduser())
@@ -44,7 +45,7 @@ def draw(session: Session) -> None:
         if imgui.selectable("..", False)[0]:
             _go(session, dialog.folder.parent)
         for path in _entries(dialog.folder):
-            if imgui.selectable(f"{path.name}/" if path.is_dir() else path.name, False)[0]:
+            if imgui.selectable(shown_path(f"{path.name}/" if path.is_dir() else path.name), False)[0]:
                 _go(session, path)
     imgui.end_child()
     _, dialog.z_up = imgui.checkbox("z axis up (mesh files)", dialog.z_up)

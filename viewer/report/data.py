@@ -1,8 +1,5 @@
 """The report's numbers for programs: JSON, and a CSV with one line per marker."""
 
-import csv
-import io
-import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
@@ -10,6 +7,8 @@ from typing import Any
 
 from tracer.measure.precision.errors import MEASURES
 from tracer.measure.precision.precision import Source
+from tracer.printable import json_text
+from viewer.base.cells import csv_text
 from viewer.report.chapter import Chapter
 
 FORMAT = "raytree-report/1"
@@ -18,9 +17,7 @@ HEAD = ("scene", "source", "method", "setting", "value", "seconds", "rays", "tes
 
 def as_csv(chapters: Sequence[Chapter]) -> bytes:
     """The CSV. Unknown and infinite numbers are empty."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(HEAD)
+    rows: list[Sequence[Any]] = [HEAD]
     for chapter in chapters:
         for source in chapter.sources:
             for curve in source.curves:
@@ -28,8 +25,8 @@ def as_csv(chapters: Sequence[Chapter]) -> bytes:
                     off = [getattr(p.errors, name) for name in MEASURES]
                     figures = (p.seconds, p.rays, p.tests, *off, p.bound, p.estimate)
                     names = (chapter.name, source.name, curve.method, p.label, p.value)
-                    writer.writerow((*names, *map(_finite, figures)))
-    return text.getvalue().encode("utf-8")
+                    rows.append((*names, *map(_finite, figures)))
+    return csv_text(rows).encode("utf-8")
 
 
 def as_json(chapters: Sequence[Chapter], about: Mapping[str, str]) -> bytes:
@@ -43,7 +40,7 @@ def as_json(chapters: Sequence[Chapter], about: Mapping[str, str]) -> bytes:
         for chapter in chapters
     ]
     document = {"format": FORMAT, "scenes": scenes, "machine": dict(about)}
-    return (json.dumps(_plain(document), indent=1, allow_nan=False) + "\n").encode("utf-8")
+    return (json_text(_plain(document), indent=1) + "\n").encode("utf-8")
 
 
 def _source(source: Source) -> dict[str, Any]:

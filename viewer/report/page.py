@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from html import escape
 
 from tracer.measure.precision.precision import Curve, Point, Source
+from tracer.printable import printable
 from viewer.report.chapter import Chapter
 
 STYLE = """
@@ -23,18 +24,23 @@ th:first-child, td:first-child, th:nth-child(2), td:nth-child(2) { text-align: l
 
 
 def as_html(title: str, command: str, chapters: Sequence[Chapter], about: Mapping[str, str]) -> bytes:
-    body = [f"<h1>Error against run time: {escape(title)}</h1>", f'<p class="small">{escape(command)}</p>']
-    body.append(f"<p>{escape(INTRODUCTION)}</p>")
+    body = [f"<h1>Error against run time: {text(title)}</h1>", f'<p class="small">{text(command)}</p>']
+    body.append(f"<p>{text(INTRODUCTION)}</p>")
     several = len(chapters) > 1
     if several:
-        links = [f'<li><a href="#{c.anchor}">{escape(c.title)}</a></li>' for c in chapters]
+        links = [f'<li><a href="#{c.anchor}">{text(c.title)}</a></li>' for c in chapters]
         body += ["<ul>", *links, "</ul>"]
     for chapter in chapters:
         body += _chapter(chapter, several)
     body += _list("Machine", [f"{name}: {value}" for name, value in about.items()])
     page = ["<!doctype html>", '<html lang="en">', "<head>", '<meta charset="utf-8">']
-    page += [f"<title>Error against run time: {escape(title)}</title>", f"<style>{STYLE}</style>", "</head>", "<body>"]
+    page += [f"<title>Error against run time: {text(title)}</title>", f"<style>{STYLE}</style>", "</head>", "<body>"]
     return "\n".join([*page, *body, "</body>", "</html>", ""]).encode("utf-8")
+
+
+def text(content: str) -> str:
+    """Text as HTML, without control characters."""
+    return escape(printable(content))
 
 
 INTRODUCTION = (
@@ -47,7 +53,7 @@ INTRODUCTION = (
 
 def _chapter(chapter: Chapter, titled: bool) -> list[str]:
     """A chapter. `titled`: there are several."""
-    body = [f'<h1 id="{chapter.anchor}" class="chapter">{escape(chapter.title)}</h1>'] if titled else []
+    body = [f'<h1 id="{chapter.anchor}" class="chapter">{text(chapter.title)}</h1>'] if titled else []
     for source in chapter.sources:
         body += _section(f"{chapter.anchor}-{source.name}", source, chapter.plots[source.name])
     failures = [line for source in chapter.sources for line in source.failures]
@@ -59,9 +65,9 @@ def _section(name: str, source: Source, plots: Sequence[bytes]) -> list[str]:
     drawings = [_inline(plot, f"{name}{k}") for k, plot in enumerate(plots)]
     return [
         f'<section id="{name}">',
-        f"<h2>{escape(source.title)}</h2>",
-        f"<p>{escape(source.about)}</p>",
-        f'<p class="small">{escape(_judged(source))}</p>',
+        f"<h2>{text(source.title)}</h2>",
+        f"<p>{text(source.about)}</p>",
+        f'<p class="small">{text(_judged(source))}</p>',
         '<div class="plots">',
         *drawings,
         "</div>",
@@ -88,9 +94,9 @@ def _judged(source: Source) -> str:
 
 def _inline(plot: bytes, name: str) -> str:
     """An SVG for inclusion in the page: without its head, and with ids that start with `name`."""
-    text = plot.decode("utf-8")
-    text = text[text.index("<svg") :]
-    return re.sub(r'(id="|url\(#|href="#)', rf"\g<1>{name}-", text)
+    svg = plot.decode("utf-8")
+    svg = svg[svg.index("<svg") :]
+    return re.sub(r'(id="|url\(#|href="#)', rf"\g<1>{name}-", svg)
 
 
 def _slopes(curves: Sequence[Curve]) -> list[str]:
@@ -99,7 +105,7 @@ def _slopes(curves: Sequence[Curve]) -> list[str]:
         for curve in curves
         if curve.slope is not None and curve.fitted is not None
     ]
-    return [f"<p>{escape('. '.join(lines))}.</p>"] if lines else []
+    return [f"<p>{text('. '.join(lines))}.</p>"] if lines else []
 
 
 def _table(source: Source) -> list[str]:
@@ -110,7 +116,7 @@ def _table(source: Source) -> list[str]:
     rows = []
     for k, (curve, p) in enumerate(points):
         cells = (curve.method, p.label, *(column[k] for column in shown.values()))
-        rows.append(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in cells)}</tr>")
+        rows.append(f"<tr>{''.join(f'<td>{text(cell)}</td>' for cell in cells)}</tr>")
     head = "".join(f"<th>{name}</th>" for name in ("method", "setting", *shown))
     return ["<table>", f"<thead><tr>{head}</tr></thead>", "<tbody>", *rows, "</tbody>", "</table>"]
 
@@ -135,4 +141,4 @@ COLUMNS: dict[str, Callable[[Point], str]] = {
 
 
 def _list(title: str, lines: Sequence[str]) -> list[str]:
-    return [f"<h2>{title}</h2>", "<ul>", *(f"<li>{escape(line)}</li>" for line in lines), "</ul>"]
+    return [f"<h2>{title}</h2>", "<ul>", *(f"<li>{text(line)}</li>" for line in lines), "</ul>"]

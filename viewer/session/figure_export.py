@@ -10,6 +10,7 @@ from pathlib import Path
 
 from tracer.formats.source import Fault, read_text
 from tracer.kernel.world import World
+from tracer.printable import printable
 from viewer.base.clipboard import copy_to_clipboard
 from viewer.base.files import Unusable, write_atomically
 from viewer.base.options import words
@@ -68,7 +69,7 @@ class FigureExport:
 
         name = "png" if copied and self.format != "tikz" else self.format
         options = replace(shown.options, format=(name,), theme=self.theme or shown.theme)
-        self.command = shlex.join(["raytree", "export", *words(options, leave_out=("output",))])
+        self.command = printable(shlex.join(["raytree", "export", *words(options, leave_out=("output",))]))
         self._keep()
         depth = options.depth[-1] if options.depth else 0
         stem = f"{stem_of(shown.scene, options.pixel)}_{self.figure}_d{depth}"

@@ -38,7 +38,7 @@ class Session:
         self.guard = Guard(self.show_faults)
         self.calls = CallQueue(self.guard)
         self.requests: list[Request] = []  # to the window
-        self.warmup = Warmup()
+        self.warmup = Warmup(lambda note: self.calls.post(lambda: self.notice.say(note)))
         self.loader = SceneLoader(self.calls, self.warmup, self._show, self.show_faults)
         self.image = ImageRenderer(self.calls.post)
         self.refinement = Refinement(self.image)

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from enum import Enum, auto
 from pathlib import Path
 
+from tracer.printable import printable
 from viewer.base.theme import DARK, LECTURE_ZOOM, LIGHT, STYLES, Theme
 
 NOTICE_SECONDS = 6.0
@@ -94,7 +95,7 @@ class Notice:
     ends: float = 0.0  # of time.monotonic()
 
     def say(self, text: str) -> None:
-        self.text = text
+        self.text = printable(text)
         self.ends = time.monotonic() + NOTICE_SECONDS
 
     def expires(self) -> bool:

@@ -5,20 +5,23 @@ the window keeps its frame rate. This process then loads them from the cache, as
 """
 
 import subprocess
-import sys
 import threading
 import time
+from collections.abc import Callable
 
-from tracer.image.warmup import are_kernels_cached, warm_up
+from tracer.compile.kernel_cache import cache_folder
+from tracer.image.warmup import are_kernels_cached, unkept_kernels, warm_up
+from tracer.processes import python_command
 
 
 class Warmup:
     """Loads the kernels; `ready` becomes true when trees can be traced."""
 
-    def __init__(self) -> None:
+    def __init__(self, say: Callable[[str], object]) -> None:
         self.began = time.perf_counter()
         self.compiles = not are_kernels_cached()
         self.child: subprocess.Popen | None = None
+        self.say = say  # called in another thread with a note for the user
         self.finished = threading.Event()
         self.thread = threading.Thread(target=self._run, daemon=True)
         self.thread.start()
@@ -43,9 +46,9 @@ class Warmup:
 
     def _run(self) -> None:
         try:
-            if self.compiles:
+            if self.compiles and cache_folder() is not None:
                 self.child = subprocess.Popen(
-                    [sys.executable, "-c", "from tracer.image.warmup import fill_cache; fill_cache()"],
+                    python_command("from tracer.image.warmup import fill_cache; fill_cache()"),
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.DEVNULL,
                     stderr=subprocess.DEVNULL,
@@ -53,5 +56,7 @@ class Warmup:
                 if self.child.wait() < 0:  # `close` has ended it
                     return
             warm_up()  # from the cache, or by compiling here if the other process failed
+            if note := unkept_kernels():
+                self.say(note)
         finally:
             self.finished.set()

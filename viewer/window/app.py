@@ -7,6 +7,7 @@ from collections.abc import Callable
 from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
+from tracer.printable import shown_path
 from viewer.base.cached import Changed
 from viewer.base.theme import STYLES
 from viewer.gl.canvas import Canvas
@@ -166,7 +167,7 @@ class App:
 
     def _set_title(self) -> None:
         world = self.session.world
-        title = f"{world.scene.title or self.session.path} – raytree" if world else "raytree"
+        title = f"{shown_path(world.scene.title or self.session.path or '')} – raytree" if world else "raytree"
         self.title_changed.run(title, lambda: self.surface.set_title(title))
 
     def _draw(self) -> None:

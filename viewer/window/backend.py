@@ -4,6 +4,7 @@ Both have an OpenGL context, feed imgui, and present what it drew. `imgui_bundle
 both use the same copy of that library on systems where each brings its own.
 """
 
+import contextlib
 import ctypes
 import sys
 from collections.abc import Callable
@@ -20,6 +21,7 @@ import numpy as np
 from imgui_bundle import imgui, implot
 from imgui_bundle.imgui import backends
 
+from viewer.base.files import Unusable, write_atomically
 from viewer.base.theme import FONT_SIZE
 
 GLSL = "#version 330"
@@ -42,11 +44,22 @@ class Surface:
         imgui.create_context()
         implot.create_context()
         io = imgui.get_io()
-        io.set_ini_filename(str(ini) if ini else "")
+        io.set_ini_filename("")  # imgui would write the file in place, and an interrupted run would leave a part of it
+        self.ini = ini
+        if ini:
+            with contextlib.suppress(OSError, ValueError):
+                imgui.load_ini_settings_from_memory(ini.read_text("utf-8"))
         io.config_flags |= imgui.ConfigFlags_.docking_enable
         io.config_windows_move_from_title_bar_only = True
         io.config_error_recovery_enable_assert = True
         _load_fonts()
+
+    def keep_layout(self) -> None:
+        """Store the places of the panels, if there is a file for them, and it can be written."""
+        if self.ini:
+            with contextlib.suppress(Unusable):  # then they hold for this time only
+                write_atomically(self.ini, imgui.save_ini_settings_to_memory().encode("utf-8"))
+        imgui.get_io().want_save_ini_settings = False
 
     def grab(self) -> np.ndarray:
         """The last frame as 8-bit RGB (height, width, 3), top row first, drawn again into a framebuffer of our own."""
@@ -158,8 +171,11 @@ class Window(Surface):
         self.ctx.screen.clear(0.0, 0.0, 0.0, 1.0)
         backends.opengl3_render_draw_data(imgui.get_draw_data())
         glfw.swap_buffers(self.window)
+        if imgui.get_io().want_save_ini_settings:
+            self.keep_layout()
 
     def close(self) -> None:
+        self.keep_layout()
         backends.opengl3_shutdown()
         backends.glfw_shutdown()
         implot.destroy_context()

@@ -4,6 +4,7 @@ import os
 import pickle
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -22,6 +23,7 @@ import tracer
 from tests import ROOT
 from tests.scenes import ball, world_of
 from tracer.formulas.sampler import PIXEL_CENTER
+from tracer.image import cluster as cluster_module
 from tracer.image.cluster import ClusterError, connect
 from tracer.image.task import Task, Work, trace_works
 from tracer.image.tiles import Tile
@@ -212,3 +214,33 @@ def test_workers_of_other_versions_are_refused(tmp_path: Path) -> None:
     assert len(refused.value.faults) == 2
     assert any("has raytree 0.1.0/" in fault and "(here 0.1.0/" in fault for fault in refused.value.faults)
     assert any("has no compatible raytree: ImportError('no such thing" in fault for fault in refused.value.faults)
+
+
+def test_a_program_that_never_answers_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its connection is accepted: only the limit on the whole time ends the wait for its first word."""
+    monkeypatch.setattr(cluster_module, "CONNECTING", 1)
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        address = f"127.0.0.1:{silent.getsockname()[1]}"
+        with (
+            pytest.raises(ClusterError, match=f"^tcp://{address}: no Dask scheduler answers within 1 s$"),
+            connect(address),
+        ):
+            pass
+
+
+def test_another_program_is_no_scheduler() -> None:
+    """Its answer is taken for a message of Dask, of three exbibytes."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def answer() -> None:
+            connection, _ = server.accept()
+            with connection:
+                connection.recv(4096)
+                connection.sendall(b"HTTP/1.1 400 Bad Request\r\n\r\n")
+
+        thread = threading.Thread(target=answer)
+        thread.start()
+        address = f"127.0.0.1:{server.getsockname()[1]}"
+        with pytest.raises(ClusterError, match=f"^tcp://{address}: no Dask scheduler answers"), connect(address):
+            pass
+        thread.join()

@@ -15,11 +15,15 @@ INT, TERM = signal.SIGINT, signal.SIGTERM
 BIG = ["--size", "8000x6000", "--samples", "64"]  # would take many minutes
 ENDLESS = ["--size", "16x16", "--samples", "9", "--tolerance", "0"]  # one tile, which takes minutes
 
+FEW = ["--size", "2x2", "--samples", "2000000000"]  # a pixel would take ten minutes
+
 CASES = {
     "image": (["render", "glass-ball", "-o", "old.png", *BIG], r"render glass-ball \d+ %, \d+ min left", INT),
     "image, SIGTERM": (["render", "glass-ball", "-o", "old.png", *BIG], r"render glass-ball \d+ %", TERM),
     "several": (["render", "two-lights", "glass-ball", "-o", "new/", *BIG], r"two-lights \(1 of 2\) \d+ %", INT),
     "one tile": (["render", "glass-ball", "-o", "old.npy", *ENDLESS], r"render glass-ball \(\d s\)", TERM),
+    "few pixels": (["render", "glass-ball", "-o", "old.png", *FEW], r"render glass-ball \(\d s\)", INT),
+    "few pixels, bounds": (["render", "glass-ball", "-o", "old.npy", "--bounds", *FEW], r"bounds of \S+ \(\d s\)", INT),
     "bounds": (["render", "mirror-balls", "--bounds", "-o", "old.npy"], r"bounds of mirror-balls \d+ %", TERM),
     "long file": (["trace", "long.nff", "--pixel", "1,1", "-o", "old.png"], r"load long.nff \d+ %, \d+ s left", INT),
     "measuring": (["plan", "glass-ball", "--measure"], r"measuring \d+ %, \d+ s left", TERM),

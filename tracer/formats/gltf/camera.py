@@ -13,8 +13,9 @@ from tracer.formats.gltf.document import Item
 from tracer.formats.gltf.nodes import Placed
 from tracer.formats.mesh_part import Part
 from tracer.formats.notes import Notes
-from tracer.formats.source import Fault, printable
+from tracer.formats.source import Fault
 from tracer.formulas.vector import Vector, as_floats
+from tracer.printable import printable
 from tracer.scene import Camera, Image, Light
 from tracer.scene.scene import middle_and_radius
 

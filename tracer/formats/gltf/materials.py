@@ -5,7 +5,8 @@ from typing import Any
 from tracer.formats.gltf.document import Item
 from tracer.formats.mesh_part import AMBIENT
 from tracer.formats.notes import Notes
-from tracer.formats.source import Fault, printable
+from tracer.formats.source import Fault
+from tracer.printable import printable
 from tracer.scene import Material
 
 METAL_MIRROR = 0.7  # reflection coefficient of a smooth metal

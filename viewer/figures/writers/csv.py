@@ -1,10 +1,9 @@
 """The node table as CSV: one line per ray, one column per component of a vector, named as in the JSON."""
 
-import csv
-import io
 from typing import Any
 
 from tracer.tree.raytree import RayTree
+from viewer.base.cells import csv_text
 
 AXES = ("x", "y", "z")
 CHANNELS = ("r", "g", "b")
@@ -15,11 +14,7 @@ VECTORS = ("origin", "direction", "point", "normal")
 def write_csv(tree: RayTree) -> str:
     nodes = tree.to_dict()["nodes"]
     rows = [_flat(node) for node in nodes]
-    buffer = io.StringIO()
-    writer = csv.DictWriter(buffer, fieldnames=list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return buffer.getvalue()
+    return csv_text([list(rows[0]), *(list(row.values()) for row in rows)])
 
 
 def _flat(node: dict[str, Any]) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """The ray tree as a graph for Graphviz: hits are nodes, rays are edges, and shadow rays are dashed."""
 
 from tracer.kernel.nodes import SHADOW
+from tracer.printable import printable_lines
 from tracer.tree.digits import number_text, rgb_text
 from tracer.tree.raytree import RayTree
 from tracer.tree.text import end_reason
@@ -34,5 +35,5 @@ def write_dot(tree: RayTree) -> str:
 
 
 def _quoted(text: str) -> str:
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+    escaped = printable_lines(text).replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
     return f'"{escaped}"'
