@@ -60,15 +60,17 @@ def record_shadow(
     distance: float,
     visible: float,
     glass: int,
+    behind: bool,
     share: Vector,
 ) -> None:
     """Write row i, a shadow ray to a light at `distance`. `visible` is the share of light that passes.
 
-    `glass` is the first transparent surface crossed, -1 for none; `share` the light's share of the local term.
+    `glass` is the first transparent surface crossed, -1 for none; `share` the light's share of the local term. The ray
+    starts `behind` the surface or before it.
     """
     t, met, end = distance, glass, FILTERED if glass >= 0 else LIT
     if visible == 0.0:
-        nearest, s = nearest_occluder(world, ray, distance, limits.glass_blocks, space)
+        nearest, s = nearest_occluder(world, ray, distance, limits.glass_blocks, parent, behind, space)
         if nearest < distance:  # otherwise glass alone has absorbed all light
             t, met, end = nearest, s, BLOCKED
     write_shadow(world, limits, space.table, i, parent, light, ray, t, met, end, visible, share)
@@ -92,9 +94,9 @@ def record_unlit(
     if own == 0.0 or (limits.glass_blocks and not faces_it):
         write_shadow(world, limits, space.table, i, parent, light, ray, 0.0, s, BLOCKED, 0.0, nothing)
         return
-    visible, glass = transmittance(world, ray, distance, limits.glass_blocks, space)
+    visible, glass = transmittance(world, ray, distance, limits.glass_blocks, parent, not faces_it, space)
     first = glass if faces_it else s
-    record_shadow(world, limits, space, i, parent, light, ray, distance, own * visible, first, nothing)
+    record_shadow(world, limits, space, i, parent, light, ray, distance, own * visible, first, not faces_it, nothing)
 
 
 @inlined

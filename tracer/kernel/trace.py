@@ -156,13 +156,13 @@ def direct_light(world: Arrays, limits: Limits, space: Space, i: int, count: int
             to_light, distance = light_direction(light, point)
             if is_lit and dot(n, to_light) > 0.0 and dot(face_n, to_light) > 0.0:
                 ray = make_ray(point, to_light, start, row.hit_side, size, reference(space.way[0]))
-                visible, glass = transmittance(world, ray, distance, limits.glass_blocks, space)
+                visible, glass = transmittance(world, ray, distance, limits.glass_blocks, i, False, space)
                 share = (0.0, 0.0, 0.0)
                 if visible > 0.0:
                     share = scale(visible, phong(material, color, vector(light.color), n, to_light, d))
                     local = add(local, share)
                 if limits.records:
-                    record_shadow(world, limits, space, count, i, j, ray, distance, visible, glass, share)
+                    record_shadow(world, limits, space, count, i, j, ray, distance, visible, glass, False, share)
                     count += 1
                 else:
                     space.rays[SHADOW] += 1

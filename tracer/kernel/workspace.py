@@ -62,6 +62,7 @@ class Space(NamedTuple):
     stack: Rows[StackRow]  # of a traversal
     near: Numbers  # distances at which the ray enters the boxes of one node
     crossed: Rows[CrossingRow]  # transparent surfaces on the way to a light
+    around: Numbers  # (words,): the solids around a shadow ray, crossing by crossing
     way: Rows[HistoryRow]  # (1,): by which the hit was reached whose shadow rays are traced
     directions: Numbers  # (3, BATCH) of the next camera rays
     rays: Numbers  # traced in this call, by kind
@@ -85,6 +86,7 @@ class Workspace:
             stack=zero_rows(MAX_STACK, STACK, StackRow),
             near=np.zeros(WIDTH),
             crossed=zero_rows(MAX_CROSSINGS, CROSSING, CrossingRow),
+            around=np.zeros(words, np.int64),
             way=zero_rows(1, HISTORY, HistoryRow),
             directions=np.zeros((3, BATCH)),
             rays=np.zeros(len(KINDS), np.int64),

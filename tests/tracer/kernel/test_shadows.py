@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import DARK, MATTE, ball, box, ends, kinds, plane, sheet, world_of
+from tests.scenes import DARK, MATTE, ball, box, cube_mesh, ends, kinds, plane, sheet, world_of
+from tracer.formulas.vector import unit
 from tracer.kernel.workspace import MAX_CROSSINGS
 from tracer.scene import Light, Material, Object
+from tracer.shapes.cone import Cone
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.polygon import Polygon
 
@@ -243,3 +245,46 @@ def test_light_in_the_very_point_it_should_light_adds_nothing() -> None:
     assert np.isfinite(tree.radiance).all()
     assert tree.nodes["t"][1] == 0.0
     assert tree.end(1) == "blocked"
+
+
+FILM = Material("film", diffuse=0.1, transmit=0.6, ior=1.5)
+
+
+def up(x: float) -> float:
+    return math.nextafter(x, math.inf)
+
+
+FILMS = {
+    "ball": (ball((0, 1, 0), 1.0, MATTE, name="core"), ball((0, up(1), 0), 1.0, FILM, name="film")),
+    "larger ball": (ball((0, 0, 0), 1.0, MATTE, name="core"), ball((0, 0, 0), up(1), FILM, name="film")),
+    "box": (box((-1, 0, -1), (1, 1, 1), MATTE, name="core"), box((-1, 0, -1), (1, up(1), 1), FILM, name="film")),
+    "cylinder": (
+        Object(Cone((0, 0, 0), 1.0, (0, 1, 0), 1.0, closed=True), MATTE, "core"),
+        Object(Cone((0, 0, 0), up(1), (0, up(1), 0), up(1), closed=True), FILM, "film"),
+    ),
+    "cube": (
+        Object(cube_mesh(-np.ones(3), np.ones(3)), MATTE, "core"),
+        Object(cube_mesh(-np.ones(3), np.full(3, up(1.0))), FILM, "film"),
+    ),
+}
+
+
+@pytest.mark.parametrize("shadows", ("filter", "block"))
+@pytest.mark.parametrize("name", FILMS)
+def test_what_the_ray_to_a_hit_does_not_meet_the_rays_from_there_do_not_meet_either(name: str, shadows: str) -> None:
+    """A film of glass of one unit of rounding: where rounding leaves it out on the way to the core, it is no glass on
+    the way from there to a light, and neither blocks nor dims it.
+    """
+    lamp = Light("lamp", position=(3.0, 9.0, 4.0))
+    world = world_of(*FILMS[name], lights=[lamp], shadows=shadows)
+    random = np.random.default_rng(7)
+    bare = 0
+    for _ in range(1500):
+        direction = unit(tuple(random.normal(size=3)))
+        tree = tracer.trace(world, ray=((-5.0 * np.array(direction)).tolist(), direction), depth=2)
+        first = [i for i in tree.children[0] if not tree.faces_away(i)]
+        if tree.object_name(0) == "core" and first:
+            assert [tree.end(i) for i in first] == ["lit"]
+            assert tree.nodes["factor"][first[0]].tolist() == [1.0] * 3
+            bare += 1
+    assert bare > 50
