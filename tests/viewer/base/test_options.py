@@ -21,7 +21,7 @@ STRATEGIES: dict[Value, st.SearchStrategy] = {
     values.PIXEL: st.tuples(st.integers(-99, 9999), st.integers(-99, 9999)),
     values.SIZE: st.tuples(st.integers(1, 9999), st.integers(1, 9999)),
     values.RAY: st.tuples(*[NUMBER] * 6),
-    values.RAY_NAME: st.sampled_from(("4", "T4", "TIR12", "E", "r7")),
+    values.RAY_NAME: st.sampled_from(("T", "T4", "TIR12", "E", "r7", "TRI")),
     values.ORBIT: st.tuples(NUMBER, st.floats(-90, 90), st.floats(1e-9, 1e9)),
     values.DEPTHS: st.tuples(st.integers(0, 9), st.integers(0, 9)).map(lambda ab: range(min(ab), max(ab) + 1)),
     values.WEIGHT: st.floats(0, 1e300),
