@@ -7,11 +7,13 @@ compiler or a library reports nothing.
 import sys
 import threading
 import time
+from collections.abc import Callable
 from typing import TextIO
 
 SHORT = 1.0  # seconds before anything is shown on a terminal
 LONG = 5.0  # the same elsewhere: a line in a log stays
 TICK = 0.2  # seconds between updates
+TELLING = 0.05  # share that must be done before the time left is shown
 STEP = 10  # percent between lines in a log
 CLEAR = "\r\x1b[K"
 
@@ -19,9 +21,10 @@ CLEAR = "\r\x1b[K"
 class Progress:
     """A context that shows what is being done, the share that is done, and the time left."""
 
-    def __init__(self, doing: str, at_once: bool = False) -> None:
+    def __init__(self, doing: str, at_once: bool = False, clock: Callable[[], float] = time.perf_counter) -> None:
         self.terminal = sys.stderr.isatty()
         self.patience = 0.0 if at_once else SHORT if self.terminal else LONG
+        self.clock = clock
         self.writing = threading.Lock()
         self.over = threading.Event()
         self.shown = False  # whether there is a line to be cleared
@@ -40,14 +43,16 @@ class Progress:
     def say(self, doing: str) -> None:
         """Start another activity, whose progress is not known yet."""
         self.doing = doing
-        self.began = self.told = time.perf_counter()
+        self.began = self.told = self.clock()
         self.share = 0.0
         self.logged = -1  # percent in the last line of a log
 
     def __call__(self, share: float) -> None:
-        """Set the share that is done."""
-        self.told = time.perf_counter()
+        """Set the share of the expected time that is done. A share of 0 says that the work begins only now."""
+        self.told = self.clock()
         self.share = share
+        if share == 0.0:
+            self.began = self.told
 
     def put(self, line: str, stream: TextIO | None = None) -> None:
         """Write a line that stays, to stderr by default."""
@@ -56,17 +61,26 @@ class Progress:
             print(line, file=stream or sys.stderr, flush=True)
 
     def line(self, now: float) -> str:
-        """For example `render glass-ball 43 %, 12 s left`; the time so far if no share is known."""
+        """For example `render glass-ball 43 %, 12 s left`; the time so far until enough is done to tell what is left."""
+        passed, left = now - self.began, self.left(now)
+        if left is not None:
+            return f"{self.doing} {100 * self.share:.0f} %, {duration(left)} left"
+        return f"{self.doing} ({duration(passed)})" if passed >= SHORT else self.doing
+
+    def left(self, now: float) -> float | None:
+        """The seconds that are left, at the mean speed so far; None if too little is done to tell.
+
+        Until the next share is set, time passes. But a step that takes long never halves what was left before it.
+        """
         share = self.share
-        if share == 0.0:
-            passed = now - self.began
-            return f"{self.doing} ({duration(passed)})" if passed >= SHORT else self.doing
-        left = (self.told - self.began) * (1.0 - share) / share - (now - self.told)
-        return f"{self.doing} {100 * share:.0f} %, {duration(max(0.0, left))} left"
+        if share < TELLING:
+            return None
+        left = (self.told - self.began) * (1.0 - share) / share
+        return max(0.5 * left, left - (now - self.told))
 
     def _run(self) -> None:
         while True:
-            now = time.perf_counter()
+            now = self.clock()
             if now - self.began >= self.patience:
                 with self.writing:
                     self.show(now)
