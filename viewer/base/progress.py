@@ -61,7 +61,7 @@ class Progress:
             print(line, file=stream or sys.stderr, flush=True)
 
     def line(self, now: float) -> str:
-        """For example `render glass-ball 43 %, 12 s left`; the time so far until enough is done to tell what is left."""
+        """For example `render glass-ball 43 %, 12 s left`; the time so far until enough is done to tell the rest."""
         passed, left = now - self.began, self.left(now)
         if left is not None:
             return f"{self.doing} {100 * self.share:.0f} %, {duration(left)} left"

@@ -32,7 +32,12 @@ def report(options: ReportOptions) -> int:
     compile_once()
     with faults():
         parts: list[tuple[str, Callable[[], Chapter]]] = [
-            (name, partial(scene_chapter, prepared(path), lesson.name if lesson else path.stem, options.size, options.quick))
+            (
+                name,
+                partial(
+                    scene_chapter, prepared(path), lesson.name if lesson else path.stem, options.size, options.quick
+                ),
+            )
             for name, (path, lesson) in zip(names, places, strict=True)
         ]
     if options.all:

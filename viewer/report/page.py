@@ -143,7 +143,14 @@ def _table(source: Source) -> list[str]:
         mark = ' class="busy"' if p.times.is_busy else ""
         rows.append(f"<tr{mark}>{''.join(f'<td>{escape(cell)}</td>' for cell in cells)}</tr>")
     head = "".join(f"<th>{name}</th>" for name in ("method", "setting", *shown))
-    return ['<div class="table"><table>', f"<thead><tr>{head}</tr></thead>", "<tbody>", *rows, "</tbody>", "</table></div>"]
+    return [
+        '<div class="table"><table>',
+        f"<thead><tr>{head}</tr></thead>",
+        "<tbody>",
+        *rows,
+        "</tbody>",
+        "</table></div>",
+    ]
 
 
 def _figure(number: float) -> str:
