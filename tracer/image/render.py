@@ -3,7 +3,6 @@
 import math
 import os
 import time
-from collections.abc import Callable
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
@@ -22,9 +21,8 @@ from tracer.image.warmup import warm_up
 from tracer.kernel.limits import BREADTH_FIRST, default_max_rays, image_max_nodes, make_limits
 from tracer.kernel.nodes import KINDS
 from tracer.kernel.world import World
+from tracer.progress import Progress, ignore
 from tracer.scene.radiance_bound import radiance_bound
-
-Progress = Callable[[float], None]
 
 
 @dataclass(eq=False, repr=False)
@@ -113,7 +111,7 @@ def render(
     until_error: float | None = None,
     until_seconds: float | None = None,
     executor: Executor | None = None,
-    progress: Progress = lambda share: None,
+    progress: Progress = ignore,
     cancelled: Cancelled = never,
 ) -> Image:
     """Render the scene's image.

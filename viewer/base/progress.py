@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import TextIO
 
 SHORT = 1.0  # seconds before anything is shown on a terminal
-LONG = 5.0  # the same elsewhere: a line in a log stays
+LONG = 5.0  # seconds that an activity must have taken elsewhere: a line in a log stays
 TICK = 0.2  # seconds between updates
 TELLING = 0.05  # share that must be done before the time left is shown
 STEP = 10  # percent between lines in a log
@@ -29,6 +29,7 @@ class Progress:
         self.over = threading.Event()
         self.shown = False  # whether there is a line to be cleared
         self.say(doing)
+        self.entered = self.began
         self.thread = threading.Thread(target=self._run, daemon=True)
 
     def __enter__(self) -> "Progress":
@@ -40,9 +41,12 @@ class Progress:
         self.thread.join()
         self._clear()
 
-    def say(self, doing: str) -> None:
-        """Start another activity, whose progress is not known yet."""
-        self.doing = doing
+    def say(self, doing: str, only: str = "") -> None:
+        """Start another activity, whose progress is not known yet.
+
+        `only` says what the share and the time left are of, if they are not those of the whole work.
+        """
+        self.doing, self.only = doing, only
         self.began = self.told = self.clock()
         self.share = 0.0
         self.logged = -1  # percent in the last line of a log
@@ -64,7 +68,8 @@ class Progress:
         """For example `render glass-ball 43 %, 12 s left`; the time so far until enough is done to tell the rest."""
         passed, left = now - self.began, self.left(now)
         if left is not None:
-            return f"{self.doing} {100 * self.share:.0f} %, {duration(left)} left"
+            only = f" {self.only}" if self.only else ""
+            return f"{self.doing} {100 * self.share:.0f} %, {duration(left)} left{only}"
         return f"{self.doing} ({duration(passed)})" if passed >= SHORT else self.doing
 
     def left(self, now: float) -> float | None:
@@ -81,7 +86,7 @@ class Progress:
     def _run(self) -> None:
         while True:
             now = self.clock()
-            if now - self.began >= self.patience:
+            if now - (self.entered if self.terminal else self.began) >= self.patience:
                 with self.writing:
                     self.show(now)
             if self.over.wait(TICK):

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from tracer.extras import missing_extra
 from tracer.measure.conditions import Moment
+from tracer.measure.precision.textbook_kernel import warm_up
 from tracer.progress import divided
 from viewer.base.files import Unusable, check_folder, collect, write_atomically
 from viewer.base.options import words
@@ -43,6 +44,9 @@ def report(options: ReportOptions) -> int:
     if options.all:
         parts.append(("stiff trees", stiff_chapter))
     with faults(), Progress("report") as progress:
+        if not options.quick:
+            progress.say("load the kernels with the textbook's formulas (compiled at the first report, forty seconds)")
+            warm_up()
         chapters = []
         for k, (name, make) in enumerate(parts):
             progress.say(f"report: run every setting of {name} once" + numbered(k, len(parts)))

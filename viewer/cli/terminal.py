@@ -4,10 +4,11 @@ import sys
 import time
 
 from tracer.compile.numba_private import NOTE, USES_PRIVATE
-from tracer.image.warmup import are_kernels_cached, fill_cache
+from tracer.image.warmup import fill_cache, missing_kernels
 from viewer.base.progress import Progress
 
-COMPILING = "compile the kernels (only at the first start, about twenty seconds)"
+COMPILING = "compile the kernels (only at the first start, about {} seconds)"
+SECONDS = {1: "twenty", 2: "forty"}  # that so many kernels take
 
 
 def put(text: str) -> None:
@@ -16,15 +17,24 @@ def put(text: str) -> None:
     sys.stdout.buffer.flush()
 
 
-def compile_once() -> float:
-    """Compile all kernels on the first start on a machine, and say so. Returns the seconds it took."""
+def compiling(kernels: int = 1) -> str:
+    """What is said while so many kernels are compiled."""
+    return COMPILING.format(SECONDS[kernels])
+
+
+def compile_once(batch: bool = False) -> float:
+    """Compile all kernels on the first start on a machine, and say so. Returns the seconds it took.
+
+    `batch`: also the kernel that traces many rays by hand.
+    """
     if not USES_PRIVATE:
         put_note(NOTE)
-    if are_kernels_cached():
+    missing = missing_kernels(batch)
+    if not missing:
         return 0.0
     began = time.perf_counter()
-    with Progress(COMPILING, at_once=True):
-        fill_cache()
+    with Progress(compiling(missing), at_once=True):
+        fill_cache(batch)
     return time.perf_counter() - began
 
 

@@ -12,7 +12,7 @@ from viewer.base.pictures import write_picture
 from viewer.base.progress import Progress
 from viewer.cli.loading import faults, find, prepared
 from viewer.cli.options import ViewOptions
-from viewer.cli.terminal import COMPILING, compile_once, put
+from viewer.cli.terminal import compile_once, compiling, put
 from viewer.lessons import lesson as lessons
 from viewer.lessons.lesson import Lesson
 from viewer.session.session import Session
@@ -55,7 +55,9 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: ViewOptions, tar
     try:
         app.session.loader.open(path, lesson, options.depth, options.pixel, options.model, options.up)
         with (
-            Progress(COMPILING, at_once=True) if app.session.warmup.compiles else Progress("load the scene") as progress
+            Progress(compiling(), at_once=True)
+            if app.session.warmup.compiles
+            else Progress("load the scene") as progress
         ):
 
             def say(doing: str) -> None:

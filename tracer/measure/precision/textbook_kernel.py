@@ -18,6 +18,7 @@ from tracer.formulas.camera import pixel_direction
 from tracer.formulas.optics import transmission
 from tracer.formulas.vector import Vector, add, dot, scale, subtract, unit, vector
 from tracer.image.render import render
+from tracer.image.warmup import BALL
 from tracer.kernel.formulas import Formulas, Function
 from tracer.kernel.world import World, prepare
 from tracer.rays import Ray
@@ -29,10 +30,14 @@ KINDS = ("double", "single")
 
 
 def textbook_world(kind: str, scene: Scene) -> World:
-    """The scene, to be traced by the textbook's formulas. Compiles the kernel at the first call on a machine."""
-    world = prepare(scene, formulas=textbook_formulas(kind))
-    render(world, (1, 1))
-    return world
+    """The scene, to be traced by the textbook's formulas."""
+    return prepare(scene, formulas=textbook_formulas(kind))
+
+
+def warm_up() -> None:
+    """Compile the kernels with the textbook's formulas, or load them from disk."""
+    for kind in KINDS:
+        render(textbook_world(kind, BALL), (1, 1))
 
 
 def textbook_formulas(kind: str) -> Formulas:
