@@ -16,7 +16,7 @@ from tracer.image.film import Film, Traced
 from tracer.image.passes import Stopped, trace_passes
 from tracer.image.progressive import MAX_SAMPLES, ProgressiveImage, RoundStats
 from tracer.image.task import Cancelled, RemoteExecutor, Task, Work, never, shared
-from tracer.image.tiles import SHALLOW, SIDE, SMALL_SIDE, make_tiles, scattered
+from tracer.image.tiles import scattered, tiles_of
 from tracer.image.warmup import warm_up
 from tracer.kernel.limits import BREADTH_FIRST, default_max_rays, image_max_nodes, make_limits
 from tracer.kernel.nodes import KINDS
@@ -164,7 +164,7 @@ def render(
         else:
             film, ended, stats, counts = Film(view.width, view.height), "", None, None
             task = Task.of(world, view, limits, points.sampler)
-            tiles = make_tiles(view.width, view.height, SIDE if limits.depth <= SHALLOW else SMALL_SIDE)
+            tiles = tiles_of(view.width, view.height, limits.depth)
             works = [Work(tile, points.first, points.first + points.count) for tile in scattered(tiles)]
 
             def finished(traced: Traced, share: float) -> None:

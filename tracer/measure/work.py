@@ -5,8 +5,10 @@ Sizes of images and numbers of runs follow from it. So they are the same on ever
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 from tracer.image.render import Image
+from tracer.measure.timing import clocked
 
 Size = tuple[int, int]
 
@@ -20,20 +22,30 @@ def work_of(image: Image) -> int:
     return sum(image.rays.values()) + image.tests // TESTS_PER_RAY
 
 
-def work_per_pixel(make: Callable[[Size], Image], size: Size) -> float:
-    """The mean work of a pixel, from images of growing size, until one is work enough, or has this size."""
+class Probe(NamedTuple):
+    """A small image of a scene."""
+
+    pixels: int
+    work: int
+    seconds: float  # processor time
+
+
+def probed(make: Callable[[Size], Image], size: Size) -> Probe:
+    """The first of images of growing size that is work enough, or has this size."""
     pixels = PROBE
     while True:
         probe = shrunk(size, pixels / (size[0] * size[1]))
-        work = work_of(make(probe))
+        image, run = clocked(lambda probe=probe: make(probe))
+        work = work_of(image)
         if work >= ENOUGH or probe == size:
-            return work / (probe[0] * probe[1])
+            return Probe(probe[0] * probe[1], work, run.cpu)
         pixels *= 4
 
 
 def affordable(make: Callable[[Size], Image], size: Size, work: float) -> Size:
     """This size, or a smaller one of the same proportions at which an image takes no more than about this work."""
-    return shrunk(size, work / (work_per_pixel(make, size) * size[0] * size[1]))
+    probe = probed(make, size)
+    return shrunk(size, work * probe.pixels / (probe.work * size[0] * size[1]))
 
 
 def shrunk(size: Size, share: float) -> Size:

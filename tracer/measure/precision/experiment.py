@@ -28,7 +28,7 @@ class Study:
     about: str
     methods: Sequence[Method]
     refer: Callable[[Progress], Reference]
-    reference_work: float = 0.0  # of the images that `refer` makes
+    referring: float = 0.0  # seconds that `refer` is expected to take
     bounded: bool = False  # whether the program's own bound is one on this error
     exact: bool = False  # whether the reference is a closed form
 
@@ -69,13 +69,7 @@ class Experiment:
     @property
     def seconds(self) -> float:
         """The expected time of `measure`, on an idle machine."""
-        return self._reference_seconds + sum(trial.judging + trial.runs * trial.seconds for trial in self.trials)
-
-    @property
-    def _reference_seconds(self) -> float:
-        """The reference's work takes as long as that of the longest setting, for the same work."""
-        longest = max(self.trials, key=lambda trial: trial.work, default=None)
-        return self.study.reference_work * longest.seconds / longest.work if longest else 0.0
+        return self.study.referring + sum(trial.judging + trial.runs * trial.seconds for trial in self.trials)
 
     def measure(self, progress: Progress) -> Source:
         """The error and the time of every setting. `progress` is called with the share that is done."""
@@ -83,7 +77,7 @@ class Experiment:
         costs = [self.trials[k].seconds for k in order]
         for first in {k: order.index(k) for k in order}.values():
             costs[first] += self.trials[order[first]].judging
-        referring, *running = divided(progress, [self._reference_seconds, *costs])
+        referring, *running = divided(progress, [self.study.referring, *costs])
         reference = self.study.refer(referring)
         referring(1.0)
         runs: list[list[Run]] = [[] for _ in self.trials]

@@ -11,13 +11,16 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from tracer.image.render import Image, render
+from tracer.image.render import Image, processors, render
+from tracer.image.tiles import speedup, tiles_of
+from tracer.image.warmup import warm_up
+from tracer.kernel.limits import make_limits
 from tracer.kernel.world import World
 from tracer.measure.precision.errors import errors
 from tracer.measure.precision.experiment import THREADS, Study
 from tracer.measure.precision.precision import Maker, Method, Reference, Setting, cuts
 from tracer.measure.precision.textbook_kernel import KINDS, textbook_world
-from tracer.measure.work import Size, affordable, work_per_pixel
+from tracer.measure.work import Size, affordable, probed
 from tracer.progress import Progress, divided
 from tracer.scene import Scene
 
@@ -70,6 +73,7 @@ def studies(world: World, size: Size, effort: Effort, smaller: bool = False) -> 
 
     `smaller`: images may be smaller if a reference would be too much work.
     """
+    warm_up()
     kinds = [trees_cut, pixels_sampled, both_together] if _branches(world.scene) else [pixels_sampled]
     found = [kind(effort).at(world, size, smaller) for kind in kinds]
     return [*found, kernels(world, size)] if effort.kernels else found
@@ -103,9 +107,20 @@ class SceneStudy:
             second = render(world, size, progress=other, **self.second)
             return Reference(true.pixels, self.said(true), errors(second.pixels, true.pixels))
 
-        work = 2.0 * work_per_pixel(probe, size) * size[0] * size[1]
+        seconds = sum(_expected_seconds(world, size, how) for how in (self.true, self.second))
         methods = self.methods(_maker(world, size))
-        return Study(self.name, self.title, self.about, methods, refer, work, self.bounded)
+        return Study(self.name, self.title, self.about, methods, refer, seconds, self.bounded)
+
+
+def _expected_seconds(world: World, size: Size, how: How) -> float:
+    """The expected time of an image on all processors, from that of a small one on one of them.
+
+    An idle machine divides it by the speedup, a busy one by hardly anything: the root is in between.
+    """
+    cut = {name: how[name] for name in ("depth", "min_weight", "tolerance", "max_nodes") if name in how}
+    tiles = tiles_of(*size, make_limits(world, **cut, records=False).depth)
+    probe = probed(lambda size: render(world, size, **how), size)
+    return probe.seconds * size[0] * size[1] / probe.pixels / math.sqrt(speedup(tiles, processors()))
 
 
 def _maker(world: World, size: Size) -> Maker:
