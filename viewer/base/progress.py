@@ -13,7 +13,7 @@ from typing import TextIO
 SHORT = 1.0  # seconds before anything is shown on a terminal
 LONG = 5.0  # seconds that an activity must have taken elsewhere: a line in a log stays
 TICK = 0.2  # seconds between updates
-TELLING = 0.05  # share that must be done before the time left is shown
+TELLING = 0.1  # share that must be done before the time left is shown: the first parts are no fair sample
 STEP = 10  # percent between lines in a log
 CLEAR = "\r\x1b[K"
 
