@@ -18,13 +18,15 @@ h1 { font-size: 1.6em } h2 { font-size: 1.25em; margin-top: 2em }
 .plots { display: flex; flex-wrap: wrap; gap: 1em } .plots svg { flex: 1 1 26em; max-width: 32em; height: auto }
 table { border-collapse: collapse; font-size: 0.75em; margin: 1em 0; font-variant-numeric: tabular-nums }
 th, td { padding: 0.15em 0.45em; text-align: right; border-bottom: 1px solid #d6dbe1; white-space: nowrap }
+td:first-child { white-space: normal; min-width: 8em } td:nth-child(2) { white-space: normal; min-width: 6em }
 .table { overflow-x: auto }
 th:first-child, td:first-child, th:nth-child(2), td:nth-child(2) { text-align: left }
 .chapter { margin-top: 3em; padding-top: 0.5em; border-top: 3px solid #14181d }
 .warning { border-left: 4px solid #B35C00; background: #FFF4E5; padding: 0.5em 1em }
 .busy td { background: #FFF4E5 }
 .small { color: #5a6572; font-size: 0.9em }
-@media print { body { max-width: none; font-size: 11px } section { break-inside: avoid-page } }
+@media print { body { max-width: none; font-size: 11px } section { break-inside: avoid-page }
+  table { font-size: 0.7em } }
 """
 
 
