@@ -44,13 +44,13 @@ def test_tiles_that_are_done_first_are_a_sample_of_all(part: str, size: tuple[in
 
 @pytest.mark.parametrize("height", [45, 480, 1080])
 def test_rows_of_bounds_that_are_done_first_are_a_sample_of_all(height: int) -> None:
-    """Of any band of rows, as many are done as its share of the image says, but for two."""
+    """Of any band of rows, as many are done as its share of the image says, but for three at most."""
     order = spread(height)
     assert sorted(order) == list(range(height))
     for low, high in ((0.0, 0.3), (0.5, 1.0), (0.4, 0.8)):
         inside = [low * height <= y < high * height for y in order]
         for count, done in enumerate(itertools.accumulate(inside), 1):
-            assert abs(done - sum(inside) * count / height) <= 2.0
+            assert abs(done - sum(inside) * count / height) <= 3.0
 
 
 def test_share_of_a_check_is_that_of_its_expected_seconds() -> None:
