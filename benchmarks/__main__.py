@@ -55,8 +55,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     names = [name for name in PARTS if name in chosen.parts or not chosen.parts]
     try:
         figures, failures = measure([(name, task) for name in names for task in PARTS[name](options)])
-        found = (figures, failures, machine(), options.runs)
-        write_atomically(chosen.output / "bench.json", (as_json(*found) + "\n").encode())
+        found = (figures, failures, machine())
+        write_atomically(chosen.output / "bench.json", (as_json(*found, options.runs) + "\n").encode())
         table = as_markdown(*found)
         write_atomically(chosen.output / "bench.md", table.encode())
         if drawn := as_svg(figures):

@@ -2,7 +2,7 @@
 
 The shipped lessons at their own size. The true image has very many samples; the goal is the error of the image with
 N samples a pixel. Rounds of the adaptive one end when its true error is no larger; between two rounds the error is
-interpolated as a power. Rays are the same in every run.
+interpolated as a power. Rays are the same in every run; seconds are those of a single run.
 """
 
 import math

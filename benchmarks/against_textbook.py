@@ -6,11 +6,12 @@
 import statistics
 
 import tracer
+from benchmarks.results.figure import in_turn
 from tracer.measure.precision.textbook_kernel import textbook_formulas
 from viewer.lessons import lesson
 
 SIZE = (640, 480)
-RUNS = 9
+RUNS = 25
 
 
 def main() -> None:
@@ -19,14 +20,14 @@ def main() -> None:
     for name in lesson.names():
         scene = tracer.load(lesson.read(name).scene)
         ours, theirs = tracer.prepare(scene), tracer.prepare(scene, formulas=textbook)
-        seconds(ours), seconds(theirs)  # compiles
-        ratios = [seconds(ours) / seconds(theirs) for _ in range(RUNS)]
+        pairs = in_turn(RUNS, lambda world=ours: seconds(world), lambda world=theirs: seconds(world))
+        ratios = [a / b for a, b in zip(*pairs, strict=True)]
         print(f"{name:14} {statistics.median(ratios):.2f}   {min(ratios):.2f} .. {max(ratios):.2f}")
 
 
 def seconds(world: tracer.World) -> float:
-    """The least time of three images."""
-    return min(tracer.render(world, SIZE, threads=1).seconds["trace"] for _ in range(3))
+    """The time of an image."""
+    return tracer.render(world, SIZE, threads=1).seconds["trace"]
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ ORDER = (
     "tracer", "tracer.optics", "tracer.nodes", "tracer.cluster",  # the public modules
     "tracer.whitted", "tracer.measure", "tracer.image", "tracer.tree", "tracer.kernel", "tracer.formats",
     "tracer.scene", "tracer.accel", "tracer.shapes", "tracer.fields", "tracer.rays", "tracer.formulas",
-    "tracer.compile", "tracer.processes", "tracer.printable", "tracer.choices", "tracer.extras",
+    "tracer.compile", "tracer.processes", "tracer.printable", "tracer.choices", "tracer.extras", "tracer.progress",
 )  # fmt: skip
 PUBLIC = ("tracer", "tracer.optics", "tracer.nodes", "tracer.cluster")
 

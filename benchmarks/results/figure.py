@@ -14,10 +14,11 @@ class Spread:
     median: float
     low: float
     high: float
+    runs: int = 1
 
     @staticmethod
     def of(values: Sequence[float]) -> "Spread":
-        return Spread(statistics.median(values), min(values), max(values))
+        return Spread(statistics.median(values), min(values), max(values), len(values))
 
 
 @dataclass(frozen=True)

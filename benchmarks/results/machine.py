@@ -5,28 +5,26 @@ import platform
 import re
 import shutil
 import subprocess
-from pathlib import Path
 
 from tracer.image.render import processors
+from tracer.measure.conditions import Moment, processor_model
 
 PACKAGES = ("numpy", "numba", "embreex")
 
 
 def machine() -> dict[str, str | int]:
+    """The machine and its versions, and date and load at the end of the measurement."""
+    ended = Moment()
     return {
-        "processor": processor(),
+        "ended": ended.utc,
+        "load average at the end": ", ".join(f"{load:.2f}" for load in ended.load) if ended.load else "unknown",
+        "processor": processor_model(),
         "cores": processors(),
         "system": f"{platform.system()} {platform.machine()}",
         "python": platform.python_version(),
         **{name: version(name) for name in PACKAGES},
         "povray": povray_version(),
     }
-
-
-def processor() -> str:
-    about = Path("/proc/cpuinfo")
-    found = re.search(r"model name\s*:\s*(.+)", about.read_text()) if about.exists() else None
-    return found.group(1) if found else platform.processor() or "unknown"
 
 
 def version(package: str) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 from benchmarks.results.figure import Figure, Spread
 
 FORMAT = "raytree-bench/1"
-HEAD = ("part", "what", "raytree", "the other", "ratio or value", "lowest .. highest", "wanted", "met")
+HEAD = ("part", "what", "raytree", "the other", "ratio or value", "lowest .. highest", "n", "wanted", "met")
 
 
 def as_json(figures: Sequence[Figure], failures: Mapping[str, str], about: Mapping[str, Any], runs: int) -> str:
@@ -26,7 +26,7 @@ def read_json(path: Path) -> list[Figure]:
     return [Figure.from_dict(row) for row in content["figures"]]
 
 
-def as_markdown(figures: Sequence[Figure], failures: Mapping[str, str], about: Mapping[str, Any], runs: int) -> str:
+def as_markdown(figures: Sequence[Figure], failures: Mapping[str, str], about: Mapping[str, Any]) -> str:
     rows = [HEAD, *(row(figure) for figure in figures)]
     widths = [max(len(line[k]) for line in rows) for k in range(len(HEAD))]
     lines = [
@@ -34,7 +34,7 @@ def as_markdown(figures: Sequence[Figure], failures: Mapping[str, str], about: M
     ]
     lines.insert(1, "|" + "|".join("-" * (width + 2) for width in widths) + "|")
     machine = ", ".join(f"{name} {value}" for name, value in about.items())
-    text = f"Medians of {runs} runs in turn; a ratio is that of neighbouring runs. {machine}.\n\n" + "\n".join(lines)
+    text = f"Medians of n runs in turn; a ratio is that of neighbouring runs. {machine}.\n\n" + "\n".join(lines)
     for name, reason in failures.items():
         text += f"\n\n**{name} could not be run**: {reason}"
     return text + "\n"
@@ -51,6 +51,7 @@ def row(figure: Figure) -> tuple[str, ...]:
         f"{figure.than}: {value(figure.theirs, figure.unit)}" if figure.theirs else figure.than,
         f"{short(verdict.median)}{unit}",
         f"{short(verdict.low)} .. {short(verdict.high)}",
+        f"{verdict.runs}",
         wanted,
         "" if met is None else "yes" if met else "**no**",
     )

@@ -15,7 +15,7 @@ ABOUT = {"processor": "a loom", "cores": 2}
 
 
 def figure(low: float, median: float, high: float, what: str = "weaving", at_least: bool = True) -> Figure:
-    return Figure("loom", what, "m/s", Spread(median, low, high), wanted=2.0, at_least=at_least)
+    return Figure("loom", what, "m/s", Spread(median, low, high, 7), wanted=2.0, at_least=at_least)
 
 
 def test_runs_are_taken_in_turn_and_the_first_is_left_out() -> None:
@@ -31,10 +31,10 @@ def test_runs_are_taken_in_turn_and_the_first_is_left_out() -> None:
 
 def test_ratio_is_that_of_neighbouring_runs() -> None:
     found = compared("p", "w", "s", [1.0, 2.0, 4.0], "x", [2.0, 4.0, 4.0], faster=True, wanted=2.0)
-    assert found.ratio == Spread(2.0, 1.0, 2.0)
+    assert found.ratio == Spread(2.0, 1.0, 2.0, 3)
     assert found.met
     slower = compared("p", "w", "s", [1.0, 2.0, 4.0], "x", [2.0, 4.0, 4.0], wanted=0.4, at_least=False)
-    assert slower.ratio == Spread(0.5, 0.5, 1.0)
+    assert slower.ratio == Spread(0.5, 0.5, 1.0, 3)
     assert slower.met is False
 
 
@@ -47,10 +47,11 @@ def test_json_reads_back(tmp_path: Path) -> None:
 
 
 def test_table_has_a_row_a_figure_and_says_what_was_missed() -> None:
-    text = as_markdown([figure(1, 1.5, 3), figure(1, 2, 3, "warping")], {"loom, dye": "none left"}, ABOUT, 3)
+    text = as_markdown([figure(1, 1.5, 3), figure(1, 2, 3, "warping")], {"loom, dye": "none left"}, ABOUT)
     rows = [line for line in text.splitlines() if line.startswith("| loom")]
     assert "**no**" in rows[0] and "yes" in rows[1]
     assert ">= 2" in rows[0] and "1.5 m/s" in rows[0] and "1 .. 3" in rows[0]
+    assert [cell.strip() for cell in rows[0].split("|")][7] == "7"  # of runs
     assert "**loom, dye could not be run**: none left" in text
 
 

@@ -14,11 +14,13 @@ import pytest
 import tracer
 from tests.viewer.cli.test_cli import raytree
 from tests.viewer.driver import Driver
+from tracer.measure.conditions import Moment
 from tracer.printable import json_text, printable
 from viewer.base.cells import csv_text
 from viewer.figures.catalogue import FORMATS
 from viewer.panels.menu import save_image
 from viewer.report.chapter import Chapter
+from viewer.report.conditions import Conditions
 from viewer.report.page import as_html
 from viewer.session.view_state import Notice, Request
 
@@ -79,7 +81,7 @@ def test_trace(form: str, folder: Path) -> None:
         case "text":
             assert rows[0].startswith(f"{SHOWN}: pixel 20,15 of 40x30")
             assert f'because of the material "{SHOWN}"' in rows[1]
-            assert rows[4].removeprefix("0 camera").strip().startswith(SHOWN)
+            assert rows[4].removeprefix("E camera").strip().startswith(SHOWN)
 
 
 @pytest.mark.parametrize(
@@ -145,7 +147,8 @@ def test_figures(figure: str, folder: Path) -> None:
 
 
 def test_the_report_page() -> None:
-    page = as_html(EVIL, EVIL, [Chapter(EVIL, EVIL, []), Chapter("b", EVIL, [], [EVIL])], {EVIL: EVIL}).decode("utf-8")
+    chapters = [Chapter(EVIL, EVIL, []), Chapter("b", EVIL, [], [EVIL])]
+    page = as_html(EVIL, chapters, Conditions(EVIL, Moment(), Moment())).decode("utf-8")
     assert forbidden(page) == set()
     assert page.count(SHOWN) >= 6
 

@@ -5,15 +5,14 @@ Importing this package loads no reader.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING
 
+from tracer.progress import Progress, ignore
+
 if TYPE_CHECKING:
     from tracer.scene import Scene
-
-Progress = Callable[[float], None]
 
 # The function of each suffix of a mesh file: (path, progress) -> MeshFile.
 MESH_READERS = {
@@ -35,7 +34,7 @@ READERS = {
 }
 
 
-def load(path: str | Path, progress: Progress = lambda share: None, up: str = UP_AXES[0]) -> Scene:
+def load(path: str | Path, progress: Progress = ignore, up: str = UP_AXES[0]) -> Scene:
     """Read the scene in a file. The suffix decides on the format.
 
     `progress` is called with the fraction that has been read, if the reader knows it. `up` is the axis of a mesh file

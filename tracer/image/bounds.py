@@ -22,15 +22,18 @@ import numpy as np
 from tracer.choices import SAMPLERS, SOBOL
 from tracer.formulas.sampler import CENTER, make_samples
 from tracer.image.passes import Stopped
-from tracer.image.render import Progress
 from tracer.image.task import Cancelled, never
+from tracer.image.warmup import warm_up
 from tracer.kernel.limits import image_max_nodes
 from tracer.kernel.world import World, prepare
 from tracer.processes import safe_path
+from tracer.progress import Progress, ignore
 from tracer.scene import Scene
 from tracer.tree.trace import trace
 from tracer.tree.verified.balls import flint
 from tracer.tree.verified.verified import verify
+
+GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 @dataclass(eq=False, repr=False)
@@ -64,7 +67,7 @@ def render_bounds(
     max_rays: int | None = None,
     model: str | None = None,
     sampler: str = SAMPLERS[SOBOL],
-    progress: Progress = lambda share: None,
+    progress: Progress = ignore,
     cancelled: Cancelled = never,
 ) -> Bounds:
     """Bounds of the image that `tracer.render` makes with the same arguments. Slow: about 0.3 ms for each ray.
@@ -90,17 +93,26 @@ def render_bounds(
     numbers = (None,) if points.sampler.kind == CENTER else range(points.count)
     low, high = (np.zeros((view.height, view.width, 3)) for _ in range(2))
     decisions = certified = 0
-    variance = 0.0
+    variances: list[float] = []
+    order = spread(view.height)
     with row_maker(world, processes, options, numbers, cancelled) as rows:
-        for y, row in enumerate(rows(view.height)):
+        progress(0.0)  # only now: processes take seconds to start
+        for done, (y, row) in enumerate(zip(order, rows(order), strict=True), 1):
             low[y], high[y] = row.low, row.high
             decisions, certified = decisions + row.decisions, certified + row.certified
-            variance += row.variance
-            progress((y + 1) / view.height)
+            variances.append(row.variance)
+            progress(done / view.height)
             if cancelled():
                 raise Stopped
-    error = math.sqrt(variance / low.size) if points.count > 1 else math.nan
+    error = math.sqrt(math.fsum(variances) / low.size) if points.count > 1 else math.nan
     return Bounds(low, high, decisions, certified, error, time.perf_counter() - began, points.count, max_nodes)
+
+
+def spread(height: int) -> list[int]:
+    """The rows of an image in an order whose first ones, however many, are spread evenly over it. So the share of the
+    rows that are done is about the share of the work. The order is that of the multiples of the golden ratio, modulo 1.
+    """
+    return sorted(range(height), key=lambda y: y * GOLDEN % 1.0)
 
 
 @dataclass
@@ -118,21 +130,19 @@ class Row:
 def row_maker(
     world: World, processes: int, options: dict[str, Any], numbers: Sequence[int | None], cancelled: Cancelled
 ) -> Iterator[Any]:
-    """A function of the image's height that gives its rows in order, made here or in other processes."""
+    """A function of the numbers of rows that gives these rows in this order, made here or in other processes."""
     if processes == 1:
-        yield lambda height: map(partial(bound_row, world, options, numbers, cancelled), range(height))
+        yield lambda order: map(partial(bound_row, world, options, numbers, cancelled), order)
         return
     processes_of = get_context("spawn")
     with safe_path():
         stop = processes_of.Event()
 
-    def rows(height: int) -> Iterator[Row]:
-        with safe_path():
-            return pool.map(_row, range(height))  # starts the processes
-
     with ProcessPoolExecutor(processes, processes_of, _prepare, (world.scene, options, numbers, stop)) as pool:
         try:
-            yield rows
+            with safe_path():
+                list(pool.map(_started, range(processes)))
+            yield lambda order: pool.map(_row, order)
         except BaseException:
             stop.set()  # a row may take minutes
             pool.shutdown(cancel_futures=True)
@@ -144,6 +154,7 @@ _here: dict[str, Any] = {}  # in a process that makes rows: the function that it
 
 def _prepare(scene: Scene, options: dict[str, Any], numbers: Sequence[int | None], stop: Event) -> None:
     Thread(target=_end_with_parent, daemon=True).start()
+    warm_up()
     _here["row"] = partial(bound_row, prepare(scene), options, numbers, stop.is_set)
 
 
@@ -153,6 +164,10 @@ def _end_with_parent() -> None:
     if parent is not None:
         parent.join()
         os._exit(1)
+
+
+def _started(_: int) -> None:
+    """Do nothing: once this was called, a process has started."""
 
 
 def _row(y: int) -> Row:

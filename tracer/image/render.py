@@ -3,7 +3,6 @@
 import math
 import os
 import time
-from collections.abc import Callable
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
@@ -17,14 +16,13 @@ from tracer.image.film import Film, Traced
 from tracer.image.passes import Stopped, trace_passes
 from tracer.image.progressive import MAX_SAMPLES, ProgressiveImage, RoundStats
 from tracer.image.task import Cancelled, RemoteExecutor, Task, Work, never, shared
-from tracer.image.tiles import SHALLOW, SIDE, SMALL_SIDE, make_tiles, scattered
+from tracer.image.tiles import scattered, tiles_of
 from tracer.image.warmup import warm_up
 from tracer.kernel.limits import BREADTH_FIRST, default_max_rays, image_max_nodes, make_limits
 from tracer.kernel.nodes import KINDS
 from tracer.kernel.world import World
+from tracer.progress import Progress, ignore
 from tracer.scene.radiance_bound import radiance_bound
-
-Progress = Callable[[float], None]
 
 
 @dataclass(eq=False, repr=False)
@@ -113,7 +111,7 @@ def render(
     until_error: float | None = None,
     until_seconds: float | None = None,
     executor: Executor | None = None,
-    progress: Progress = lambda share: None,
+    progress: Progress = ignore,
     cancelled: Cancelled = never,
 ) -> Image:
     """Render the scene's image.
@@ -166,7 +164,7 @@ def render(
         else:
             film, ended, stats, counts = Film(view.width, view.height), "", None, None
             task = Task.of(world, view, limits, points.sampler)
-            tiles = make_tiles(view.width, view.height, SIDE if limits.depth <= SHALLOW else SMALL_SIDE)
+            tiles = tiles_of(view.width, view.height, limits.depth)
             works = [Work(tile, points.first, points.first + points.count) for tile in scattered(tiles)]
 
             def finished(traced: Traced, share: float) -> None:

@@ -50,6 +50,17 @@ def make_tiles(width: int, height: int, side: int = SIDE, step: int = 1, traced:
     ]
 
 
+def tiles_of(width: int, height: int, depth: int) -> list[Tile]:
+    """The tiles of an image that nobody watches, with trees of this depth."""
+    return make_tiles(width, height, SIDE if depth <= SHALLOW else SMALL_SIDE)
+
+
+def speedup(tiles: Sequence[Tile], threads: int) -> float:
+    """How many times as fast so many threads are as one, at most: no two of them trace the same tile."""
+    areas = [(tile.right - tile.left) * (tile.bottom - tile.top) for tile in tiles]
+    return min(float(threads), sum(areas) / max(areas))
+
+
 def scattered(tiles: Sequence[Tile]) -> list[Tile]:
     """The tiles of one pass in an order whose first ones, however many, are spread evenly over the image. So the share
     of the tiles that are done is about the share of the work, although one part of an image may take a thousand times

@@ -7,13 +7,15 @@ compiler or a library reports nothing.
 import sys
 import threading
 import time
+from collections.abc import Callable
 
 from tracer.printable import printable
 from viewer.base.streams import put, put_error, put_raw_error
 
 SHORT = 1.0  # seconds before anything is shown on a terminal
-LONG = 5.0  # the same elsewhere: a line in a log stays
+LONG = 5.0  # seconds that an activity must have taken elsewhere: a line in a log stays
 TICK = 0.2  # seconds between updates
+TELLING = 0.1  # share that must be done before the time left is shown: the first parts are no fair sample
 STEP = 10  # percent between lines in a log
 CLEAR = "\r\x1b[K"
 
@@ -21,13 +23,15 @@ CLEAR = "\r\x1b[K"
 class Progress:
     """A context that shows what is being done, the share that is done, and the time left."""
 
-    def __init__(self, doing: str, at_once: bool = False) -> None:
+    def __init__(self, doing: str, at_once: bool = False, clock: Callable[[], float] = time.perf_counter) -> None:
         self.terminal = sys.stderr is not None and sys.stderr.isatty()
         self.patience = 0.0 if at_once else SHORT if self.terminal else LONG
+        self.clock = clock
         self.writing = threading.Lock()
         self.over = threading.Event()
         self.shown = False  # whether there is a line to be cleared
         self.say(doing)
+        self.entered = self.began
         self.thread = threading.Thread(target=self._run, daemon=True)
 
     def __enter__(self) -> "Progress":
@@ -39,17 +43,22 @@ class Progress:
         self.thread.join()
         self._clear()
 
-    def say(self, doing: str) -> None:
-        """Start another activity, whose progress is not known yet."""
-        self.doing = doing
-        self.began = self.told = time.perf_counter()
+    def say(self, doing: str, only: str = "") -> None:
+        """Start another activity, whose progress is not known yet.
+
+        `only` says what the share and the time left are of, if they are not those of the whole work.
+        """
+        self.doing, self.only = doing, only
+        self.began = self.told = self.clock()
         self.share = 0.0
         self.logged = -1  # percent in the last line of a log
 
     def __call__(self, share: float) -> None:
-        """Set the share that is done."""
-        self.told = time.perf_counter()
+        """Set the share of the expected time that is done. A share of 0 says that the work begins only now."""
+        self.told = self.clock()
         self.share = share
+        if share == 0.0:
+            self.began = self.told
 
     def put(self, line: str) -> None:
         """Write a line that stays, to standard error."""
@@ -64,18 +73,28 @@ class Progress:
             put(f"{printable(line)}\n")
 
     def line(self, now: float) -> str:
-        """For example `render glass-ball 43 %, 12 s left`; the time so far if no share is known."""
-        share, doing = self.share, printable(self.doing)
-        if share == 0.0:
-            passed = now - self.began
-            return f"{doing} ({duration(passed)})" if passed >= SHORT else doing
-        left = (self.told - self.began) * (1.0 - share) / share - (now - self.told)
-        return f"{doing} {100 * share:.0f} %, {duration(max(0.0, left))} left"
+        """For example `render glass-ball 43 %, 12 s left`; the time so far until enough is done to tell the rest."""
+        passed, left, doing = now - self.began, self.left(now), printable(self.doing)
+        if left is not None:
+            only = f" {self.only}" if self.only else ""
+            return f"{doing} {100 * self.share:.0f} %, {duration(left)} left{only}"
+        return f"{doing} ({duration(passed)})" if passed >= SHORT else doing
+
+    def left(self, now: float) -> float | None:
+        """The seconds that are left, at the mean speed so far; None if too little is done to tell.
+
+        Until the next share is set, time passes. But a step that takes long never halves what was left before it.
+        """
+        share = self.share
+        if share < TELLING:
+            return None
+        left = (self.told - self.began) * (1.0 - share) / share
+        return max(0.5 * left, left - (now - self.told))
 
     def _run(self) -> None:
         while True:
-            now = time.perf_counter()
-            if now - self.began >= self.patience:
+            now = self.clock()
+            if now - (self.entered if self.terminal else self.began) >= self.patience:
                 with self.writing:
                     self.show(now)
             if self.over.wait(TICK):

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from tracer.image.bounds import Bounds, render_bounds
-from tracer.image.render import Progress, processors
+from tracer.image.render import processors
 from tracer.kernel.world import World
+from tracer.progress import Progress
 from tracer.scene import Scene
 from tracer.scene.radiance_bound import radiance_bound
 from tracer.tree.digits import number_text

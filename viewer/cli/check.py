@@ -42,7 +42,7 @@ largest error in 500 random problems; "one of 500", below it, is the one with th
 
 def check(options: CheckOptions) -> int:
     cases = chosen(options.cases)
-    compile_once()
+    compile_once(batch=True)
     began = time.perf_counter()
     with Progress("check") as progress:
         results = run_all(cases, progress)

@@ -159,7 +159,7 @@ class PlanOptions:
 
     scene: str = argument("SCENE", TEXT, SCENE_HELP)
     up: str = _up()
-    measure: bool = switch("measure rays and time with and without each capability; about 20 seconds")
+    measure: bool = switch("measure rays and time with and without each capability; about 10 seconds")
     json: bool = switch("print JSON")
 
 

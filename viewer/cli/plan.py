@@ -75,13 +75,13 @@ def as_text(plan: Plan) -> str:
 def _measured(image: Measured, width: int) -> Iterator[str]:
     """The table of what each capability costs."""
     rays = ", ".join(f"{spaced(count)} {kind}" for kind, count in image.rays.items() if count)
-    yield f"MEASURED with and without, in turn. The image: {_size(image.size)}, depth {image.depth}, one thread,"
-    yield from textwrap.wrap(f"{rays} rays", WIDTH)
+    yield f"MEASURED with and without, in turn, n times. The image: {_size(image.size)}, depth {image.depth}, one"
+    yield from textwrap.wrap(f"thread, {rays} rays", WIDTH)
     for needed, title in ((False, "left out: added cost"), (True, "needed: cost")):
         savings = [saving for saving in image.savings if saving.need.needed == needed]
         if savings:
             yield ""
-            yield f"{title:{width + 9}}{'rays':>5}{'ms':>15}{'times':>8}   {'without' if needed else 'with'}"
+            yield f"{title:{width + 9}}{'rays':>5}{'ms':>15}{'times':>8}{'n':>5}   {'without' if needed else 'with'}"
             yield from (_row(saving, image, width) for saving in savings)
         if any(s.times and s.times.is_significant and s.times.extra < 0.0 for s in savings):
             yield f"{'':{width}}  (negative: it saves time)"
@@ -94,12 +94,13 @@ def _row(saving: Saving, image: Measured, width: int) -> str:
     if saving.changed and not saving.need.needed and "another picture" not in note:
         note += f" ({spaced(saving.changed)} px differ)"
     added = signed(saving.rays[1] - saving.rays[0]) if saving.rays else ""
-    took = ratio = ""
+    took = ratio = pairs = ""
     if times := saving.times:
         took = f"{1e3 * times.extra:+.1f}".replace("-", "−") if times.is_significant else "0"
         took += f" ±{1e3 * times.uncertainty:.1f}"
         ratio = f"×{times.ratio:.2f}" if times.is_significant else ""
-    return hanging(f"{saving.need.name:{width}}{added:>14}{took:>15}{ratio:>8}   ", note).rstrip()
+        pairs = str(times.pairs)
+    return hanging(f"{saving.need.name:{width}}{added:>14}{took:>15}{ratio:>8}{pairs:>5}   ", note).rstrip()
 
 
 def hanging(head: str, text: str) -> str:
@@ -117,7 +118,7 @@ def _together(image: Measured) -> list[str]:
     told = (
         f"With all left-out capabilities that do not change the image ({together.how}; {same}): "
         f"{spaced(together.rays[1])} rays instead of {spaced(together.rays[0])}, {after:.1f} ms instead of "
-        f"{before:.1f}, ×{times.ratio:.2f}."
+        f"{before:.1f}, ×{times.ratio:.2f} (medians of {times.pairs} pairs)."
     )
     return textwrap.wrap(told, WIDTH)
 

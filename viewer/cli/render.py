@@ -42,10 +42,8 @@ def render(options: RenderOptions) -> int:
     compiling = 0.0 if options.dask else compile_once()
     with Progress("render") as progress, executor_of(options.dask, progress) as (executor, connecting):
         for k, job in enumerate(jobs):
-            if many:
-                progress.doing = f"render {job.name} ({k + 1} of {len(jobs)})"
             try:
-                figures = render_one(job, options, executor, progress, Share(progress, k, len(jobs)))
+                figures = render_one(job, options, executor, progress, f" ({k + 1} of {len(jobs)})" if many else "")
             except Unusable as fault:
                 if not many:
                     raise
@@ -59,23 +57,6 @@ def render(options: RenderOptions) -> int:
         document = {"images": stats} if many else stats[0]
         write_atomically(options.stats, (json_text(document, indent=1) + "\n").encode("utf-8"))
     return 0 if len(stats) == len(jobs) else 2
-
-
-@dataclass(frozen=True)
-class Share:
-    """Turns the share of image k that is done into the share of all images."""
-
-    progress: Progress
-    k: int
-    count: int
-
-    def __call__(self, share: float) -> None:
-        self.progress((self.k + share) / self.count)
-
-    def say(self, doing: str) -> None:
-        """Show what a single image is waiting for. With several images, the line is about all of them."""
-        if self.count == 1:
-            self.progress.say(doing)
 
 
 @contextlib.contextmanager
@@ -96,29 +77,32 @@ def executor_of(address: str | None, progress: Progress) -> Iterator[tuple[Execu
 
 
 def render_one(
-    job: RenderJob, options: RenderOptions, executor: Executor | None, progress: Progress, share: Share
+    job: RenderJob, options: RenderOptions, executor: Executor | None, progress: Progress, number: str
 ) -> dict[str, Any]:
-    """Load, prepare, trace and write one image. Returns its part of `--stats`."""
-    name = f"{job.name}: " if share.count > 1 else ""
+    """Load, prepare, trace and write one image. Returns its part of `--stats`.
+
+    `number` says which of several images it is; empty for a single one.
+    """
+    name, only = (f"{job.name}: ", "of this image") if number else ("", "")
     with faults():
         began = time.perf_counter()
-        share.say(f"load {job.name}")
-        scene = tracer.load(job.scene, progress if share.count == 1 else lambda share: None, options.up)
+        progress.say(f"load {job.name}{number}", only)
+        scene = tracer.load(job.scene, progress, options.up)
         loaded = time.perf_counter()
-        share.say(f"prepare {job.name}")
+        progress.say(f"prepare {job.name}{number}", only)
         world = tracer.prepare(scene)
         for note in world.notes:
             progress.put(f"note: {note}")
         prepared = time.perf_counter()
         if options.bounds:
-            share.say(f"bounds of {job.name}")
-            bounds = bounds_of(world, options, share)
+            progress.say(f"bounds of {job.name}{number}", only)
+            bounds = bounds_of(world, options, progress)
             job.target.parent.mkdir(exist_ok=True)
             write_bounds(job.target, bounds.low, bounds.high)
             put_summary(progress, name, scene, bounds)
             seconds = {"load": loaded - began, "prepare": prepared - loaded, "compile": 0.0, "trace": bounds.seconds}
             return {"scene": str(job.scene), "image": str(job.target), "seconds": seconds, **bounds_stats(bounds)}
-        share.say(f"render {job.name}")
+        progress.say(f"render {job.name}{number}", only)
         image = tracer.render(
             world,
             samples=options.samples,
@@ -127,10 +111,10 @@ def render_one(
             until_error=options.until_error,
             until_seconds=options.until_seconds,
             executor=executor,
-            progress=share,
+            progress=progress,
             **limits_of(options),
         )
-    share.say(f"write {job.target.name}")
+    progress.say(f"write {job.target.name}{number}", only)
     job.target.parent.mkdir(exist_ok=True)
     write_picture(job.target, image.pixels)
     if image.stats:

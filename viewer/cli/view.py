@@ -14,7 +14,7 @@ from viewer.base.progress import Progress
 from viewer.base.streams import put
 from viewer.cli.loading import faults, find, prepared
 from viewer.cli.options import ViewOptions
-from viewer.cli.terminal import COMPILING, compile_once
+from viewer.cli.terminal import compile_once, compiling
 from viewer.lessons import lesson as lessons
 from viewer.lessons.lesson import Lesson
 from viewer.session.session import Session
@@ -60,7 +60,9 @@ def take_screenshot(path: Path, lesson: Lesson | None, options: ViewOptions, tar
     try:
         app.session.loader.open(path, lesson, options.depth, options.pixel, options.model, options.up)
         with (
-            Progress(COMPILING, at_once=True) if app.session.warmup.compiles else Progress("load the scene") as progress
+            Progress(compiling(), at_once=True)
+            if app.session.warmup.compiles
+            else Progress("load the scene") as progress
         ):
 
             def say(doing: str) -> None:

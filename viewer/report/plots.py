@@ -1,7 +1,7 @@
 """Plots of error against work: one curve per method, one marker per setting, logarithmic axes. Lower left is better.
 
 Curves differ in marker and dash as well as in colour, and are named below the plot, never over it. A hollow marker
-is the bound or estimate that the program itself gives.
+is the bound or estimate that the program itself gives. A bar reaches from the lower to the upper quartile of the time.
 """
 
 import io
@@ -16,7 +16,7 @@ from tracer.measure.precision.precision import Curve, Point, Source
 LOOKS = (("#0072B2", "o", "-"), ("#B35C00", "s", "--"), ("#11723F", "^", "-."), ("#5A5A5A", "D", ":"))
 INK, GRID = "#14181D", "#D6DBE1"
 WORK: dict[str, tuple[str, Callable[[Point], float]]] = {
-    "seconds": ("time (s)", lambda point: point.seconds),
+    "seconds": ("time (s)", lambda point: point.times.seconds),
     "rays": ("rays traced", lambda point: float(point.rays)),
     "tests": ("ray-surface intersection tests", lambda point: float(point.tests)),
 }
@@ -39,6 +39,7 @@ def plot(source: Source, work: str, measure: str) -> dict[str, bytes]:
         names = [name_of(curve) for curve in source.curves]
         canvas.legend(loc="outside lower center", ncols=1 if max(map(len, names)) > WORDY else 2, frameon=False)
         canvas.draw_without_rendering()  # only then are the axes in their final place
+        canvas.set_layout_engine("none")  # and stay there
         _say(axes, ends)
         return {name: _saved(canvas, name) for name in FORMATS}
 
@@ -61,6 +62,10 @@ def _draw(axes: Any, source: Source, work: str, measure: str) -> "Sequence[End]"
             continue
         x, y = [cost(p) for p in points], [error_of(p, measure) for p in points]
         axes.plot(x, y, color=color, marker=marker, linestyle=dash, linewidth=1.8, markersize=6, label=name_of(curve))
+        if work == "seconds":
+            off = [(p.times.seconds - p.times.lower, p.times.upper - p.times.seconds) for p in points]
+            bars = list(zip(*off, strict=True))
+            axes.errorbar(x, y, xerr=bars, color=color, fmt="none", elinewidth=1.2, capsize=3.0)
         ends += [(points[k].label, color, x[k], y[k]) for k in sorted({0, len(points) - 1})]
         by_itself, word = said_of(source, measure)
         said = [(cost(p), by_itself(p)) for p in points if 0.0 < by_itself(p) < math.inf]
@@ -88,23 +93,31 @@ def _draw(axes: Any, source: Source, work: str, measure: str) -> "Sequence[End]"
 
 
 def _say(axes: Any, ends: "Sequence[End]") -> None:
-    """Write names beside their markers, in the colour of the curve, over no curve and no other name."""
-    taken = [(x - 4.0, y - 4.0, x + 4.0, y + 4.0) for x, y in _inked(axes)]
-    taken.append((-math.inf, -math.inf, axes.bbox.x0, math.inf))  # the axis has numbers of its own
+    """Write names beside their markers, in the colour of the curve, over no curve and no other name if possible, and
+    never over the numbers of an axis or the edge of the plot.
+    """
+    inked = [(x - 4.0, y - 4.0, x + 4.0, y + 4.0) for x, y in _inked(axes)]
+    names: list[Box] = []
+    left, bottom, right, top = axes.bbox.x0, axes.bbox.y0, axes.figure.bbox.x1, axes.figure.bbox.y1
     said: list[tuple[str, float, float]] = []
     for label, ink, x, y in ends:
         at_x, at_y = axes.transData.transform((x, y))
         if any(label == name and math.dist((at_x, at_y), at) < SAME for name, *at in said):
             continue
         said.append((label, at_x, at_y))
-        wide, high = 5.8 * len(label), 10.0
+        wide, high = 6.2 * len(label), 10.0
 
         def covers(place: tuple[bool, int], x: float = at_x, y: float = at_y, w: float = wide, h: float = high) -> Box:
-            left = x + 7.0 if place[0] else x - 7.0 - w
-            return (left, y + place[1], left + w, y + place[1] + h)
+            start = x + 7.0 if place[0] else x - 7.0 - w
+            return (start, y + place[1], start + w, y + place[1] + h)
 
-        best = min(PLACES, key=lambda place: sum(_meet(covers(place), other) for other in taken))
-        taken.append(covers(best))
+        def cost(place: tuple[bool, int], covers: Callable[[tuple[bool, int]], Box] = covers) -> tuple[bool, int, int]:
+            box = covers(place)
+            is_outside = box[0] < left or box[1] < bottom or box[2] > right or box[3] > top
+            return is_outside, sum(_meet(box, name) for name in names), sum(_meet(box, ink) for ink in inked)
+
+        best = min(PLACES, key=cost)
+        names.append(covers(best))
         axes.annotate(
             label, (x, y), textcoords="offset points", xytext=(7 if best[0] else -7, best[1]),
             ha="left" if best[0] else "right", fontsize=9, color=ink,
@@ -114,7 +127,7 @@ def _say(axes: Any, ends: "Sequence[End]") -> None:
 End = tuple[str, str, float, float]  # a marker's name, its colour, and its place
 Box = tuple[float, float, float, float]  # left, bottom, right, top, in points
 # offsets of a name, the best first
-PLACES = tuple((right, up) for up in (5, -14, 17, -26, 30, -39) for right in (True, False))
+PLACES = tuple((right, up) for up in (5, -14, 17, -26, 30, -39, 43, -52) for right in (True, False))
 
 
 def _meet(a: Box, b: Box) -> bool:
@@ -122,14 +135,16 @@ def _meet(a: Box, b: Box) -> bool:
 
 
 def _inked(axes: Any) -> list[tuple[float, float]]:
-    """Points on curves and markers, a few points apart."""
+    """Points on curves, bars and markers, a few points apart."""
     found: list[tuple[float, float]] = []
+    chains = [axes.transData.transform(segment) for bars in axes.collections for segment in bars.get_segments()]
     for line in axes.lines:
         places = line.get_transform().transform(line.get_xydata())
         found += [tuple(place) for place in places]
-        if line.get_linestyle() == "None":
-            continue
-        for (x0, y0), (x1, y1) in pairwise(places):
+        if line.get_linestyle() != "None":
+            chains.append(places)
+    for chain in chains:
+        for (x0, y0), (x1, y1) in pairwise(chain):
             count = int(math.dist((x0, y0), (x1, y1)) / 6.0)
             found += [(x0 + k / count * (x1 - x0), y0 + k / count * (y1 - y0)) for k in range(1, count)]
     return found

@@ -57,7 +57,7 @@ def test_private_parts_are_left_out_and_a_note_says_so(tmp_path: Path) -> None:
 def test_command_line_prints_the_note(tmp_path: Path) -> None:
     program = "import sys\nfrom unittest.mock import patch\nsys.stderr = sys.stdout\n"
     program += "from viewer.cli import terminal\n"
-    program += "with patch.object(terminal, 'are_kernels_cached', lambda: True): terminal.compile_once()\n"
+    program += "with patch.object(terminal, 'missing_kernels', lambda batch: 0): terminal.compile_once()\n"
     (line,) = newer(program, tmp_path)
     assert line.startswith("note: numba 99.0.0 is newer")
 

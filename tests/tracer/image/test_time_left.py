@@ -7,8 +7,11 @@ import pytest
 
 import tracer
 from tests.scenes import MATTE, ball, plane, world_of
+from tracer.image.bounds import spread
 from tracer.image.render import Goal
 from tracer.image.tiles import Tile, make_tiles, scattered
+from tracer.image.warmup import fill_cache, missing_kernels
+from tracer.measure.check.check import CASES, run_all
 from tracer.scene import Light
 
 PARTS: dict[str, Callable[[float, float], bool]] = {  # of an image from 0,0 to 1,1
@@ -37,6 +40,33 @@ def test_tiles_that_are_done_first_are_a_sample_of_all(part: str, size: tuple[in
     for count, done in enumerate(itertools.accumulate(map(is_inside, order)), 1):
         if count >= len(tiles) / 10:
             assert done / total == pytest.approx(count / len(tiles), rel=0.2)
+
+
+@pytest.mark.parametrize("height", [45, 480, 1080])
+def test_rows_of_bounds_that_are_done_first_are_a_sample_of_all(height: int) -> None:
+    """Of any band of rows, as many are done as its share of the image says, but for three at most."""
+    order = spread(height)
+    assert sorted(order) == list(range(height))
+    for low, high in ((0.0, 0.3), (0.5, 1.0), (0.4, 0.8)):
+        inside = [low * height <= y < high * height for y in order]
+        for count, done in enumerate(itertools.accumulate(inside), 1):
+            assert abs(done - sum(inside) * count / height) <= 3.0
+
+
+def test_share_of_a_check_is_that_of_its_expected_seconds() -> None:
+    """A family of random problems counts more than a single problem."""
+    cases = [one for one in CASES if one.id in ("B1", "D1", "D2")]
+    told: list[float] = []
+    run_all(cases, told.append)
+    total = sum(one.seconds for one in cases)
+    assert told == pytest.approx([sum(one.seconds for one in cases[: k + 1]) / total for k in range(3)])
+    assert told[0] > 0.9
+
+
+def test_the_kernels_that_a_check_needs_are_known_before_it_begins() -> None:
+    """Those of images and of many rays by hand; after `fill_cache` none is missing."""
+    fill_cache(batch=True)
+    assert missing_kernels() == missing_kernels(batch=True) == 0
 
 
 def test_share_of_an_adaptive_image_grows_within_a_round() -> None:

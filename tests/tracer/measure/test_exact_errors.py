@@ -7,12 +7,13 @@ import pytest
 
 import tracer
 from tests.scenes import DARK, MATTE, OPEN, disc, world_of
-from tests.tracer.measure.test_precision import ACROSS, DISTANCE, EXACT, FOV, HEIGHT, RISE, edge_image
+from tests.tracer.measure.test_precision import ACROSS, DISTANCE, EXACT, FOV, HEIGHT, RISE, edge_image, measured
 from tracer.image.render import render
 from tracer.measure.check.case import U
 from tracer.measure.precision.errors import errors
-from tracer.measure.precision.precision import Curve, Method, Reference, Setting, Source, measured
-from tracer.measure.precision.stiff import BOUNCES, KEPT, MIRRORED, PROBLEMS, Problem, solved, steps
+from tracer.measure.precision.experiment import Experiment
+from tracer.measure.precision.precision import Curve, Method, Reference, Setting, Source
+from tracer.measure.precision.stiff import BOUNCES, KEPT, MIRRORED, PROBLEMS, Problem, study_of
 from tracer.scene import Camera, Light, Object
 from tracer.shapes.polygon import Polygon
 
@@ -25,9 +26,9 @@ def curves(world: tracer.World, across: int, true: np.ndarray, sampler: str, cou
     settings = [
         Setting(f"{n}", n, lambda n=n: render(world, (across, across), samples=n, sampler=sampler)) for n in counts
     ]
-    curve, failures = measured(Method(sampler, settings, -0.5), Reference(true, "closed form", EXACT), lambda: None)
-    assert failures == []
-    return curve
+    found = measured(Method(sampler, settings, -0.5), Reference(true, "closed form", EXACT))
+    assert found.failures == ()
+    return found.curves[0]
 
 
 def test_a_disc_of_known_area_in_every_pixel() -> None:
@@ -80,13 +81,17 @@ def test_a_smooth_pixel() -> None:
     size, counts = (16, 16), (16, 64, 256, 1024)
     true = render(world, size, samples=65536).pixels
     settings = [Setting(f"{n}", n, lambda n=n: render(world, size, samples=n, sampler="jittered")) for n in counts]
-    curve, _ = measured(Method("jittered", settings, -1.0), Reference(true, "very many", EXACT), lambda: None)
+    (curve,) = measured(Method("jittered", settings, -1.0), Reference(true, "very many", EXACT)).curves
     assert curve.fitted == pytest.approx(-1.0, abs=0.05)
+
+
+def solved(problem: Problem) -> Source:
+    return Experiment(study_of(problem)).measure(lambda share: None)
 
 
 @pytest.fixture(scope="module")
 def found() -> dict[str, Source]:
-    return {problem.name: solved(problem, lambda: None) for problem in PROBLEMS}
+    return {problem.name: solved(problem) for problem in PROBLEMS}
 
 
 def at(source: Source, method: int) -> dict[float, float]:
@@ -98,7 +103,7 @@ def test_no_bound_is_below_an_error(found: dict[str, Source]) -> None:
     for problem in PROBLEMS:
         source = found[problem.name]
         points = [point for curve in source.curves for point in curve.points]
-        assert len(points) == steps(problem)
+        assert len(points) == len(problem.depths) + len(problem.weights) + len(problem.tolerances)
         assert source.failures == ()
         for point in points:
             assert point.errors.largest <= point.bound < math.inf, (problem.name, point.label)
@@ -142,7 +147,7 @@ def test_the_slab_s_sum_and_the_pile_s_come_within_what_was_asked(found: dict[st
 def test_measures_of_a_cut_are_of_the_closed_form() -> None:
     """A source's table of errors holds the errors of its images."""
     problem: Problem = PROBLEMS[-1]
-    source = solved(problem, lambda: None)
+    source = solved(problem)
     point = source.curves[0].points[0]
     pixels = source.reference.pixels - point.errors.largest
     assert point.errors.rmse == pytest.approx(errors(pixels, source.reference.pixels).rmse, rel=1e-12)

@@ -1,6 +1,8 @@
 """Error against work: measures follow their definitions, slopes follow theory, bounds hold, faults are listed."""
 
+import itertools
 import math
+import time
 
 import numpy as np
 import pytest
@@ -8,15 +10,21 @@ import pytest
 import tracer
 from tests.scenes import MATTE, OPEN, ball, world_of
 from tracer.image.render import render
+from tracer.measure.precision import experiment, sources
 from tracer.measure.precision.errors import Errors, encoded, errors, flip
-from tracer.measure.precision.precision import Method, Reference, Setting, measured
-from tracer.measure.precision.sources import Effort, left_out, sources
+from tracer.measure.precision.experiment import Experiment, Study
+from tracer.measure.precision.precision import Method, Reference, Setting, Source
+from tracer.measure.precision.sources import Effort, left_out, studies
 from tracer.scene import Camera, Object
 from tracer.shapes.polygon import Polygon
 
 TINY = Effort((0, 1, 2, 3), (1e-1, 1e-2), (1e-1, 1e-2, 1e-3), (1, 4, 16), 64, (0.03, 0.01))
 SIZE = (16, 12)
 EXACT = Errors(0.0, 0.0, 0.0, 0.0)
+
+
+def measured(method: Method, reference: Reference) -> Source:
+    return Experiment(Study("", "", "", [method], lambda progress: reference)).measure(lambda share: None)
 
 
 def test_measures_by_hand() -> None:
@@ -122,8 +130,9 @@ def test_an_edge_in_closed_form_is_approached_as_theory_says(sampler: str, wante
     settings = [
         Setting(f"{n}", n, lambda n=n: render(world, (ACROSS, ACROSS), n, sampler=sampler)) for n in (4, 16, 64, 256)
     ]
-    curve, failures = measured(Method(sampler, settings, wanted), reference, lambda: None)
-    assert failures == []
+    found = measured(Method(sampler, settings, wanted), reference)
+    (curve,) = found.curves
+    assert found.failures == ()
     assert curve.fitted == pytest.approx(wanted, abs=0.05)
 
 
@@ -134,7 +143,8 @@ def test_no_bound_is_below_the_error(worlds: dict[str, tracer.World]) -> None:
     """If the program states an upper bound of the missing light, no pixel misses more, beyond the reference's own
     error.
     """
-    (trees, *_) = sources(worlds["plates"], SIZE, TINY)
+    (study, *_) = studies(worlds["plates"], SIZE, TINY)
+    trees = Experiment(study).measure(lambda share: None)
     assert trees.name == "trees"
     points = [point for curve in trees.curves for point in curve.points]
     assert len(points) == len(TINY.depths) + len(TINY.weights) + len(TINY.tolerances)
@@ -147,7 +157,8 @@ def test_no_bound_is_below_the_error(worlds: dict[str, tracer.World]) -> None:
 def test_a_scene_that_branches_nowhere_has_no_trees_to_cut() -> None:
     world = world_of(ball(material=MATTE))
     steps: list[float] = []
-    (pixels,) = sources(world, SIZE, TINY, steps.append)
+    (study,) = studies(world, SIZE, TINY)
+    pixels = Experiment(study).measure(steps.append)
     assert pixels.name == "pixels"
     assert any("no surface reflects or transmits" in line for line in left_out(world.scene, TINY))
     assert steps == sorted(steps)
@@ -161,6 +172,59 @@ def test_what_fails_is_listed_not_dropped() -> None:
         Setting("5 samples", 5, lambda: render(world, SIZE, 5, sampler="jittered")),
         Setting("4 samples", 4, lambda: render(world, SIZE, 4, sampler="jittered")),
     ]
-    curve, failures = measured(Method("jittered", settings), reference, lambda: None)
+    found = measured(Method("jittered", settings), reference)
+    (curve,) = found.curves
     assert [point.label for point in curve.points] == ["4 samples"]
-    assert failures == ["jittered, 5 samples: jittered samples must be a square number like 4, got 5"]
+    assert found.failures == ("jittered, 5 samples: jittered samples must be a square number like 4, got 5",)
+
+
+# --- runs -------------------------------------------------------------------------------------------------------------
+
+
+def test_all_settings_run_in_turn_and_as_often_as_their_work_says(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every setting runs once for its work; then in rounds, from the first to the last, however long it takes."""
+    monkeypatch.setattr(experiment, "FEWEST", 5)
+    monkeypatch.setattr(experiment, "MOST", 20)
+    world = world_of(ball(material=MATTE))
+    ran: list[str] = []
+
+    def setting(label: str, samples: int) -> Setting:
+        def make() -> tracer.Image:
+            ran.append(label)
+            return render(world, (64, 48), samples, threads=1)
+
+        return Setting(label, samples, make)
+
+    methods = [Method("few", [setting("a", 1), setting("b", 4)]), Method("many", [setting("c", 256)])]
+    reference = Reference(np.zeros((48, 64, 3)), "nothing", EXACT)
+    tried = Experiment(Study("", "", "", methods, lambda progress: reference))
+    assert ran == ["a", "b", "c"]
+    found = tried.measure(lambda share: None)
+    runs = {point.label: point.times.runs for curve in found.curves for point in curve.points}
+    assert (runs["a"], runs["c"]) == (20, 5)
+    assert {label: ran.count(label) - 1 for label in ran} == runs
+    turns = "".join(ran[3:])
+    assert turns.replace("c", "") == "ab" * 20
+    gaps = [len(part) for part in turns.split("c")]
+    assert max(gaps[1:]) - min(gaps[1:-1]) <= 2
+    assert gaps[0] <= max(gaps[1:])
+
+
+def test_size_follows_from_counts_and_not_from_a_clock(
+    worlds: dict[str, tracer.World], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A clock on which everything takes a day changes no size, no work and no number of runs."""
+    monkeypatch.setattr(experiment, "MOST", 20)
+    monkeypatch.setattr(sources, "REFERENCE_WORK", 1e6)
+
+    def found() -> list[tuple]:
+        given = [Experiment(study) for study in studies(worlds["plates"], (400, 300), TINY, smaller=True)]
+        return [
+            (one.study.name, [(trial.setting.label, trial.work, trial.runs) for trial in one.trials]) for one in given
+        ]
+
+    fast = found()
+    day = itertools.count(0.0, 86400.0)
+    for name in ("perf_counter", "process_time"):
+        monkeypatch.setattr(time, name, lambda: next(day))
+    assert found() == fast

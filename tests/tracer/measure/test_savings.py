@@ -1,6 +1,8 @@
 """`raytree plan --measure`: each variant does the work that is left out, for the same image. No test of time."""
 
 import dataclasses
+import itertools
+import time
 
 import numpy as np
 import pytest
@@ -161,7 +163,32 @@ def test_turns_are_medians_of_pairs() -> None:
         said.append("b")
         return 3.0
 
-    turns = paired(without, with_it, 60.0)
+    turns = paired(without, with_it, 7)
     assert (turns.without, turns.extra, turns.ratio, turns.uncertainty) == (2.0, 1.0, 1.5, 0.0)
     assert "".join(said).startswith("abbaab")
-    assert said.count("a") == said.count("b") == turns.pairs
+    assert said.count("a") == said.count("b") == turns.pairs == 7
+
+
+def test_the_same_sizes_and_runs_whatever_the_clock_says(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A clock on which everything takes a day: the same images, as often."""
+
+    def counted(plan: Measured) -> list[tuple]:
+        every = (*plan.savings, plan.together)
+        return [(plan.size, saving.size, saving.rays, saving.times and saving.times.pairs) for saving in every]
+
+    fast = measure(matte())
+    day = itertools.count(0.0, 86400.0)
+    for name in ("perf_counter", "process_time"):
+        monkeypatch.setattr(time, name, lambda: next(day))
+    assert counted(measure(matte())) == counted(fast)
+
+
+def test_progress_of_a_plan_is_that_of_its_runs() -> None:
+    """The share grows by the work of each pair of runs, and is 1 in the end."""
+    told: list[float] = []
+    plan = measure(matte(), told.append)
+    assert told[0] == 0.0
+    assert told[-1] == 1.0
+    assert told == sorted(told)
+    runs = [saving.times.pairs for saving in (*plan.savings, plan.together) if saving.times]
+    assert len(told) == 1 + sum(runs)

@@ -1,16 +1,28 @@
 """`raytree report`: a self-contained page, plots and data; equal every time except for the times."""
 
 import csv
+import html
 import json
+import math
 import re
 import xml.etree.ElementTree as xml
+from datetime import datetime, timedelta
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from tracer.measure.conditions import Moment
+from tracer.measure.precision.errors import Errors
+from tracer.measure.precision.precision import Curve, Point, Reference, Source
 from tracer.measure.precision.stiff import PROBLEMS
+from tracer.measure.timing import Times
 from viewer.cli import main
 from viewer.lessons import lesson
+from viewer.report.chapter import Chapter
+from viewer.report.conditions import Conditions
+from viewer.report.data import as_json
+from viewer.report.page import as_html
 
 ARGUMENTS = ["--quick", "--size", "16x12"]
 
@@ -71,15 +83,79 @@ def test_data_says_the_same(folder: Path) -> None:
         assert row["setting"] == point["label"]
         assert float(row["rmse"]) == point["errors"]["rmse"]
         assert int(row["rays"]) == point["rays"]
+        assert int(row["runs"]) == point["runs"] >= 1
+        for name in ("seconds", "lower_quartile", "upper_quartile", "cpu_seconds"):
+            assert float(row[name]) == point[name] > 0.0
+        assert point["lower_quartile"] <= point["seconds"] <= point["upper_quartile"]
+        assert (row["busy"] == "True") == point["busy"]
+
+
+def test_page_and_data_say_when_and_on_what_machine(folder: Path) -> None:
+    page = html.unescape((folder / "report.html").read_text("utf-8"))
+    document = json.loads((folder / "report.json").read_text("utf-8"))
+    began, ended = (datetime.fromisoformat(document[name]["utc"]) for name in ("began", "ended"))
+    assert began.utcoffset() == timedelta(0)
+    assert abs((ended - began).total_seconds() - document["duration"]) <= 1.0
+    assert document["command"] == "raytree report plates --size 16x12 --quick"
+    assert f"from {began:%Y-%m-%d %H:%M:%S} UTC to {ended:%Y-%m-%d %H:%M:%S} UTC" in page
+    for name in ("began", "ended"):
+        assert ", ".join(f"{load:.2f}" for load in document[name]["load"]) in page
+    for name, value in document["machine"].items():
+        assert f"{name}: {value}" in page
+    assert {"processor", "processors", "threads of a timed run", "system", "numba"} <= set(document["machine"])
+    assert document["command"] in page
+
+
+def test_rows_state_runs_median_and_quartiles(folder: Path) -> None:
+    page = (folder / "report.html").read_text("utf-8")
+    heads = re.findall(r"<thead><tr>(.*?)</tr></thead>", page)
+    assert len(heads) == 3
+    for head in heads:
+        names = re.findall(r"<th>(.*?)</th>", head)
+        assert names[2:6] == ["n", "median (ms)", "quartiles (ms)", "CPU (ms)"]
+    assert "least of" not in page
+
+
+def chapter(*times: Times) -> Chapter:
+    errors = Errors(0.1, 0.1, 0.1, 0.1)
+    points = tuple(Point(f"depth {k}", k, time, 100, 100, errors, 1.0, math.nan) for k, time in enumerate(times))
+    reference = Reference(np.zeros((2, 2, 3)), "nothing", errors)
+    return Chapter("a", "A", [], sources=[Source("s", "S", "", reference, (Curve("m", points, None, None),))],
+                   plots={"s": []})  # fmt: skip
+
+
+def test_a_busy_machine_is_warned_of_at_the_row_and_at_the_top() -> None:
+    quiet, busy = Times(5, 1.0, 0.9, 1.1, 0.99), Times(5, 2.0, 1.5, 2.5, 0.5)
+    conditions = Conditions("raytree report", Moment(load=None), Moment())
+    page = as_html("A", [chapter(quiet, busy, quiet)], conditions).decode()
+    assert page.index('<p class="warning">') < page.index("<h2")
+    assert "in 1 of 3 settings" in page
+    rows = re.findall(r"<tr( class=\"busy\")?><td>m</td><td>(depth \d)</td>", page)
+    assert [label for mark, label in rows if mark] == ["depth 1"]
+    assert "<td>75 %</td>" in page
+    document = json.loads(as_json([chapter(quiet, busy, quiet)], conditions))
+    assert [p["busy"] for p in document["scenes"][0]["sources"][0]["curves"][0]["points"]] == [False, True, False]
+    assert len(document["warnings"]) == 1
+    assert document["began"]["load"] is None
+
+    page = as_html("A", [chapter(quiet, quiet)], conditions).decode()
+    assert 'class="warning"' not in page
+    assert 'class="busy"' not in page
+    assert json.loads(as_json([chapter(quiet)], conditions))["warnings"] == []
 
 
 def test_the_same_again_but_for_the_times(folder: Path, tmp_path: Path, one_plot: None) -> None:
     assert main.main(["report", "plates", *ARGUMENTS, "-o", str(tmp_path)]) == 0
 
     def timeless(path: Path) -> str:
-        return re.sub(r'"seconds": [^,\n]+', "", path.read_text("utf-8"))
+        document = json.loads(path.read_text("utf-8"))
+        for name in ("began", "ended", "duration", "warnings"):
+            del document[name]
+        times = r'"(seconds|lower_quartile|upper_quartile|cpu_seconds|busy)": [^,}]+'
+        return re.sub(times, "", json.dumps(document))
 
     assert timeless(tmp_path / "report.json") == timeless(folder / "report.json")
+    assert '"runs": ' in timeless(folder / "report.json")
     assert (tmp_path / "pixels-rmse-rays.svg").read_bytes() == (folder / "pixels-rmse-rays.svg").read_bytes()
     assert (tmp_path / "pixels-rmse-rays.pdf").read_bytes() == (folder / "pixels-rmse-rays.pdf").read_bytes()
 

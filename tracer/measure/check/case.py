@@ -95,16 +95,20 @@ class Case:
     title: str  # in one line
     read: Callable[[], Iterable[Reading]]
     wrong: str  # explanation of the textbook's error; wrapped when printed
+    seconds: float  # that it is expected to take, beside other cases
 
 
 Read = Callable[[], Iterable[Reading]]
 
 
-def case(id: str, title: str) -> Callable[[Read], Case]:
-    """Make a case of a function that yields its readings. The docstring explains why the textbook's formula fails."""
+def case(id: str, title: str, seconds: float = 0.01) -> Callable[[Read], Case]:
+    """Make a case of a function that yields its readings. The docstring explains why the textbook's formula fails.
+
+    `seconds` is about how long it takes, for the display of the time left. Only cases from 0.05 s on need it.
+    """
     if id[0] not in TOPICS or not id[1:].isdigit():
         raise ValueError(f"the id of a case must be a letter of {', '.join(TOPICS)} and a number, got {id}")
-    return lambda read: Case(id, title, read, inspect.cleandoc(read.__doc__ or ""))
+    return lambda read: Case(id, title, read, inspect.cleandoc(read.__doc__ or ""), seconds)
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """All cases of `raytree check`, and their results."""
 
 import pkgutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from importlib import import_module
@@ -10,6 +10,7 @@ from typing import Any
 from tracer.measure.check import cases, families
 from tracer.measure.check.case import Case, Reading, Result, run
 from tracer.measure.check.distribution import ours, the_textbooks
+from tracer.progress import Progress, divided, ignore
 
 
 def all_cases() -> Iterator[Case]:
@@ -22,12 +23,12 @@ def all_cases() -> Iterator[Case]:
 CASES = tuple(sorted(set(all_cases()), key=lambda one: (one.id[0], int(one.id[1:]))))
 
 
-def run_all(cases: Sequence[Case] = CASES, progress: Callable[[float], None] = lambda share: None) -> list[Result]:
-    """The results of all cases. `progress` is called with the share."""
+def run_all(cases: Sequence[Case] = CASES, progress: Progress = ignore) -> list[Result]:
+    """The results of all cases. `progress` is called with the share of the expected time."""
     results = []
-    for case in cases:
+    for case, done in zip(cases, divided(progress, [case.seconds for case in cases]), strict=True):
         results.append(run(case))
-        progress(len(results) / len(cases))
+        done(1.0)
     return results
 
 

@@ -6,11 +6,11 @@ robust against a few slow runs on a busy machine.
 
 import math
 import statistics
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-FEWEST, MOST = 3, 25  # pairs
+from tracer.measure.timing import quartiles
+from tracer.progress import Progress, ignore
 
 
 @dataclass(frozen=True)
@@ -33,24 +33,19 @@ class PairedTimes:
         return abs(self.extra) > self.uncertainty
 
 
-def paired(without: Callable[[], float], with_it: Callable[[], float], budget: float) -> PairedTimes:
-    """Run both in turn for about `budget` seconds, and swap their order from pair to pair. Each returns its seconds."""
-    began = time.perf_counter()
+def paired(
+    without: Callable[[], float], with_it: Callable[[], float], pairs: int, progress: Progress = ignore
+) -> PairedTimes:
+    """Run both in turn, so many times each, and swap their order from pair to pair. Each returns its seconds."""
     first: list[float] = []
     more: list[float] = []
-    while len(first) < FEWEST or (len(first) < MOST and time.perf_counter() - began < budget):
-        if len(first) % 2:
+    for pair in range(pairs):
+        if pair % 2:
             b, a = with_it(), without()
         else:
             a, b = without(), with_it()
         first.append(a)
         more.append(b - a)
-    low, middle, high = statistics.quantiles(more, n=4)
-    return PairedTimes(statistics.median(first), middle, 0.5 * (high - low), len(first))
-
-
-def cpu_seconds(act: Callable[[], object]) -> float:
-    """The processor time of a call, without that of other programs."""
-    began = time.process_time()
-    act()
-    return time.process_time() - began
+        progress((pair + 1) / pairs)
+    low, middle, high = quartiles(more)
+    return PairedTimes(statistics.median(first), middle, 0.5 * (high - low), pairs)

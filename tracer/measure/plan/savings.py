@@ -1,10 +1,10 @@
 """The rays and seconds that a left-out capability saves a scene, and those that a needed one costs.
 
 For each capability the scene is rendered with and without it, in turn. The image is small and traced by one thread,
-so that a whole plan takes seconds. Rays are counted, not estimated.
+so that a whole plan takes seconds. Rays are counted, not estimated. The size of the image and the number of its runs
+follow from counts, too, so they are the same in every plan.
 """
 
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
@@ -21,20 +21,19 @@ from tracer.kernel.capabilities import Capability, Need
 from tracer.kernel.limits import make_limits
 from tracer.kernel.nodes import KINDS
 from tracer.kernel.world import World, prepare
-from tracer.measure.plan.paired_timing import PairedTimes, cpu_seconds, paired
+from tracer.measure.plan.paired_timing import PairedTimes, paired
 from tracer.measure.plan.variants import Variant
 from tracer.measure.plan.with_capability import WITH, depth_of, everything
 from tracer.measure.plan.without_capability import WITHOUT
+from tracer.measure.timing import clocked
+from tracer.measure.work import Size, affordable, shrunk, work_of
+from tracer.progress import Progress, divided, ignore
 
 MAX_PIXELS = 80_000
-FAST, SLOW = 0.015, 0.5  # seconds that the scene's own image may take, and any other image
-PROBE = 64  # pixels of the first image that is tried
-MEASURABLE = 0.02  # smallest duration from which the time per pixel is estimated
-BUDGET = 0.7  # seconds per capability
+FAST, SLOW = 150_000, 3_000_000  # work of the scene's own image, and of any other image, at most
+BUDGET = 7_000_000  # work of all runs of a comparison, if that is more than FEWEST and fewer than MOST pairs
+FEWEST, MOST = 5, 25  # pairs of runs
 UNNOTICED = 2.0**-200  # pictures that differ by less are the same
-
-Size = tuple[int, int]
-Progress = Callable[[float], None]
 
 
 @dataclass(frozen=True)
@@ -73,26 +72,54 @@ class Shot:
         return render(self.world, size, **{"depth": self.depth, "threads": 1, **self.variant.options})
 
     def seconds(self, size: Size) -> float:
-        """Processor time of an image."""
-        return cpu_seconds(lambda: self(size))
+        """Processor time of an image: that of other programs does not count."""
+        return clocked(lambda: self(size))[1].cpu
 
 
-def measure(world: World, progress: Progress = lambda share: None) -> Measured:
-    """Measure every capability."""
+@dataclass(frozen=True)
+class Comparison:
+    """Two images to be timed in turn, and what is known of them before."""
+
+    saving: Saving
+    without: Shot
+    with_it: Shot
+    size: Size
+    work: int  # of both images
+    share: float = 1.0  # of the difference that the capability makes
+
+    @property
+    def pairs(self) -> int:
+        return max(FEWEST, min(MOST, BUDGET // self.work))
+
+    def timed(self, progress: Progress) -> Saving:
+        times = paired(
+            lambda: self.without.seconds(self.size), lambda: self.with_it.seconds(self.size), self.pairs, progress
+        )
+        times = replace(times, extra=self.share * times.extra, uncertainty=self.share * times.uncertainty)
+        return replace(self.saving, times=times)
+
+
+def measure(world: World, progress: Progress = ignore) -> Measured:
+    """Measure every capability. `progress` is called with the share of the expected time of all timed runs."""
     warm_up()
     own = Shot(world, Variant("", world.scene), depth_of(world.scene))
-    size = fast_size(own, world.view().width, world.view().height)
-    savings = []
-    for k, need in enumerate(world.needs):
-        progress(k / (len(world.needs) + 1))
-        savings.append(saving_of(need, own, size))
-    progress(len(savings) / (len(savings) + 1))
-    together = compared(Need("all at once", False, ""), own, everything(world.scene, world.left_out), size)
-    return Measured(size, own.depth, own(size).rays, savings, together)
+    view = world.view()
+    size = shrunk((view.width, view.height), MAX_PIXELS / (view.width * view.height))
+    size = affordable(own, size, FAST)
+    together = Need("all at once", False, "")
+    found = [comparison_of(need, own, size) for need in world.needs]
+    found.append(compared(together, own, everything(world.scene, world.left_out), size))
+    progress(0.0)
+    costs = [one.pairs * one.work if isinstance(one, Comparison) else 0.0 for one in found]
+    parts = divided(progress, costs)
+    *savings, last = [
+        one.timed(part) if isinstance(one, Comparison) else one for one, part in zip(found, parts, strict=True)
+    ]
+    return Measured(size, own.depth, own(size).rays, savings, last)
 
 
-def saving_of(need: Need, own: Shot, size: Size) -> Saving:
-    """The cost of one capability for a scene."""
+def comparison_of(need: Need, own: Shot, size: Size) -> Comparison | Saving:
+    """What is to be timed for one capability; a saving that says why if there is nothing."""
     if need.name == Capability.LIGHT_FROM_BEHIND:
         return light_from_behind(need, own, size)
     make = (WITHOUT if need.needed else WITH).get(need.name)
@@ -102,19 +129,19 @@ def saving_of(need: Need, own: Shot, size: Size) -> Saving:
     return Saving(need, variant) if isinstance(variant, str) else compared(need, own, variant, size)
 
 
-def compared(need: Need, own: Shot, variant: Variant, size: Size) -> Saving:
-    """Render a scene and a variant of it in turn."""
+def compared(need: Need, own: Shot, variant: Variant, size: Size) -> Comparison:
+    """A scene and a variant of it."""
     other = Shot(prepare(variant.scene, variant.hierarchy), variant, own.depth)
-    size = bearable_size(other, size)
+    size = affordable(other, size, SLOW)
     without, with_it = (other, own) if need.needed else (own, other)
     first, second = without(size), with_it(size)
     changed = np.abs(first.pixels - second.pixels).max(axis=2) > UNNOTICED
-    times = paired(lambda: without.seconds(size), lambda: with_it.seconds(size), BUDGET)
     rays = (sum(first.rays.values()), sum(second.rays.values()))
-    return Saving(need, variant.how, times, rays, size, int(changed.sum()))
+    saving = Saving(need, variant.how, None, rays, size, int(changed.sum()))
+    return Comparison(saving, without, with_it, size, work_of(first) + work_of(second))
 
 
-def light_from_behind(need: Need, own: Shot, size: Size) -> Saving:
+def light_from_behind(need: Need, own: Shot, size: Size) -> Comparison | Saving:
     """The shadow rays that an image does not trace. Trees have them: from every hit to every light.
 
     The time of one is measured on a scene where each light is doubled by a black one at its place.
@@ -122,17 +149,18 @@ def light_from_behind(need: Need, own: Shot, size: Size) -> Saving:
     scene = own.world.scene
     if not scene.lights:
         return Saving(need, "no light")
-    rays = own(size).rays
+    image = own(size)
+    rays = image.rays
     skipped = tree_rays(own, size)["shadow"] - rays["shadow"]
     count = (sum(rays.values()), sum(rays.values()) + skipped)
     if rays["shadow"] == 0:
         return Saving(need, "no shadow ray, so its time cannot be measured", None, count, size)
     black = tuple(replace(light, color=(0.0, 0.0, 0.0)) for light in scene.lights)
     doubled = Shot(prepare(replace(scene, lights=scene.lights + black)), own.variant, own.depth)
-    times = paired(lambda: own.seconds(size), lambda: doubled.seconds(size), BUDGET)
-    share = skipped / (doubled(size).rays["shadow"] - rays["shadow"])
-    times = replace(times, extra=share * times.extra, uncertainty=share * times.uncertainty)
-    return Saving(need, "every light from every hit (estimated)", times, count, size, 0, True)
+    more = doubled(size)
+    share = skipped / (more.rays["shadow"] - rays["shadow"])
+    saving = Saving(need, "every light from every hit (estimated)", None, count, size, 0, True)
+    return Comparison(saving, own, doubled, size, work_of(image) + work_of(more), share)
 
 
 def tree_rays(shot: Shot, size: Size) -> dict[str, int]:
@@ -144,31 +172,3 @@ def tree_rays(shot: Shot, size: Size) -> dict[str, int]:
     with ThreadPoolExecutor(1) as executor:
         trace_passes(task, [works], executor, 1, lambda traced, share: film.add(traced), film.pixels)
     return {kind: int(n) for kind, n in zip(KINDS, film.totals.rays, strict=True)}
-
-
-def fast_size(shot: Shot, width: int, height: int) -> Size:
-    """The size of a small image of these proportions that takes FAST seconds."""
-    size = shrunk((width, height), MAX_PIXELS / (width * height))
-    return shrunk(size, FAST / seconds_per_pixel(shot, size) / (size[0] * size[1]))
-
-
-def bearable_size(shot: Shot, size: Size) -> Size:
-    """This size, or a smaller one if the image would take more than SLOW seconds."""
-    return shrunk(size, SLOW / seconds_per_pixel(shot, size) / (size[0] * size[1]))
-
-
-def seconds_per_pixel(shot: Shot, size: Size) -> float:
-    """The approximate time per pixel, from images of increasing size until one takes MEASURABLE seconds."""
-    pixels = PROBE
-    while True:
-        probe = shrunk(size, pixels / (size[0] * size[1]))
-        took = min(shot.seconds(probe) for _ in range(3))
-        if took > MEASURABLE or probe == size:
-            return took / (probe[0] * probe[1])
-        pixels *= 4
-
-
-def shrunk(size: Size, share: float) -> Size:
-    """A size with this share of the pixels, if the share is below 1."""
-    factor = min(1.0, share) ** 0.5
-    return max(1, round(size[0] * factor)), max(1, round(size[1] * factor))

@@ -1,15 +1,12 @@
 """Work-precision diagrams: the cost and the error of an image at each setting of a method.
 
-The protocol is SciML's: one curve per method, one marker per setting, logarithmic axes; lower left is better. The
-time is the least of several warm runs, since other load can only add to it. Errors are computed outside the timed
-part. What fails is listed, not dropped.
+The protocol is SciML's: one curve per method, one marker per setting, logarithmic axes; lower left is better.
+`experiment.py` measures them. What fails is listed, not dropped.
 """
 
 import math
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import count
 from typing import Any
 
 import numpy as np
@@ -17,9 +14,7 @@ import numpy as np
 from tracer.image.render import Image
 from tracer.measure.check.case import U
 from tracer.measure.precision.errors import Errors, errors
-
-ENOUGH = 0.3  # seconds: a run of this length is not repeated
-RUNS = 20  # runs at most, of shorter ones
+from tracer.measure.timing import Times
 
 Maker = Callable[..., Callable[[], Image]]  # from the options of `render` to a function that renders
 
@@ -31,6 +26,7 @@ class Setting:
     label: str  # for example "depth 2"
     value: float  # what the method varies: a depth, or a number of samples
     make: Callable[[], Image]
+    reference: np.ndarray | None = None  # the pixels that it is compared with; None: those of all the settings
 
 
 @dataclass(frozen=True)
@@ -61,7 +57,7 @@ class Point:
 
     label: str
     value: float
-    seconds: float
+    times: Times
     rays: int
     tests: int
     errors: Errors
@@ -107,59 +103,13 @@ def cuts(
     )
 
 
-def counted(total: int, progress: Callable[[float], None]) -> Callable[[], None]:
-    """A function to be called after each of `total` steps, which calls `progress` with the share."""
-    done = count(1)
-    return lambda: progress(next(done) / total)
-
-
-def all_measured(
-    methods: Sequence[Method], reference: Reference, done: Callable[[], None]
-) -> tuple[tuple[Curve, ...], tuple[str, ...]]:
-    """All methods' curves, and the failures."""
-    pairs = [measured(method, reference, done) for method in methods]
-    return tuple(curve for curve, _ in pairs), tuple(line for _, lines in pairs for line in lines)
-
-
-def measured(method: Method, reference: Reference, done: Callable[[], None]) -> tuple[Curve, list[str]]:
-    """A method's curve, and its failures. Calls `done` after each setting."""
-    points, failures = [], []
-    for setting in method.settings:
-        try:
-            image, least = repeated(setting.make)
-            points.append(point_of(setting.label, setting.value, image, least, reference.pixels))
-        except (ValueError, MemoryError) as error:
-            failures.append(f"{method.name}, {setting.label}: {error}")
-        done()
-    for point in points:
-        if not math.isfinite(point.errors.rmse):
-            failures.append(f"{method.name}, {point.label}: its image has NaN or infinite pixels")
-    return Curve(
-        method.name, tuple(points), method.slope, fitted(points, reference) if method.slope else None
-    ), failures
-
-
-def repeated(make: Callable[[], Image]) -> tuple[Image, float]:
-    """An image, and the least seconds that it took."""
-    make()  # warms up
-    least, spent, image = math.inf, 0.0, None
-    for _ in range(RUNS):
-        began = time.perf_counter()
-        image = make()
-        took = time.perf_counter() - began
-        least, spent = min(least, took), spent + took
-        if spent > ENOUGH:
-            break
-    assert image
-    return image, least
-
-
-def point_of(label: str, value: float, image: Image, least: float, reference: np.ndarray) -> Point:
-    off = errors(image.pixels, reference)
+def point_of(setting: Setting, image: Image, times: Times, reference: Reference) -> Point:
+    """A marker: the image of a setting, and how long it took."""
+    off = errors(image.pixels, reference.pixels if setting.reference is None else setting.reference)
     estimate = image.stats.error if image.stats else math.nan
     rays = sum(image.rays.values())
     bound = image.bound + rounding(image, rays)
-    return Point(label, value, least, rays, image.tests, off, bound, estimate)
+    return Point(setting.label, setting.value, times, rays, image.tests, off, bound, estimate)
 
 
 def rounding(image: Image, rays: int) -> float:

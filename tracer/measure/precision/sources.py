@@ -6,39 +6,30 @@ samples of another sampler. Both together: each setting is finer in both.
 """
 
 import math
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from tracer.image.render import Image, render
+from tracer.image.render import Image, processors, render
+from tracer.image.tiles import speedup, tiles_of
+from tracer.image.warmup import warm_up
+from tracer.kernel.limits import make_limits
 from tracer.kernel.world import World
-from tracer.measure.precision.errors import NOTHING, errors
-from tracer.measure.precision.precision import (
-    Curve,
-    Maker,
-    Method,
-    Reference,
-    Setting,
-    Source,
-    all_measured,
-    counted,
-    cuts,
-    point_of,
-)
-from tracer.measure.precision.textbook_kernel import KINDS, images
+from tracer.measure.precision.errors import errors
+from tracer.measure.precision.experiment import THREADS, Study
+from tracer.measure.precision.precision import Maker, Method, Reference, Setting, cuts
+from tracer.measure.precision.textbook_kernel import KINDS, textbook_world
+from tracer.measure.work import Size, affordable, probed
+from tracer.progress import Progress, divided
 from tracer.scene import Scene
 
-PATIENCE = 6.0  # seconds that a reference image may take
-PROBE = 12  # pixels across, of the image that is timed first
+REFERENCE_WORK = 4e7  # of a reference image whose size was not chosen
 REFERENCE_DEPTH = 1000  # depth limit that no tree cut by weight reaches
 REFERENCE_TOLERANCE = 1e-9  # tolerance of reference trees: the largest weight that is cut
 REFERENCE_WEIGHT = 1e-4  # minimum weight of a ray in references with many samples per pixel
 MOST_NODES = 20_000  # rays of a reference's tree, where weights hardly fall
 
-Size = tuple[int, int]
-Progress = Callable[[float], None]
 How = Mapping[str, Any]  # options of `render`
 
 
@@ -77,19 +68,20 @@ def _branches(scene: Scene) -> bool:
     return any(item.material.reflect > 0.0 or item.material.transmit > 0.0 for item in scene.objects)
 
 
-def affordable(world: World, size: Size, how: How) -> Size:
-    """This size, or a smaller one of the same proportions with which a reference takes no longer than PATIENCE."""
-    probe = (min(size[0], PROBE), max(1, min(size[0], PROBE) * size[1] // size[0]))
-    began = time.perf_counter()
-    render(world, probe, **how)
-    each = (time.perf_counter() - began) / (probe[0] * probe[1])
-    share = min(1.0, math.sqrt(PATIENCE / (each * size[0] * size[1])))
-    return max(1, round(share * size[0])), max(1, round(share * size[1]))
+def studies(world: World, size: Size, effort: Effort, smaller: bool = False) -> list[Study]:
+    """A study of every source of error of this scene, on images of this size.
+
+    `smaller`: images may be smaller if a reference would be too much work.
+    """
+    warm_up()
+    kinds = [trees_cut, pixels_sampled, both_together] if _branches(world.scene) else [pixels_sampled]
+    found = [kind(effort).at(world, size, smaller) for kind in kinds]
+    return [*found, kernels(world, size)] if effort.kernels else found
 
 
 @dataclass(frozen=True)
-class Study:
-    """The measurement of a source of error: its reference, and the settings of each method."""
+class SceneStudy:
+    """A study of any scene: how its references and the images of its settings are made."""
 
     name: str
     title: str
@@ -100,68 +92,75 @@ class Study:
     methods: Callable[[Maker], Sequence[Method]]  # from a function that makes images
     bounded: bool = False  # whether the program's own bound is one on this error
 
-    def run(self, world: World, size: Size, step: Callable[[], None]) -> Source:
-        """Measure the source. Calls `step` for every reference and every setting."""
-        true = render(world, size, **self.true)
-        step()
-        second = render(world, size, **self.second)
-        step()
-        reference = Reference(true.pixels, self.said(true), errors(second.pixels, true.pixels))
-        curves, failures = all_measured(self.methods(_maker(world, size)), reference, step)
-        return Source(self.name, self.title, self.about, reference, curves, failures, self.bounded)
+    def at(self, world: World, size: Size, smaller: bool) -> Study:
+        """The study of one scene, at this size or a smaller one."""
 
-    def steps(self, world: World) -> int:
-        return 2 + sum(len(method.settings) for method in self.methods(_maker(world, (1, 1))))
+        def probe(size: Size) -> Image:
+            return render(world, size, **self.true)
+
+        if smaller:
+            size = affordable(probe, size, REFERENCE_WORK)
+
+        def refer(progress: Progress) -> Reference:
+            first, other = divided(progress, [1.0, 1.0])
+            true = render(world, size, progress=first, **self.true)
+            second = render(world, size, progress=other, **self.second)
+            return Reference(true.pixels, self.said(true), errors(second.pixels, true.pixels))
+
+        seconds = sum(_expected_seconds(world, size, how) for how in (self.true, self.second))
+        methods = self.methods(_maker(world, size))
+        return Study(self.name, self.title, self.about, methods, refer, seconds, self.bounded)
+
+
+def _expected_seconds(world: World, size: Size, how: How) -> float:
+    """The expected time of an image on all processors, from that of a small one on one of them.
+
+    An idle machine divides it by the speedup, a busy one by hardly anything: the root is in between.
+    """
+    cut = {name: how[name] for name in ("depth", "min_weight", "tolerance", "max_nodes") if name in how}
+    tiles = tiles_of(*size, make_limits(world, **cut, records=False).depth)
+    probe = probed(lambda size: render(world, size, **how), size)
+    return probe.seconds * size[0] * size[1] / probe.pixels / math.sqrt(speedup(tiles, processors()))
 
 
 def _maker(world: World, size: Size) -> Maker:
-    return lambda **how: partial(render, world, size, **how)
+    return lambda **how: partial(render, world, size, threads=THREADS, **how)
 
 
-def sources(
-    world: World, size: Size, effort: Effort, progress: Progress = lambda share: None, smaller: bool = False
-) -> list[Source]:
-    """Measure every source of error of this scene on images of this size. `progress` is called with the share.
-
-    `smaller`: images may be smaller if a reference would take too long.
-    """
-    kinds = [trees_cut, pixels_sampled, both_together] if _branches(world.scene) else [pixels_sampled]
-    studies = [kind(effort) for kind in kinds]
-    total = sum(study.steps(world) for study in studies) + (len(KINDS) if effort.kernels else 0)
-    step = counted(total, progress)
-    found = [study.run(world, affordable(world, size, study.true) if smaller else size, step) for study in studies]
-    return [*found, kernels(world, size, step)] if effort.kernels else found
-
-
-def kernels(world: World, size: Size, step: Callable[[], None]) -> Source:
+def kernels(world: World, size: Size) -> Study:
     """The textbook's formulas in double and in single precision, depth by depth, compared with our kernel's image."""
     depths = range(max(world.scene.tracing.depth, 3) + 1)
     ours = [render(world, size, depth=depth).pixels for depth in depths]
-    curves, own = [], NOTHING
-    for kind in KINDS:
-        name = f"textbook, {kind} precision"
-        found = images(kind, world.scene, size, depths)
-        step()
-        points = [
-            point_of(f"depth {depth}", depth, image, least, true)
-            for depth, (image, least), true in zip(depths, found, ours, strict=True)
-        ]
-        curves.append(Curve(name, tuple(points), None, None))
-        own = points[-1].errors if kind == "double" else own
-    how = "our kernel at each depth, with stable formulas in double precision. The second way: the textbook's formulas"
-    return Source(
+    makers = {kind: _maker(textbook_world(kind, world.scene), size) for kind in KINDS}
+
+    def refer(_: Progress) -> Reference:
+        how = (
+            "our kernel at each depth, with stable formulas in double precision. The second way: the textbook's "
+            "formulas"
+        )
+        return Reference(ours[-1], how, errors(makers["double"](depth=depths[-1])().pixels, ours[-1]))
+
+    return Study(
         "kernels",
         "Kernels in single and double precision",
         "The effect of rounding on the whole image: the same trees by the textbook's formulas, with 53 and with 24 "
         "bits. Edges move by less than a pixel, so the error is mostly in a few samples at edges, and in close "
         "surfaces.",
-        Reference(ours[-1], how, own),
-        tuple(curves),
-        (),
+        [
+            Method(
+                f"textbook, {kind} precision",
+                [
+                    Setting(f"depth {depth}", depth, made(depth=depth), true)
+                    for depth, true in zip(depths, ours, strict=True)
+                ],
+            )
+            for kind, made in makers.items()
+        ],
+        refer,
     )
 
 
-def trees_cut(effort: Effort) -> Study:
+def trees_cut(effort: Effort) -> SceneStudy:
     def said(true: Image) -> str:
         missing = (
             f"at most {true.bound:.1e}"
@@ -177,7 +176,7 @@ def trees_cut(effort: Effort) -> Study:
     def methods(made: Maker) -> Sequence[Method]:
         return cuts(made, effort.depths, effort.weights, effort.tolerances, REFERENCE_DEPTH, max_nodes=MOST_NODES)
 
-    return Study(
+    return SceneStudy(
         "trees",
         "Cut trees",
         "The light that an image lacks because rays were not followed. Pixels are traced at their centres.",
@@ -189,7 +188,7 @@ def trees_cut(effort: Effort) -> Study:
     )
 
 
-def pixels_sampled(effort: Effort) -> Study:
+def pixels_sampled(effort: Effort) -> SceneStudy:
     kinds = (("at random", "random", -0.5), ("jittered", "jittered", -0.75), ("evenly (Sobol)", "sobol", -0.75))
 
     def methods(made: Maker) -> Sequence[Method]:
@@ -202,7 +201,7 @@ def pixels_sampled(effort: Effort) -> Study:
 
     how = f"{effort.true_samples} Sobol samples per pixel. The second way has as many jittered ones"
     true = {"samples": effort.true_samples}
-    return Study(
+    return SceneStudy(
         "pixels",
         "Sampled pixels",
         "The error of the mean of a pixel's samples. At edges, theory has N^-1/2 for random samples and N^-3/4 for "
@@ -215,7 +214,7 @@ def pixels_sampled(effort: Effort) -> Study:
     )
 
 
-def both_together(effort: Effort) -> Study:
+def both_together(effort: Effort) -> SceneStudy:
     def methods(made: Maker) -> Sequence[Method]:
         settings = [
             Setting(f"depth {d}, {_many(n)}", n, made(samples=n, depth=d))
@@ -237,7 +236,7 @@ def both_together(effort: Effort) -> Study:
         "min_weight": REFERENCE_WEIGHT,
         "max_nodes": MOST_NODES,
     }
-    return Study(
+    return SceneStudy(
         "together",
         "Both together",
         "The error of an image whose trees are cut and whose pixels are sampled: with a larger depth and more samples "

@@ -21,7 +21,8 @@ from tracer.measure.check.cases.plates import WHITE, pile, under_dark
 from tracer.measure.check.cases.refraction import bent
 from tracer.measure.check.scenes import ball, glass, world
 from tracer.measure.precision.errors import NOTHING
-from tracer.measure.precision.precision import Reference, Source, all_measured, cuts
+from tracer.measure.precision.experiment import THREADS, Study
+from tracer.measure.precision.precision import Reference, cuts
 from tracer.scene import Camera, Material, Object
 from tracer.shapes.polygon import Polygon
 from tracer.tree.trace import trace
@@ -55,19 +56,16 @@ def aimed(problem: Problem) -> World:
     return prepare(replace(problem.make().scene, camera=camera))
 
 
-def solved(problem: Problem, step: Callable[[], None]) -> Source:
-    """The error of each way to cut the tree. Calls `step` after every setting."""
+def study_of(problem: Problem) -> Study:
+    """Each way to cut the tree, compared with the closed form."""
     stage = aimed(problem)
     exact = problem.exact(stage)
     reference = Reference(np.full((SIZE[1], SIZE[0], 3), exact), f"closed form: {exact:.15g}", NOTHING)
-    made = partial(partial, render, stage, SIZE, threads=1, max_nodes=MOST)
+    made = partial(partial, render, stage, SIZE, threads=THREADS, max_nodes=MOST)
     methods = cuts(made, problem.depths, problem.weights, problem.tolerances, ANY_DEPTH)
-    curves, failures = all_measured(methods, reference, step)
-    return Source(problem.name, problem.title, problem.about, reference, curves, failures, bounded=True, exact=True)
-
-
-def steps(problem: Problem) -> int:
-    return len(problem.depths) + len(problem.weights) + len(problem.tolerances)
+    return Study(
+        problem.name, problem.title, problem.about, methods, lambda progress: reference, bounded=True, exact=True
+    )
 
 
 def slab_lets_through(stage: World) -> float:

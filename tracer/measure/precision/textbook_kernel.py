@@ -8,7 +8,7 @@ leaves.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -17,10 +17,10 @@ from tracer.compile.jit import inlined
 from tracer.formulas.camera import pixel_direction
 from tracer.formulas.optics import transmission
 from tracer.formulas.vector import Vector, add, dot, scale, subtract, unit, vector
-from tracer.image.render import Image, render
+from tracer.image.render import render
+from tracer.image.warmup import BALL
 from tracer.kernel.formulas import Formulas, Function
-from tracer.kernel.world import prepare
-from tracer.measure.precision.precision import repeated
+from tracer.kernel.world import World, prepare
 from tracer.rays import Ray
 from tracer.scene import Scene
 from tracer.shapes import INTERSECTED, choose_interaction, choose_intersect, choose_next_hit, function
@@ -29,10 +29,15 @@ from tracer.shapes.surface_row import ShapeArrays, SurfaceRow
 KINDS = ("double", "single")
 
 
-def images(kind: str, scene: Scene, size: tuple[int, int], depths: Sequence[int]) -> list[tuple[Image, float]]:
-    """For each depth, the image by the textbook's formulas, and the least seconds it took. The first call compiles."""
-    world = prepare(scene, formulas=textbook_formulas(kind))
-    return [repeated(lambda depth=depth: render(world, size, depth=depth)) for depth in depths]
+def textbook_world(kind: str, scene: Scene) -> World:
+    """The scene, to be traced by the textbook's formulas."""
+    return prepare(scene, formulas=textbook_formulas(kind))
+
+
+def warm_up() -> None:
+    """Compile the kernels with the textbook's formulas, or load them from disk."""
+    for kind in KINDS:
+        render(textbook_world(kind, BALL), (1, 1))
 
 
 def textbook_formulas(kind: str) -> Formulas:

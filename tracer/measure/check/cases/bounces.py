@@ -20,7 +20,7 @@ def far_from(points: np.ndarray, row: int, exact: list[Decimal]) -> float:
     return math.hypot(*(float(x - y) for x, y in zip(exact_optics.point(points[row].tolist()), exact, strict=False)))
 
 
-@case("E1", "two mirrors face to face: the height after 100 000 bounces")
+@case("E1", "two mirrors face to face: the height after 100 000 bounces", seconds=0.2)
 def parallel() -> Iterator[Reading]:
     """If each start is moved off its mirror by 1e-4 along the normal, each crossing is shorter by that much. The ray
     gains too little height, 1e-4 of a step per bounce, always in the same direction: after 10 000 bounces it is 1e-3
@@ -37,7 +37,7 @@ def parallel() -> Iterator[Reading]:
         yield Reading(f"height after {bounces}", exact, got, U * bounces * float(exact), 4.0, usual)
 
 
-@case("E2", "a ray that circles inside a glass ball, totally reflected")
+@case("E2", "a ray that circles inside a glass ball, totally reflected", seconds=0.09)
 def gallery() -> Iterator[Reading]:
     """A start that is moved inwards by 1e-4 lies on another chord. The angle of incidence changes with each bounce, and
     the error of the position grows with the square of their number: 1e-2 after ten bounces, anywhere on the circle
@@ -54,7 +54,7 @@ def gallery() -> Iterator[Reading]:
         yield exactly(f"weight, {bounces} bounces", 1, float(nodes["weight"][bounces, 0]))
 
 
-@case("E3", "a light guide: how far along it the ray is after 100 000 reflections")
+@case("E3", "a light guide: how far along it the ray is after 100 000 reflections", seconds=0.2)
 def guide() -> Iterator[Reading]:
     """As between two mirrors, every start that is moved off the wall by 1e-4 costs 3e-4 of the path, and all these
     errors have the same sign. After 1000 reflections the point is wrong by 0.3, after 10 000 by 3.
@@ -70,7 +70,7 @@ def guide() -> Iterator[Reading]:
         yield Reading(f"distance along it after {bounces}", exact, got, U * bounces * float(exact), 4.0, usual)
 
 
-@case("E4", "a skew ray in a mirrored tube")
+@case("E4", "a skew ray in a mirrored tube", seconds=0.1)
 def fibre() -> Iterator[Reading]:
     """The ray winds around the tube by the same angle at each bounce. With starts that are moved off the wall, the
     angle drifts: the error of the position on the wall grows with the square of the number of bounces, that along
@@ -96,7 +96,7 @@ def fibre() -> Iterator[Reading]:
         )
 
 
-@case("E5", "a corner of three mirrors sends a ray back the way it came")
+@case("E5", "a corner of three mirrors sends a ray back the way it came", seconds=0.05)
 def corner() -> Iterator[Reading]:
     """The textbook's direction is right as well, but its line is not: each of the three starts is moved off its mirror
     by 1e-4, so the ray returns beside the right line, by as much.

@@ -39,7 +39,7 @@ def reading(
     return Reading(setting, exact, float(row["t"]), U * float(exact), allowed, textbook.triangle(o, d, corners))
 
 
-@case("B4", "the hit on an ordinary triangle: t and the point")
+@case("B4", "the hit on an ordinary triangle: t and the point", seconds=0.3)
 def inside() -> Iterator[Reading]:
     """Nothing goes wrong here: with sides of length 1 and the eye at distance 1, the textbook is right to the last
     digits, too. The case shows that care for the others costs nothing here.

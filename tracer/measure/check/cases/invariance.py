@@ -78,7 +78,7 @@ def textbook_differing(k: int) -> int:
     return count
 
 
-@case("C3", "a scene times 2^-200 to 2^200: the same trees, bit for bit")
+@case("C3", "a scene times 2^-200 to 2^200: the same trees, bit for bit", seconds=0.1)
 def scales() -> Iterator[Reading]:
     """A power of two changes no digit of a number, so it should change none of a tree. Any length that is built into a
     program does: with a smallest distance of 1e-4 every hit is lost in a scene of size 1e-6, and the same scene in

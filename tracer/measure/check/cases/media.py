@@ -129,7 +129,7 @@ def overlapping() -> Iterator[Reading]:
     yield Reading("angle in the water", theta, got, U * float(theta) * 2, 8.0, usual)
 
 
-@case("H5", "the same ball twice in the file: nothing changes")
+@case("H5", "the same ball twice in the file: nothing changes", seconds=0.1)
 def twice() -> Iterator[Reading]:
     """Two equal surfaces at the same place bend the ray twice if each is taken as one between air and glass: the turn
     is 1.6 times too large. The second ball begins where the first does, so there is one glass inside.

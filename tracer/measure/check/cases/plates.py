@@ -77,7 +77,7 @@ def aslant() -> Iterator[Reading]:
         )
 
 
-@case("F3", "a slab at grazing incidence: 27 000 inner reflections count")
+@case("F3", "a slab at grazing incidence: 27 000 inner reflections count", seconds=0.05)
 def grazing() -> Iterator[Reading]:
     """At 89.99 degrees a face reflects 0.999 of the light, and what got in comes out one part in a thousand at a time.
     All these parts weigh less than 1/255 and are cut: nothing comes through, instead of 5e-4. Best-first, with a

@@ -61,7 +61,7 @@ def leaning(size: float) -> tuple[Vector, ...]:
     )
 
 
-@case("C2", "a square in the light, from 1e-7 to 1e16 across")
+@case("C2", "a square in the light, from 1e-7 to 1e16 across", seconds=0.07)
 def lit_at_any_size() -> Iterator[Reading]:
     """A smallest distance of 1e-4 fits scenes of size 1. At 1e-7 it discards the whole scene. At 1e13 rounding puts
     hits 1e-3 under the square, which then casts a dotted shadow on itself (shadow acne). No number is right for all
@@ -109,7 +109,7 @@ def thin_layer() -> Iterator[Reading]:
             yield Reading(f"g = {gap:g}: to the {name}", exact, got, U, 4.0, usual if k == 2 else None)
 
 
-@case("C5", "a mirror ball of any size, anywhere: it never meets itself")
+@case("C5", "a mirror ball of any size, anywhere: it never meets itself", seconds=0.3)
 def never_again() -> Iterator[Reading]:
     """The hit is rounded to the digits of its coordinates: 1e8 from the origin these are 1e-8. The reflected ray then
     starts inside its ball as often as outside, and without a smallest distance (the count shown) many meet it again.

@@ -89,7 +89,7 @@ def text(a: Sequence[float]) -> str:
     return " ".join(f"{x + 0.0:.17g}" if float(f"{x:.11g}").is_integer() else f"{x:.11g}" for x in a)
 
 
-@case("A11", "closest-hit and shadow rays use the same intersection test")
+@case("A11", "closest-hit and shadow rays use the same intersection test", seconds=0.2)
 def two_questions() -> Iterator[Reading]:
     """Some programs solve the quadratic to find the closest hit, and use a quicker formula for shadow rays. Near the
     edge of a sphere 1e6 away the two disagree for one ray in three: a visible point does not block the light, or an

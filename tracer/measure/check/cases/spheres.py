@@ -37,7 +37,7 @@ def reading(
     return Reading(setting, exact, float(row["t"]), U * abs(float(exact)), 4.0, usual)
 
 
-@case("A1", "a unit sphere seen from far away, near its edge")
+@case("A1", "a unit sphere seen from far away, near its edge", seconds=0.1)
 def far() -> Iterator[Reading]:
     """The textbook takes b^2 - 4ac, two numbers of the size of the squared distance, for a difference of the size of
     the squared radius. At D = 1e7 they share all but their last digits, and the hit is visibly off the sphere. At D
@@ -73,7 +73,7 @@ def near() -> Iterator[Reading]:
         yield reading(f"2^-{k} above it", (0, 0, 1 + 2.0**-k), (0.6, 0, -0.8))
 
 
-@case("A3", "a sphere of radius 1e3 to 1e15 as the ground")
+@case("A3", "a sphere of radius 1e3 to 1e15 as the ground", seconds=0.1)
 def ground() -> Iterator[Reading]:
     """The centre is R below, so b^2 and 4ac are of size R^2, and the height of the eye is left when they cancel. The
     error grows with R, except for a few round numbers: at R = 1e9 seven digits of the distance are right, at 1e15

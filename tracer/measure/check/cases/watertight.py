@@ -33,7 +33,7 @@ def sphere_mesh(rings: int = 16, sectors: int = 32, radius: float = 2.0) -> tupl
     return np.array(points), np.array(faces)
 
 
-@case("B1", "no gap in a closed mesh: rays from inside, at corners and edges")
+@case("B1", "no gap in a closed mesh: rays from inside, at corners and edges", seconds=0.6)
 def closed() -> Iterator[Reading]:
     """Moeller and Trumbore's test computes u and v of every triangle by itself. On a shared edge, each of the two
     neighbours may be rounded to just outside, -1e-17, and the ray passes through the crack: about one in ten of

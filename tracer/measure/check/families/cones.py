@@ -41,7 +41,7 @@ def hits(chance: Draws, count: int, cylinder: bool) -> Iterator[Hit]:
             yield Hit(exact[0], float(row["t"]), float(row["error"]), usual)
 
 
-@case("K1", "cylinders and cones of any size from anywhere: radius 1e-9 to 1e9")
+@case("K1", "cylinders and cones of any size from anywhere: radius 1e-9 to 1e9", seconds=0.4)
 def any_tube() -> Iterator[Reading]:
     """The quadratic of a cone cancels where that of a sphere does. The parts of the ray across the axis, from which it
     is made, are small differences of large vectors if the ray is nearly parallel to the axis or the base is far
@@ -79,7 +79,7 @@ def silhouettes(chance: Draws, cylinder: bool) -> Iterator[Decision]:
             yield Decision(bool(exact), math.isfinite(row["t"]), usual < math.inf, margin)
 
 
-@case("K2", "the silhouettes of cylinders and cones of any size, seen from anywhere")
+@case("K2", "the silhouettes of cylinders and cones of any size, seen from anywhere", seconds=0.1)
 def any_silhouette() -> Iterator[Reading]:
     """The discriminant decides, as for a sphere, and its rounding error grows with the squared distance. A ray is drawn
     with a margin relative to the radius, and then rounded to doubles; the decision is judged for the rounded ray.

@@ -80,7 +80,7 @@ def nearly_edge_on(chance: Draws, count: int) -> Iterator[Hit]:
         yield Hit(exact, float(row["t"]), float(row["error"]), usual)
 
 
-@case("B12", "faces seen edge-on, or nearly so")
+@case("B12", "faces seen edge-on, or nearly so", seconds=0.3)
 def any_edge() -> Iterator[Reading]:
     """Seen edge-on the determinant is 0 up to rounding errors, and so are the products that are divided by it. u, v and
     t are then random numbers: the face is hit far from where it is. Moeller and Trumbore's threshold for the
@@ -113,7 +113,7 @@ def rims(chance: Draws) -> Iterator[Decision]:
             yield Decision(margin <= 0, math.isfinite(row["t"]), usual < math.inf, float(margin))
 
 
-@case("B14", "the rims of discs of any size, seen from anywhere")
+@case("B14", "the rims of discs of any size, seen from anywhere", seconds=0.06)
 def any_rim() -> Iterator[Reading]:
     """The textbook computes the hit, and then its distance from the centre. The hit is rounded to the digits of the
     distance and of the place, so the last digits of the radius cannot decide. The margin is the difference between

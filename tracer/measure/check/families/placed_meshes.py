@@ -71,7 +71,7 @@ def hits(chance: Draws, count: int) -> Iterator[Reading]:
         yield Reading("", exact, float(row["t"]), unit, PLACED, textbook.triangle(eye, direction, usual, 0.0, 0.0))
 
 
-@case("B13", "meshes far from the origin in their file, moved back by their placement")
+@case("B13", "meshes far from the origin in their file, moved back by their placement", seconds=0.5)
 def any_placement() -> Iterator[Reading]:
     """The textbook multiplies vertices by the matrix of the placement in double precision: coordinates of 1e9 have
     errors of 1e-7, which are left when the placement moves them back. Placed in double-double, with sines and cosines

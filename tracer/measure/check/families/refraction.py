@@ -71,7 +71,7 @@ def directions(chance: Draws, count: int) -> Iterator[Reading]:
         yield Reading("", 0, off(found, ray.refracted), U * condition, ROUNDINGS, other)
 
 
-@case("D13", "any angle and any index, at rotated planes: the refracted direction")
+@case("D13", "any angle and any index, at rotated planes: the refracted direction", seconds=0.3)
 def any_direction() -> Iterator[Reading]:
     """1 - c1^2 has the rounding error of c1^2, which is that of 1: near normal incidence the squared sine loses its
     digits, which does little harm to the direction, and near the critical angle the radicand does. The unit is u
@@ -99,7 +99,7 @@ def critical(chance: Draws, count: int) -> Iterator[Decision]:
         yield Decision(bool(ray.refracted), out, usual, float(ray.s2 - 1))
 
 
-@case("D14", "total internal reflection or not, at rotated planes, for n up to 1000")
+@case("D14", "total internal reflection or not, at rotated planes, for n up to 1000", seconds=0.3)
 def any_critical() -> Iterator[Reading]:
     """The textbook takes the squared sine from 1 - c1^2, whose rounding error is 1e-16 however small the sine is. For n
     = 1000 the critical sine is 1e-3, and its square has lost six digits. From the cross product of normal and

@@ -131,7 +131,7 @@ def escapes(rooms: Iterator[Room], names: Sequence[str]) -> Iterator[Reading]:
         yield exactly(f"{name}: leave, of {count} rays", 0, ours, usual)
 
 
-@case("B11", "rooms of mirrors: no ray leaves through an edge or a corner")
+@case("B11", "rooms of mirrors: no ray leaves through an edge or a corner", seconds=0.3)
 def any_room() -> Iterator[Reading]:
     """At a corner three walls are met at once. A ray that was moved off one wall is behind another one, or so close to
     it that the smallest distance discards the hit, and leaves the room at its second or third bounce. Of rotated
@@ -142,7 +142,7 @@ def any_room() -> Iterator[Reading]:
     yield from escapes(turned(Draws(32), 30, 10), ["rotated meshes", "rotated polygons"])
 
 
-@case("K3", "closed cylinders, frustums and cones of mirrors: no ray leaves through a rim or a tip")
+@case("K3", "closed cylinders, frustums and cones of mirrors: no ray leaves through a rim or a tip", seconds=0.4)
 def any_drum() -> Iterator[Reading]:
     """At a rim the quadratic's hit lies beyond the end by a rounding error, and the disc's hit beyond the radius: both
     are discarded. After a bounce, the start that was moved off the side is in front of the end by less than the

@@ -29,7 +29,7 @@ def hits(chance: Draws, count: int) -> Iterator[Hit]:
             yield Hit(exact[0], float(row["t"]), float(row["error"]), usual)
 
 
-@case("A12", "any sphere from anywhere: radius 1e-9 to 1e9, 1e-9 to 1e6 radii away")
+@case("A12", "any sphere from anywhere: radius 1e-9 to 1e9, 1e-9 to 1e6 radii away", seconds=0.3)
 def any_sphere() -> Iterator[Reading]:
     """b^2 - 4ac loses the digits of the radius if the sphere is far away, and -b - sqrt(b^2 - 4ac) those of the height
     if the eye is close to it. The textbook has no smallest distance here, which would cost it all small spheres. The
@@ -57,7 +57,7 @@ def silhouettes(chance: Draws) -> Iterator[Decision]:
             yield Decision(bool(exact), math.isfinite(row["t"]), usual < math.inf, float(margin))
 
 
-@case("A13", "the silhouettes of spheres of any size, seen from anywhere")
+@case("A13", "the silhouettes of spheres of any size, seen from anywhere", seconds=0.1)
 def any_silhouette() -> Iterator[Reading]:
     """Hit or miss is the sign of b^2 - 4ac, which has rounding errors of the size of the squared distance. At 1e4 radii
     away these are 1e-8 of the squared radius, and any margin below that is decided at random. The margin of a ray is
