@@ -42,7 +42,7 @@ class Driver:
             self.session.update()
             self.app.frame()
             assert self.app.surface.ctx.error == "GL_NO_ERROR"
-            assert self.provokes or not self.session.guard.caught
+            assert self.provokes or not self.session.guard.caught, self.session.guard.caught
 
     def move(self, x: float, y: float) -> None:
         imgui.get_io().add_mouse_pos_event(x, y)
