@@ -114,8 +114,7 @@ BINDINGS = (
         "Alt+Left, Alt+Right", "back to the pixel or scene before, forward again",
         alt={K.left_arrow: lambda session: go(session, -1), K.right_arrow: lambda session: go(session, 1)},
     ),
-    Binding("drag", "in the scene: turn; with Shift or the right button: move"),
-    Binding("wheel", "in the scene, on the tree: zoom"),
+    Binding("drag, wheel", "in the scene: turn (with Shift or the right button: move), zoom; on the tree: move, zoom"),
     Binding("F", "fit scene, image and tree into their panels (double click: only that one)", {"f": Session.home}),
     Binding("V", "look through the scene's camera", {"v": look_through_camera}),
     Binding(
@@ -129,18 +128,15 @@ BINDINGS = (
     Binding("B or .", "black screen; any key or click brings the window back", {"b": _blank, ".": _blank}),
     Binding("Esc", "close a message or the help; unselect the ray", pressed={K.escape: _escape}),
     Binding(
-        "Ctrl+R", "reload the scene's file (automatic when it is saved)",
-        ctrl={K.r: lambda session: session.loader.reload()},
-    ),
-    Binding(
         "Ctrl+S", "export a figure of the current view (the menu Figure selects it)", ctrl={K.s: export_figure}
     ),
     Binding(
         "Ctrl+C", "copy that figure: a picture to paste onto a slide; with Shift its command line", ctrl={K.c: _copy}
     ),
     Binding(
-        "Ctrl+O, Ctrl+Q", "open a scene; quit",
+        "Ctrl+O, R, Q", "open a scene; reload it (automatic when it is saved); quit",
         ctrl={
+            K.r: lambda session: session.loader.reload(),
             K.o: lambda session: session.requests.append(Request.OPEN_DIALOG),
             K.q: lambda session: session.requests.append(Request.QUIT),
         },
