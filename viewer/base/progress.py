@@ -16,6 +16,7 @@ SHORT = 1.0  # seconds before anything is shown on a terminal
 LONG = 5.0  # seconds that an activity must have taken elsewhere: a line in a log stays
 TICK = 0.2  # seconds between updates
 TELLING = 0.1  # share that must be done before the time left is shown: the first parts are no fair sample
+LONG_ENOUGH = 10.0  # seconds after which they are one, if a hundredth is done
 STEP = 10  # percent between lines in a log
 CLEAR = "\r\x1b[K"
 
@@ -75,20 +76,21 @@ class Progress:
     def line(self, now: float) -> str:
         """For example `render glass-ball 43 %, 12 s left`; the time so far until enough is done to tell the rest."""
         passed, left, doing = now - self.began, self.left(now), printable(self.doing)
+        share = f" {100 * self.share:.0f} %" if self.share >= 0.005 else ""
         if left is not None:
             only = f" {self.only}" if self.only else ""
-            return f"{doing} {100 * self.share:.0f} %, {duration(left)} left{only}"
-        return f"{doing} ({duration(passed)})" if passed >= SHORT else doing
+            return f"{doing}{share}, {duration(left)} left{only}"
+        return f"{doing}{share} ({duration(passed)})" if passed >= SHORT else f"{doing}{share}"
 
     def left(self, now: float) -> float | None:
         """The seconds that are left, at the mean speed so far; None if too little is done to tell.
 
         Until the next share is set, time passes. But a step that takes long never halves what was left before it.
         """
-        share = self.share
-        if share < TELLING:
+        share, passed = self.share, self.told - self.began
+        if share < TELLING and (passed < LONG_ENOUGH or share < 0.1 * TELLING):
             return None
-        left = (self.told - self.began) * (1.0 - share) / share
+        left = passed * (1.0 - share) / share
         return max(0.5 * left, left - (now - self.told))
 
     def _run(self) -> None:

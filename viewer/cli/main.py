@@ -101,6 +101,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except Interrupted as asked:
         put_error("stopped")
         status = asked.status
+        sys.unraisablehook = lambda _: None  # what a compiler was doing may fail to clean up
     # The exception is gone, and with its frames what they held, like the semaphores of worker processes.
     os._exit(status)  # at once: Python would wait for threads in C code of libraries
 

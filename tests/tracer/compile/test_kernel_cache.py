@@ -143,7 +143,7 @@ def test_a_cache_that_cannot_be_written_costs_no_result(filled: tuple[Path, Path
 def test_the_command_line_notes_that_kernels_cannot_be_kept(tmp_path: Path) -> None:
     (tmp_path / f"raytree-{os.geteuid()}").write_text("a file in the place of the folder")
     program = "from unittest.mock import patch\nfrom viewer.cli import terminal\n"
-    program += "with patch.object(terminal, 'fill_cache', lambda: None): terminal.compile_once()\n"
+    program += "with patch.object(terminal, 'fill_cache', lambda batch: None): terminal.compile_once()\n"
     environment = {**os.environ, "XDG_CACHE_HOME": "/dev/null", "TMPDIR": str(tmp_path)}
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, env=environment, check=True)
     *_, note = run.stderr.splitlines()

@@ -41,7 +41,10 @@ def test_too_little_is_done_to_tell_what_is_left() -> None:
     progress = Progress("render ball", clock=clock)
     clock.now = 1002.0
     progress(0.01)
-    assert progress.line(1002.0) == "render ball (2 s)"
+    assert progress.line(1002.0) == "render ball 1 % (2 s)"
+    clock.now = 1011.0
+    progress(0.02)
+    assert progress.line(1011.0) == "render ball 2 %, 9 min left"  # after ten seconds, it is a fair sample
 
 
 def test_the_time_before_the_work_begins_does_not_count() -> None:
