@@ -49,8 +49,7 @@ def draw(session: Session, canvas: Canvas) -> None:
 
 
 def _hint(session: Session, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
-    content = "Click a pixel of the image: its rays appear here as a tree."
-    size = imgui.get_font_size()
+    content, size = "Click a pixel of the image: its rays appear here as a tree.", imgui.get_font_size()
     width, height = d.text_size(content, size)
     at = (corner.x + 0.5 * (room.x - width), corner.y + 0.5 * (room.y - height))
     d.text(pad, at, session.appearance.theme.muted, content, size)
@@ -191,22 +190,24 @@ class _Diagram:
         size = self.text_size
         color = faded(self.theme.text, opacity)
         # The label is at the node's height, between the incoming and the outgoing edges.
-        at = x + self.radius + 7.0 * d.unit()
-        room = self._room_beside(i) - 7.0 * d.unit()
         gap = 6.0 * d.unit()
-        # The label of the ray stands here if there is no room at the edge, as for the camera ray.
-        name = name if i and self.labels_edges else f"{ray_label(self.tree, i)}  {name}"
-        if note and room < d.text_size(name, size)[0] + gap + d.text_size(note, size)[0]:
+        at, room = x + self.radius + gap, self._room_beside(i) - gap
+        # The ray's label stands here if there is no room at the edge, as for the camera ray; its factor, if it fits.
+        label = "" if i and self.labels_edges else ray_label(self.tree, i)
+        if note and room < d.text_size(f"{label}  {name}", size)[0] + gap + d.text_size(note, size)[0]:
             note = "cut"
         taken = gap + d.text_size(note, size)[0] if note else 0.0
-        factor = self._factor(i) if i and not self.labels_edges else ""
-        wide = gap + d.text_size(factor, size)[0]
-        if factor and room >= d.text_size(name, size)[0] + taken + wide:
+        long = f"{label} {self._factor(i)}"
+        if i and label and room >= d.text_size(f"{long}  {name}", size)[0] + taken:
+            label = long
+        if label:
             ink = faded(self.theme.ray(self.tree.kind(i)), opacity)
-            d.text(self.pad, (at, y - 0.5 * size), ink, factor, size, self.theme.panel)
+            d.text(self.pad, (at, y - 0.5 * size), ink, label, size, self.theme.panel)
+            wide = d.text_size(f"{label}  ", size)[0]
             at += wide
             taken += wide
         content = d.shortened(name, size, room - taken)
+        content = content if content == name or len(content) > 5 else ""
         d.text(self.pad, (at, y - 0.5 * size), color, content, size, self.theme.panel)
         if note:
             at += d.text_size(content, size)[0] + gap
