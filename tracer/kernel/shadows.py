@@ -154,6 +154,7 @@ def filter_sorted(world: Arrays, ray: Ray, count: int, row: int, behind: bool, s
                 k = j
         t, s = crossed[k].t, crossed[k].surface
         crossed[k].t, crossed[k].surface = crossed[done].t, crossed[done].surface
+        crossed[done].t, crossed[done].surface = t, s
         if may_be_misplaced(world, done, count, row, behind, space) and not is_entering(world, s, ray, t):
             continue
         if t != last_t or world.surfaces[s].object != last_object:

@@ -1,5 +1,6 @@
 """Shadow rays: one to every light in the tree, in the image only those that can add light; transparent occluders."""
 
+import itertools
 import math
 import random
 
@@ -245,6 +246,26 @@ def test_light_in_the_very_point_it_should_light_adds_nothing() -> None:
     assert np.isfinite(tree.radiance).all()
     assert tree.nodes["t"][1] == 0.0
     assert tree.end(1) == "blocked"
+
+
+@pytest.mark.parametrize("order", list(itertools.permutations(range(4))))
+def test_nested_and_other_balls_take_their_shares_in_any_order_of_the_file(order: tuple[int, ...]) -> None:
+    """A core in two balls of glass, which its shadow ray leaves, and two balls farther on, which it crosses."""
+    shares = (0.9, 0.8, 0.7, 0.6)
+    balls = [
+        ball(center, radius, Material(f"glass {k}", transmit=share, ior=1.0), priority=k)
+        for k, (center, radius, share) in enumerate(
+            zip(((0, 0, 0), (0, 0, 0), (0, 9, 0), (0, 5, 0)), (3.0, 2.0, 1.0, 0.5), shares, strict=True)
+        )
+    ]
+    things = [balls[k] for k in order]
+    lamp = Light("lamp", position=(0.0, 40.0, 0.0))
+    core = ball((0, 0, 0), 1.0, MATTE, name="core")
+    tree = tracer.trace(world_of(*things, core, lights=[lamp]), ray=((0.1, 20.0, 0.0), (0.0, -1.0, 0.0)), depth=9)
+    (hit,) = [i for i in range(len(tree)) if tree.kind(i) != "shadow" and tree.object_name(i) == "core"]
+    (shadow,) = tree.children[hit]
+    expected = shares[0] * shares[1] * shares[2] ** 2 * shares[3] ** 2
+    assert tree.nodes["factor"][shadow][0] == pytest.approx(expected, rel=16 * 2.0**-53, abs=0.0)
 
 
 FILM = Material("film", diffuse=0.1, transmit=0.6, ior=1.5)
