@@ -29,6 +29,11 @@ END_REASONS = {
 
 FACES_AWAY = "adds nothing: the surface faces away"
 
+IDLE = {  # of shadow rays whose light adds nothing
+    "lit": "reaches the light, but adds nothing",
+    "filtered": "through glass (unbent), but adds nothing",
+}
+
 MAX_INDENT = 60  # levels that are indented; a deeper tree shows its levels as numbers
 
 
@@ -104,17 +109,24 @@ def cut_summary(tree: TreeTable) -> str:
         carry = f"stopped by depth or weight, before the tolerance was reached: {carry}"
     most = tree.missing
     channel = max(range(3), key=lambda k: most[k])
-    lacks = missing_light(most[channel], tree.radiance_bound.reason, float(tree.radiance[channel]))
+    grey = len(set(most)) == 1 and len(set(tree.radiance.tolist())) == 1
+    where = "" if grey else f" in {CHANNELS[channel]}"
+    lacks = missing_light(most[channel], tree.radiance_bound.reason, float(tree.radiance[channel]), where)
     return f"{carry}{lacks}{within(tree.bound, tree.missing_allowed)}"
 
 
-def missing_light(bound: float, reason: str, radiance: float | None = None) -> str:
+CHANNELS = ("red", "green", "blue")
+
+
+def missing_light(bound: float, reason: str, radiance: float | None = None, where: str = "") -> str:
     """The end of a sentence about rays that were cut: the bound on the missing light, relative to the pixel's, in the
-    channel that may lack most. `reason` is the material that has no bound.
+    channel that may lack most, which `where` names. `reason` is the material that has no bound.
     """
     if math.isinf(bound):
         return f', and no upper bound is known for the missing light, because of the material "{reason}"'
-    of = "the light" if radiance is None else f"this pixel's {number_text(radiance)}"
+    if radiance is not None and bound > radiance:
+        return f": at most {number_text(bound)} is missing{where}, where this pixel has {number_text(radiance)}"
+    of = "the light" if radiance is None else f"this pixel's {number_text(radiance)}{where}"
     return f": at most {number_text(bound)} of {of} is missing"
 
 
@@ -163,7 +175,10 @@ def end_reason(tree: TreeTable, i: int) -> str:
     """The reason why no ray follows ray i; for a shadow ray, whether it reaches its light."""
     if tree.end(i) == "tolerance" and tree.missing_allowed is not None:
         return "cut: within the light that may be missing"
-    return FACES_AWAY if tree.faces_away(i) else END_REASONS[tree.end(i)]
+    if tree.faces_away(i):
+        return FACES_AWAY
+    end = tree.end(i)
+    return IDLE[end] if end in IDLE and tree.adds_nothing(i) else END_REASONS[end]
 
 
 def _pair(first: str, second: str) -> str:

@@ -7,8 +7,9 @@ from pathlib import Path
 import tracer
 from tracer.extras import MissingExtra
 from tracer.formats import OTHER_MESHES, READERS, UP_AXES
+from tracer.printable import shown_path
 from tracer.scene.radiance_bound import MissingBoundError
-from viewer.base.files import Unusable, is_there
+from viewer.base.files import Unusable, has_folder, is_there
 from viewer.base.progress import Progress
 from viewer.lessons import lesson
 from viewer.lessons.lesson import Lesson
@@ -20,6 +21,8 @@ def find(name: str) -> tuple[Path, Lesson | None]:
     if is_there(path / "lesson.md"):
         found = lesson.read_file(path / "lesson.md")
         return found.scene, found
+    if has_folder(path):
+        raise Unusable(f"{shown_path(path)}: a folder must have a file lesson.md, got none")
     if is_there(path) or path.suffix.lower() in (*READERS, *OTHER_MESHES):
         return path, None
     if name not in lesson.names() and (path.suffix or len(path.parts) > 1):

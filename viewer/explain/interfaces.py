@@ -39,6 +39,11 @@ def _interface(tree: RayTree, hit: int, place: str) -> Interface:
         place,
         format_angle(row["theta1"], turn),
         format_angle(math.nan if critical is None else critical),
-        format_number(row["radicand"]),
+        _steady(float(row["radicand"])),
         format_angle(row["theta2"], turn),
     )
+
+
+def _steady(x: float) -> str:
+    """A number with five decimals, also where the last ones are 0, so that it keeps its width while it changes."""
+    return f"{x:.5f}".replace("-", "−") if 1e-4 <= abs(x) < 1e3 else format_number(x)

@@ -44,6 +44,7 @@ class LessonView:
 class Lesson:
     name: str
     title: str
+    path: Path  # of lesson.md
     scene: Path
     text: str
     pixel: tuple[int, int] | None
@@ -98,6 +99,7 @@ def read_file(path: Path) -> Lesson:
     return Lesson(
         name=path.absolute().parent.name,
         title=head_values.title,
+        path=path,
         scene=path.parent / head_values.scene,
         text=body.strip(),
         pixel=head_values.pixel,

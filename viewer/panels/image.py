@@ -102,8 +102,9 @@ def _head(session: Session) -> None:
         imgui.same_line()
         imgui.set_next_item_width(56 * unit)
         written = "" if value < 0 else str(value)
+        flags = imgui.InputTextFlags_
         changed, text = imgui.input_text(
-            f"##{label}", written, imgui.InputTextFlags_.chars_decimal | imgui.InputTextFlags_.enter_returns_true
+            f"##{label}", written, flags.chars_decimal | flags.enter_returns_true | flags.auto_select_all
         )
         if changed and text.isdigit():
             session.pick(*((int(text), max(y, 0)) if label == "x" else (max(x, 0), int(text))))

@@ -10,7 +10,7 @@ from viewer.base.theme import THEMES
 from viewer.figures.catalogue import FIGURES, FORMATS, PICTURES
 from viewer.lessons import lesson as lessons
 from viewer.panels import draw as d
-from viewer.session.actions import go, look_through_camera
+from viewer.session.actions import go, look_through_camera, open_lesson
 from viewer.session.saving import copy_command, export_figure, save_image
 from viewer.session.session import Session
 from viewer.session.view_state import Request
@@ -27,15 +27,6 @@ def draw(session: Session) -> bool:
         _title(session)
         imgui.end_main_menu_bar()
     return reset
-
-
-def open_lesson(session: Session, name: str) -> None:
-    try:
-        lesson = lessons.read(name)
-    except Unusable as unusable:
-        session.show_faults(list(unusable.faults))
-        return
-    session.loader.open(lesson.scene, lesson)
 
 
 def _file_menu(session: Session) -> None:

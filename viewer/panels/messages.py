@@ -21,10 +21,13 @@ def draw(session: Session) -> None:
     if session.faults:
         count = len(session.faults)
         said = "1 fault" if count == 1 else f"{count} faults"
-        kept = "; the last good scene stays" if session.world else ""
-        again = " Save the file, and it is read again." if is_there else ""
-        faults = [_short_path(fault) if is_there else fault for fault in session.faults]
-        if not _box("This cannot be shown", f"{said}{kept}.{again}", faults, theme.fault, session):
+        title, head, faults = "This did not work", f"{said}.", session.faults
+        if session.faults_in_files:
+            kept = "; the last good scene stays" if session.world else ""
+            again = " Save the file, and it is read again." if is_there else ""
+            title, head = "This cannot be shown", f"{said}{kept}.{again}"
+            faults = [_short_path(fault) if is_there else fault for fault in faults]
+        if not _box(title, head, faults, theme.fault, session):
             session.faults = []
     elif session.notes and not _box(
         "Notes on this scene", "It is shown, except for this:", session.notes, theme.accent, session

@@ -6,7 +6,9 @@ from imgui_bundle import imgui
 
 from tracer.formats import MESH_READERS, READERS, UP_AXES
 from tracer.printable import shown_path
+from viewer.lessons import lesson as lessons
 from viewer.panels import draw as d
+from viewer.session.actions import open_lesson
 from viewer.session.session import Session
 
 TITLE = "Open a scene"
@@ -33,11 +35,14 @@ def draw(session: Session) -> None:
     if imgui.is_window_appearing():
         dialog.not_found = ""
         imgui.set_keyboard_focus_here()
-    elif dialog.not_found and not imgui.is_any_item_active():
-        imgui.set_keyboard_focus_here()  # the typed path stays, to be corrected
+    elif not imgui.is_any_item_active():
+        imgui.set_keyboard_focus_here()  # a typed path stays, to be corrected
     shown = shown_path(dialog.not_found or dialog.folder)
     entered, written = imgui.input_text("##path", shown, imgui.InputTextFlags_.enter_returns_true)
-    if entered:
+    if entered and written.strip() in lessons.names():
+        imgui.close_current_popup()
+        open_lesson(session, written.strip())
+    elif entered:
         _go(session, dialog.folder / Path(written.strip()).expanduser())
     if dialog.not_found:
         imgui.text_colored(session.appearance.theme.fault, "not found")

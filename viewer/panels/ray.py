@@ -56,7 +56,7 @@ def _head(session: Session, tree: RayTree, row: int) -> None:
 
 def _interfaces(session: Session, rows: list[Interface]) -> None:
     """The table of angles at both ends. It stands at the top, so that it is seen without scrolling."""
-    if not rows or not imgui.begin_table("interfaces", len(HEADINGS), imgui.TableFlags_.sizing_stretch_prop):
+    if not rows or not imgui.begin_table("interfaces", len(HEADINGS), imgui.TableFlags_.sizing_stretch_same):
         return
     for cells in (HEADINGS, *rows):
         imgui.table_next_row()

@@ -6,9 +6,9 @@ import numpy as np
 from imgui_bundle import imgui
 
 from viewer.base.orbit import project
-from viewer.base.theme import SMALL, faded
+from viewer.base.theme import DIMMED, SMALL, faded
 from viewer.figures.labels import ray_label
-from viewer.figures.ray_lines import nearest_row
+from viewer.figures.ray_lines import nearest_row, relatives
 from viewer.gl.canvas import Canvas, texture_ref
 from viewer.panels import draw as d
 from viewer.panels.panel import Corner, Panel
@@ -175,6 +175,8 @@ class _Overlay:
         assert tree
         nodes = tree.nodes
         rows = [line.row for line in self.canvas.lines if line.kind != "shadow"]
+        selected = session.selected
+        kept = relatives(tree, selected, rows) if selected is not None else None
         rows.sort(key=lambda i: (i != session.selected, -nodes["weight"][i].max(), i))
         for i in rows[:MOST_LABELS]:
             start = session.frame.inside(nodes["origin"][i])
@@ -186,8 +188,8 @@ class _Overlay:
                 continue
             kind = tree.kind(i)
             color = session.appearance.theme.ray(kind)
-            if session.selected is not None and i != session.selected:
-                color = faded(color, 0.7)
+            if kept is not None and i not in kept:
+                color = faded(color, DIMMED)
             self.label(at, ray_label(tree, i), color, (8, 4))
 
 

@@ -24,7 +24,7 @@ from viewer.session.session import Session
 MOST_ROWS = 160  # the heaviest rays, if a tree has more
 # Logical pixels between neighbours and between levels, at most and at least. A tree that needs less has to be moved.
 WIDEST, NARROWEST = 170.0, 34.0
-TALLEST, LOWEST = 104.0, 22.0
+TALLEST, LOWEST = 104.0, 14.0
 EYE_ROOM, EYE_AT = 40.0, 27.0  # above the first hit: the room for the eye, and its height
 FOOT = 13.0  # below the last row
 RADIUS = 11.0
@@ -105,7 +105,7 @@ class _Diagram:
             self._edge(i)
         for i in self.rows:
             self._edge_label(i)
-        for i in self.rows:
+        for i in sorted(self.rows, key=lambda i: self.tree.nodes["kind"][i] != SHADOW):  # no light over a name
             self._node(i)
         self._note()
         self._handle_mouse()

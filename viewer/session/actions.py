@@ -1,7 +1,9 @@
 """Actions of keys and buttons that take more than one step of the session."""
 
 from tracer.choices import MODELS
+from viewer.base.files import Unusable
 from viewer.base.orbit import Orbit
+from viewer.lessons import lesson as lessons
 from viewer.session.refinement import Strategy
 from viewer.session.session import Session
 from viewer.session.view_state import Request
@@ -58,3 +60,13 @@ def look_through_camera(session: Session) -> None:
     if session.world:
         view = session.world.view()
         session.orbit = Orbit.of_camera(view, session.world.scene.camera.up, session.frame.inside(view.eye))
+
+
+def open_lesson(session: Session, name: str) -> None:
+    """Open one of the program's lessons."""
+    try:
+        lesson = lessons.read(name)
+    except Unusable as unusable:
+        session.show_faults(list(unusable.faults))
+        return
+    session.loader.open(lesson.scene, lesson)

@@ -73,7 +73,7 @@ class FigureExport:
         self._keep()
         depth = options.depth[-1] if options.depth else 0
         stem = f"{stem_of(shown.scene, options.pixel)}_{self.figure}_d{depth}"
-        target = Target(free_path(Path(stem + FORMATS[name].suffix)), is_folder=False, formats=(name,))
+        target = Target(free_path(Path.cwd() / (stem + FORMATS[name].suffix)), is_folder=False, formats=(name,))
         say("copying the figure ..." if copied else f"exporting {target.path.name} ...")
 
         def make() -> str:

@@ -8,7 +8,8 @@ from typing import NamedTuple
 import tracer
 from tracer.formats import UP_AXES
 from tracer.kernel.world import World
-from viewer.lessons.lesson import Lesson
+from viewer.base.files import Unusable
+from viewer.lessons.lesson import Lesson, read_file
 from viewer.session.call_queue import CallQueue
 from viewer.session.file_watch import FileWatch
 from viewer.session.warmup import Warmup
@@ -63,6 +64,8 @@ class SceneLoader:
         """`open`, where depth and pixel are those of the opening, whatever the lesson says."""
         self.opening = opening
         self.watch.follow(opening.path)
+        if opening.lesson:
+            self.watch.follow_also([opening.lesson.path])
         if self.loading:
             self.loading.cancel()
 
@@ -75,9 +78,17 @@ class SceneLoader:
         self.loading.add_done_callback(lambda loading: self.calls.post(lambda: self._finish(loading, opening)))
 
     def reload(self) -> None:
-        """Load the last scene again."""
-        if self.opening:
-            self.load(self.opening)
+        """Load the last scene again, with its lesson."""
+        if not self.opening:
+            return
+        lesson = self.opening.lesson
+        try:
+            lesson = lesson and read_file(lesson.path)
+        except Unusable as unusable:
+            self.failed(list(unusable.faults))
+            return
+        path = lesson.scene if lesson else self.opening.path
+        self.load(self.opening._replace(path=path, lesson=lesson))
 
     def look(self) -> None:
         """Load the scene again if one of its files has been saved. Called before every frame."""

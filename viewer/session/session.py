@@ -13,6 +13,7 @@ from tracer.compile.numba_private import NOTE
 from tracer.formats import UP_AXES
 from tracer.kernel.limits import Limits, image_max_nodes, make_limits
 from tracer.kernel.world import World
+from tracer.printable import shown_path
 from tracer.tree.raytree import RayTree
 from viewer.base.cached import Cached
 from viewer.base.orbit import Frame, Orbit, initial_orbit
@@ -39,7 +40,7 @@ class Session:
         self.calls = CallQueue(self.guard)
         self.requests: list[Request] = []  # to the window
         self.warmup = Warmup(lambda note: self.calls.post(lambda: self.notice.say(note)))
-        self.loader = SceneLoader(self.calls, self.warmup, self._show, self.show_faults)
+        self.loader = SceneLoader(self.calls, self.warmup, self._show, lambda faults: self.show_faults(faults, True))
         self.image = ImageRenderer(self.calls.post)
         self.refinement = Refinement(self.image)
         self.export = FigureExport(self.calls.post)
@@ -51,19 +52,18 @@ class Session:
         self.appearance = Appearance()
         self.notice = Notice()
         self.dialog = OpenDialog()
-        self.shows_help = False
-        self.is_blank = False  # the window is black
+        self.shows_help = self.is_blank = False  # is_blank: the window is black
         self.scroll = 0  # lines by which the texts are to be scrolled
         # The scene on show.
         self.faults: list[str] = []  # of the last opened scene or the last action; the last good scene stays on show
+        self.faults_in_files = False  # whether they are of the scene's files
         self.notes: list[str] = []  # on the scene on show, until they are closed
         self.opening: Opening | None = None
         self.world: World | None = None
         self._good: tuple[World, Opening] | None = None  # the last scene that was drawn without an exception
         self.frame = Frame(np.zeros(3), 1.0)
         self.orbit = Orbit()
-        self.depth = 3
-        self.model = MODELS[0]
+        self.depth, self.model = 3, MODELS[0]
         self.pixel: tuple[int, int] | None = None
         self.tree: RayTree | None = None  # of the picked pixel
         self.full_tree: RayTree | None = None  # the same at least LAYOUT_DEPTH deep; `tree` is its first rows
@@ -103,11 +103,11 @@ class Session:
         """A pixel outside the image is a fault. If the image has become smaller (`moves`), the pixel moves inside."""
         if not self.pixel:
             return
-        x, y = self.pixel
-        width, height = self.size
+        (x, y), (width, height) = self.pixel, self.size
         inside = self._inside(x, y)
         if inside != self.pixel and not moves:
-            self.faults = [f"pixel must be within 0,0 .. {width - 1},{height - 1}, got {x},{y}"]
+            said = f"{shown_path(self.lesson.path)}: " if self.lesson and self.lesson.pixel == self.pixel else ""
+            self.show_faults([f"{said}pixel must be within 0,0 .. {width - 1},{height - 1}, got {x},{y}"])
             self.pixel = None
         else:
             self.pixel = inside
@@ -276,8 +276,9 @@ class Session:
         self.refinement.current = None
         self.image.show(self.world, self.limits, self.size)
 
-    def show_faults(self, faults: list[str]) -> None:
-        self.faults = faults
+    def show_faults(self, faults: list[str], in_files: bool = False) -> None:
+        """Show faults of an action, or those `in_files`, which are read again when they are saved."""
+        self.faults, self.faults_in_files = faults, in_files
 
     # --- how it is looked at ------------------------------------------------------------------------------------------
 

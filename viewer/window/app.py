@@ -26,7 +26,7 @@ BUSY = 1 / 30  # the same while an image renders and nothing else happens
 SHARE = 0.1  # largest share of the time for drawing frames while an image renders
 EAGER = 0.6  # the same while the user does something
 SMALLEST = (560, 360)  # room for the panels, in pixels
-FRAMES_AFTER_EVENT = 3  # frames drawn after the last event: imgui needs one or two to settle
+FRAMES_AFTER_EVENT = 6  # frames drawn after the last event: imgui's tables need some to settle
 
 
 class App:
@@ -219,9 +219,18 @@ class App:
             self.surface.close_requested()
         elif request is Request.OPEN_DIALOG:
             open_dialog.open_dialog()
+        elif request is Request.NEXT_PANEL:
+            self._show_next_panel()
         else:
             panel = next(panel for panel in PANELS if panel.request is request)
             imgui.set_window_focus(panel.title)
+
+    def _show_next_panel(self) -> None:
+        """Of the panels that share a place at the lower right, show the one after that on show."""
+        panels = [p for p in PANELS if p.place is Corner.BOTTOM_RIGHT and p.exists(self.session)]
+        windows = [internal.find_window_by_name(panel.title) for panel in panels]
+        shown = next((k for k, window in enumerate(windows) if window and not window.hidden), 0)
+        imgui.set_window_focus(panels[(shown + 1) % len(panels)].title)
 
     def _panel(self, panel: Panel) -> None:
         flags = imgui.WindowFlags_

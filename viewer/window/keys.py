@@ -19,6 +19,9 @@ Act = Callable[[Session], object]
 K = imgui.Key
 CTRL = (K.left_ctrl, K.right_ctrl, K.left_super, K.right_super)
 SHIFT = (K.left_shift, K.right_shift)
+ALT = (K.left_alt, K.right_alt)
+LEAVING = (K.page_down, K.page_up, K.up_arrow, K.down_arrow, K.tab)  # keys that a field for numbers has no use for
+EDITING = (K.a, K.c, K.v, K.x, K.z, K.y)  # with Ctrl, they edit the text in a field
 US_KEYS = {getattr(K, letter): letter for letter in "abcdefghijklmnopqrstuvwxyz"} | {
     **{getattr(K, f"_{digit}"): str(digit) for digit in range(10)},
     K.minus: "-", K.equal: "=", K.period: ".", K.slash: "/",
@@ -41,7 +44,7 @@ class Binding:
 
 def _nudge(dx: int, dy: int) -> Act:
     def act(session: Session) -> None:
-        pixels = 10 if imgui.get_io().key_shift else 1
+        pixels = 10 if imgui.get_io().key_shift or _just_released(SHIFT) else 1
         nudge(session, pixels * dx, pixels * dy)
 
     return act
@@ -111,6 +114,10 @@ BINDINGS = (
     ),
     Binding("J  K", "scroll the text or the numbers: down, up", {"j": _scroll(LINES), "k": _scroll(-LINES)}),
     Binding(
+        "P", "next panel at the lower right: lesson, numbers, error",
+        {"p": lambda session: session.requests.append(Request.NEXT_PANEL)},
+    ),
+    Binding(
         "Alt+Left, Alt+Right", "back to the pixel or scene before, forward again",
         alt={K.left_arrow: lambda session: go(session, -1), K.right_arrow: lambda session: go(session, 1)},
     ),
@@ -160,17 +167,29 @@ def handle(session: Session) -> None:
             internal.close_popup_to_level(0, True)
         return
     if io.want_text_input:
-        return
+        if not _leaves_field(io):
+            return
+        internal.clear_active_id()
     if io.key_ctrl or io.key_super or _just_released(CTRL):
         _press([binding.ctrl for binding in BINDINGS], session, repeat=False)
         return
-    if io.key_alt:
-        _press([binding.alt for binding in BINDINGS], session, repeat=False)
-        return
+    if io.key_alt or _just_released(ALT):
+        acted = _press([binding.alt for binding in BINDINGS], session, repeat=False)
+        if acted or io.key_alt:
+            return
     for character in _typed(io):
         TYPED[character](session)
     _press([binding.repeated for binding in BINDINGS], session, repeat=True)
     _press([binding.pressed for binding in BINDINGS], session, repeat=False)
+
+
+def _leaves_field(io: imgui.IO) -> bool:
+    """Whether a key was pressed that the field for a pixel's coordinate has no use for: it acts as everywhere."""
+    if io.key_ctrl or io.key_super:
+        bound = {key for binding in BINDINGS for key in binding.ctrl}
+        return any(imgui.is_key_pressed(key, False) for key in bound.difference(EDITING))
+    letters = any(not chr(character).isdigit() for character in io.input_queue_characters)
+    return letters or io.key_alt or any(imgui.is_key_pressed(key, True) for key in LEAVING)
 
 
 def _own_tab() -> None:
@@ -189,17 +208,23 @@ def _typed(io: imgui.IO) -> list[str]:
     bound = [character for character in written if character in TYPED]
     if bound or not written:
         return bound
-    keys = [key for key, character in US_KEYS.items() if character in TYPED]
+    # With Shift, only letters: a sign above a digit is not that digit.
+    allowed = [key for key, us in US_KEYS.items() if us.isalpha() or not io.key_shift]
+    keys = [key for key in allowed if US_KEYS[key] in TYPED]
     pressed = [key for key in keys if imgui.is_key_pressed(key, True)]
     # Typed fast, a character may come one frame later than its key.
     return [US_KEYS[key] for key in pressed or [key for key in keys if imgui.is_key_down(key)]]
 
 
-def _press(groups: list[Mapping[imgui.Key, Act]], session: Session, repeat: bool) -> None:
+def _press(groups: list[Mapping[imgui.Key, Act]], session: Session, repeat: bool) -> bool:
+    """Run the actions of the keys that are pressed. Returns whether there were any."""
+    acted = False
     for group in groups:
         for key, act in group.items():
             if imgui.is_key_pressed(key, repeat):
                 act(session)
+                acted = True
+    return acted
 
 
 def _just_released(keys: tuple[imgui.Key, ...]) -> bool:

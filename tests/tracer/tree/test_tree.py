@@ -129,7 +129,9 @@ def test_text_draws_a_line_a_ray_below_its_parent(tree: tracer.RayTree) -> None:
     for i, line in zip(order, lines, strict=True):
         name = tree.light_label(i) if tree.kind(i) == "shadow" else tree.label(i)
         assert f"{name} {tree.kind(i)}" in line
-        assert ("the surface faces away" if tree.faces_away(i) else END_REASONS[tree.end(i)]) in line
+        idle = tree.kind(i) == "shadow" and tree.end(i) != "blocked" and not tree.nodes["radiance"][i].any()
+        assert ("adds nothing" in line) == (idle or tree.faces_away(i))
+        assert "the surface faces away" in line if tree.faces_away(i) else idle or END_REASONS[tree.end(i)] in line
         assert (tree.object_name(i) or "") in line
     assert all(len(line) <= 160 for line in lines)
     for place, i in enumerate(order[1:], start=1):

@@ -11,7 +11,8 @@ from imgui_bundle.imgui import internal
 from tests.viewer.driver import Driver, viewer
 from viewer.gl.features import FEATURES
 from viewer.gl.surfaces import Surfaces
-from viewer.panels import lesson, menu, ray
+from viewer.panels import lesson, ray
+from viewer.session import actions
 
 MATTE = (
     "format = 1\n[[light]]\nposition = [1, 5, 3]\n"
@@ -100,7 +101,7 @@ def test_variants_are_compiled_once(room: Driver, tmp_path: Path) -> None:
 def test_scene_without_a_lesson_has_no_lesson_panel(room: Driver, tmp_path: Path) -> None:
     show(room, tmp_path)
     assert internal.find_window_by_name(lesson.PANEL.title) is None
-    menu.open_lesson(room.session, "two-lights")
+    actions.open_lesson(room.session, "two-lights")
     room.app.settle(4)
     found, numbers = internal.find_window_by_name(lesson.PANEL.title), internal.find_window_by_name(ray.PANEL.title)
     assert found and numbers and found.active and not found.hidden

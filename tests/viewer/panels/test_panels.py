@@ -12,7 +12,8 @@ from tests import ROOT
 from tests.conftest import LESSONS
 from tests.viewer.driver import Driver, viewer
 from viewer.base.orbit import project
-from viewer.panels import lesson, menu, ray
+from viewer.panels import lesson, ray
+from viewer.session import actions
 
 Key = imgui.Key
 
@@ -58,7 +59,7 @@ def test_every_character_is_in_the_fonts(room: Driver) -> None:
 def test_lesson_texts_stay_inside_their_panel(room: Driver, size: tuple[int, int]) -> None:
     room.resize(size)
     for name in LESSONS:
-        menu.open_lesson(room.session, name)
+        actions.open_lesson(room.session, name)
         room.app.settle(4)
         panel = window(lesson.PANEL.title)
         assert not panel.hidden
@@ -66,7 +67,7 @@ def test_lesson_texts_stay_inside_their_panel(room: Driver, size: tuple[int, int
 
 
 def test_selected_ray_comes_to_the_front_and_begins_at_its_top(room: Driver) -> None:
-    menu.open_lesson(room.session, "glass-ball")
+    actions.open_lesson(room.session, "glass-ball")
     room.app.settle()
     room.press(Key.page_down)
     assert not window(ray.PANEL.title).hidden

@@ -15,7 +15,8 @@ from tests.viewer.panels.test_panels import window
 from tracer.image.progressive import RoundStats
 from viewer.base.colormap import RANGES, colorize, gradient
 from viewer.base.srgb import srgb
-from viewer.panels import error, menu
+from viewer.panels import error
+from viewer.session import actions
 from viewer.session.actions import set_strategy
 from viewer.session.refinement import BYTES_PER_PIXEL, STRATEGIES, Run, forecast
 
@@ -142,7 +143,7 @@ def test_an_image_that_was_dropped_is_begun_anew(room: Driver, monkeypatch: pyte
 
 def test_another_scene_has_no_curves_yet(room: Driver) -> None:
     refine(room, 2.0)
-    menu.open_lesson(room.session, "two-lights")
+    actions.open_lesson(room.session, "two-lights")
     room.app.settle()
     assert room.session.refinement.runs == []
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.viewer.driver import Driver, viewer
+from viewer.lessons import lesson
 
 
 def write_ball(path: Path, radius: str, color: str = "[1, 0, 0]") -> None:
@@ -134,3 +135,22 @@ def test_saving_a_material_library_shows_the_change(tmp_path: Path) -> None:
         library.write_text("newmtl red\nKd 0 1 0\n")
         saved(driver, library)
         assert driver.session.world.scene.objects[0].material.color == (0.0, 1.0, 0.0)
+
+
+def test_a_saved_lesson_is_read_again(tmp_path: Path) -> None:
+    write_ball(tmp_path / "scene.toml", "1")
+    text = '+++\ntitle = "Mine"\nscene = "scene.toml"\npixel = [3, 4]\n+++\n'
+    (tmp_path / "lesson.md").write_text(f"{text}before")
+    with viewer() as driver:
+        found = lesson.read_file(tmp_path / "lesson.md")
+        driver.session.loader.open(found.scene, found)
+        driver.app.settle()
+        driver.session.pick(20, 20)
+        (tmp_path / "lesson.md").write_text(f"{text}after")
+        saved(driver, tmp_path / "lesson.md")
+        assert driver.session.lesson and driver.session.lesson.text == "after"
+        assert driver.session.pixel == (20, 20)
+        (tmp_path / "lesson.md").write_text("no data")
+        saved(driver, tmp_path / "lesson.md")
+        assert driver.session.lesson.text == "after" and "a lesson begins with" in driver.session.faults[0]
+        driver.frames()

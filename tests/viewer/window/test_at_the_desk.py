@@ -49,6 +49,73 @@ def test_tab_changes_the_size_and_nothing_else(desk: Desk) -> None:
     assert desk.session.pixel == pixel and not imgui.get_io().want_text_input
 
 
+def test_a_coordinate_is_typed_over_the_old_one_and_other_keys_leave_the_field(desk: Desk) -> None:
+    left, top = desk.place()
+    session = desk.session
+    assert session.pixel
+    row = session.pixel[1]
+
+    def enter_field() -> None:
+        hand("mousemove", left + 788, top + 65, "click", 1)
+        desk.until(lambda: imgui.get_io().want_text_input, "the field")
+
+    enter_field()
+    hand("key", "3", "0", "5", "Return")
+    desk.until(lambda: session.pixel == (305, row), "the typed coordinate")
+    key(desk)
+    for name, acted in (
+        ("b", lambda: session.is_blank),
+        ("period", lambda: session.is_blank),
+        ("Next", lambda: session.selection == "E"),
+        ("Tab", lambda: session.appearance.is_lecture_size),
+        ("alt+Left", lambda: session.pixel != (305, row)),
+        ("t", lambda: not session.appearance.theme.dark),
+    ):
+        enter_field()
+        hand("key", name)
+        desk.until(acted, f"{name} from within the field")
+        if session.is_blank:
+            hand("key", "space")
+            desk.until(lambda: not session.is_blank, "the window")
+        if session.appearance.is_lecture_size:
+            hand("key", "Tab")
+            desk.until(lambda: not session.appearance.is_lecture_size, "the usual size")
+        key(desk)
+
+
+def test_signs_above_digits_are_not_digits(desk: Desk) -> None:
+    key(desk)
+    hand("key", "parenleft", "ampersand", "exclam")
+    key(desk, "a")
+    assert desk.session.depth in (1, 2) and not desk.session.shown.labels
+
+
+def test_lessons_and_panels_by_keys(desk: Desk) -> None:
+    hand("key", "ctrl+o")
+    desk.until(lambda: imgui.get_io().want_text_input, "the dialog")
+    frames = imgui.get_frame_count()
+    hand("key", "Return")  # the folder on show: the field takes the keyboard again
+    desk.until(lambda: imgui.get_frame_count() > frames + 5 and imgui.get_io().want_text_input, "the field")
+    hand("key", "ctrl+a")
+    hand("type", "underwater")
+    hand("key", "Return")
+    desk.until(lambda: desk.session.lesson is not None and desk.session.lesson.name == "underwater", "the lesson")
+    desk.until(desk.is_quiet, "its image")
+    seen = []
+    for _ in range(4):
+        hand("key", "p")
+        key(desk)
+        shown = [title for title in ("Selected ray", "Error", "Lesson") if not panel_of(title).hidden]
+        seen += shown
+    assert len(seen) == 4 and set(seen) == {"Selected ray", "Error", "Lesson"} and seen[0] == seen[3]
+
+
+def panel_of(title: str) -> internal.Window:
+    found = internal.find_window_by_name(title)
+    assert found
+    return found
+
+
 def test_escape_leaves_the_pixel(desk: Desk) -> None:
     pixel = desk.session.pixel
     desk.session.select(4)

@@ -23,6 +23,7 @@ def write_dot(tree: RayTree) -> str:
             label = f"{tree.light_name(i)}\n{end_reason(tree, i)}" + (
                 f" by {met}" if tree.end(i) == "blocked" and not tree.faces_away(i) else ""
             )
+        name = tree.light_label(i) if row["kind"] == SHADOW else tree.label(i)
         parent = "eye" if row["parent"] < 0 else f"n{row['parent']}"
         factor = (
             ""
@@ -30,7 +31,7 @@ def write_dot(tree: RayTree) -> str:
             else f" × {number_text(row['factor'].max(), row['factor_error'])}"
         )
         lines.append(f"  n{i} [label={_quoted(label)}];")
-        lines.append(f"  {parent} -> n{i} [label={_quoted(tree.kind(i) + factor)}, style={style}];")
+        lines.append(f"  {parent} -> n{i} [label={_quoted(f'{name} {tree.kind(i)}{factor}')}, style={style}];")
     return "\n".join([*lines, "}"]) + "\n"
 
 
