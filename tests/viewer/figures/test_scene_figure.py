@@ -17,7 +17,7 @@ from tracer.scene import Camera, Checker, Light, Material, Object
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from viewer.base.orbit import Frame, Orbit, initial_orbit
-from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text, clip_shares
+from viewer.figures.marks import HEIGHT, WIDTH, Disc, Figure, Line, Shape, Text, clip_shares
 from viewer.figures.pages import pages
 from viewer.figures.steps import by_depth, by_ray
 from viewer.figures.subject import FigureStyle, Subject
@@ -327,3 +327,12 @@ def test_rays_to_many_lights_are_left_out_and_the_figure_says_so(lights: int) ->
         "scene", Subject(by_ray(tree)[:3], world, initial_orbit(world, Frame.of(world), None)), FigureStyle()
     )
     assert any(m.name == "ray-2" for m in last[-1].marks)  # the ray that a step adds is drawn
+
+
+def test_a_sign_near_the_border_is_moved_inwards(worlds: dict[str, tracer.World]) -> None:
+    """The eye of this picture is nearer to its border than half a sign."""
+    (figure,) = pages("both", subject(worlds["mirror-balls"], "mirror-balls", range(3, 4)), FigureStyle())
+    left, _ = sorted(mark.center[0] for mark in figure.marks if isinstance(mark, Disc) and mark.name == "eye")
+    starts = [mark.start[0] for mark in figure.marks if isinstance(mark, Line) and mark.name == "ray-0"]
+    assert 0.0 < min(starts) < left < min(starts) + 20.0
+    check_labels(figure)

@@ -167,8 +167,12 @@ class _Drawing:
     # --- signs and labels ---------------------------------------------------------------------------------------------
 
     def _place(self, point: Vector) -> Point | None:
-        """A point of the scene on the canvas, if there is room for a sign."""
-        return self.view.place(self.view.frame.inside(point), SIGN_ROOM * self.size)
+        """The place of a sign at a point of the scene: moved inwards if the picture ends too near; None outside it."""
+        at = self.view.place(self.view.frame.inside(point))
+        if at is None:
+            return None
+        left, top, right, bottom = widened(self.view.where, -SIGN_ROOM * self.size)
+        return (min(max(at[0], left), right), min(max(at[1], top), bottom))
 
     def _lights(self) -> dict[int, Point]:
         """The places of the lights in the picture."""

@@ -81,11 +81,11 @@ class SceneView:
             return ARROW_AT
         return float(np.median(shares[seen])) if seen.any() else 0.0
 
-    def place(self, point: np.ndarray, room: float) -> Point | None:
-        """A point of the frame on the canvas; None if it is not inside, at least `room` away from the border."""
+    def place(self, point: np.ndarray) -> Point | None:
+        """A point of the frame on the canvas; None if it is not inside."""
         places, depths = self.at(point[None])
         x, y = places[0].tolist()
-        return (x, y) if depths[0] > 0.0 and inside((x, y), widened(self.where, -room)) else None
+        return (x, y) if depths[0] > 0.0 and inside((x, y), self.where) else None
 
     def hidden(self, point: np.ndarray) -> bool:
         """Whether an opaque object is between the camera and a point of the frame."""
