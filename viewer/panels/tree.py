@@ -245,9 +245,7 @@ class _Diagram:
         drawn, total, weight = len(self.rows), len(self.tree), format_number(self.tree.residual, 3)
         fewer = f"{drawn} of {total} rays drawn" if self.folded > 0 else ""
         most = self.tree.bound
-        bound = (
-            f"at most {format_number(most, 3)} of light missing" if most < np.inf else "no bound on the missing light"
-        )
+        bound = f"at most {format_number(most, 3)} missing" if most < np.inf else "no bound on the missing light"
         shorter = (f"cut: {weight} of the weight, {bound}", f"cut rays: {weight} of the weight", f"cut: {weight}")
         margin = 8 * d.unit()
         x, _ = self._top(0)
