@@ -141,7 +141,7 @@ BINDINGS = (
         "Ctrl+C", "copy that figure: a picture to paste onto a slide; with Shift its command line", ctrl={K.c: _copy}
     ),
     Binding(
-        "Ctrl+O, R, Q", "open a scene; reload it (automatic when it is saved); quit",
+        "Ctrl+O, R, Q", "open a scene or a lesson; reload it (automatic when it is saved); quit",
         ctrl={
             K.r: lambda session: session.loader.reload(),
             K.o: lambda session: session.requests.append(Request.OPEN_DIALOG),
