@@ -9,10 +9,11 @@ import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any, NoReturn
 
-from viewer.base.files import Unusable
+from viewer.base.files import Unusable, remove_stale_parts
 from viewer.base.interruption import Interrupted, interruptible
 from viewer.base.options import add_arguments, joined, options_of, valued_flags
 from viewer.base.streams import ReaderGone, put, put_error
@@ -91,6 +92,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         with interruptible():
             command, chosen = parse(sys.argv[1:] if arguments is None else arguments)
+            remove_stale_parts(Path())
             return resolve_name(command.function)(chosen)
     except Unusable as unusable:
         for fault in unusable.faults:

@@ -159,6 +159,12 @@ def test_what_killed_processes_left_is_removed_and_nothing_else(tmp_path: Path) 
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted([*kept, ".raytree-00000000deadbeef.part", "new"])
 
 
+def test_any_command_removes_them_from_the_current_folder(tmp_path: Path) -> None:
+    (tmp_path / ".raytree-0123456789abcdef.part").write_text("left")
+    assert raytree("lessons", cwd=tmp_path).returncode == 0
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_parts_of_another_user_stay(tmp_path: Path) -> None:
     if os.geteuid() != 0:
         pytest.skip("only root can make files of another user")
