@@ -100,7 +100,7 @@ def explain_ray(tree: RayTree, world: World, i: int) -> list[Part]:
     """All about row i: how the ray came to be, what it meets and sends out, its numbers."""
     row = tree.nodes[i]
     label, parent, met = tree.label(i), int(row["parent"]), tree.object_name(i)
-    numbers = Part("Numbers", [ray_numbers(tree, i)])
+    numbers = Part("All of it", [ray_numbers(tree, i)])
     if row["kind"] == SHADOW:
         title = f"{tree.label(parent)} meets {tree.object_name(parent)}: its light"
         return [Part(title, [one_light(tree, world, parent, int(row["light"]))]), numbers]

@@ -6,6 +6,7 @@ from pathlib import Path
 
 PERIOD = 0.3  # seconds between polls
 SETTLED = 2  # consecutive polls that must agree: an editor may write a file in several parts
+LOST = 5  # consecutive polls without a file, after which it is not just being replaced
 
 Stamp = tuple[int, int] | None  # time of change and size; None: no such file
 
@@ -17,12 +18,13 @@ class FileWatch:
         self.known: dict[Path, Stamp] = {}  # when the files were read
         self.seen: dict[Path, Stamp] = {}  # at the last look
         self.agreed = 0  # looks in a row with the same result
+        self.told = False  # whether a lost file was reported
         self.last = 0.0
 
     def follow(self, path: Path) -> None:
         """Look at this file from now on, and at no other. Call it before the file is read."""
         self.known = self.seen = {path: _stamp(path)}
-        self.agreed = 0
+        self.agreed, self.told = 0, False
 
     def follow_also(self, files: Iterable[Path]) -> None:
         """Look at these files, too: meshes, their materials and buffers. A file may be missing: it may come."""
@@ -42,6 +44,14 @@ class FileWatch:
             return False
         self.known = stamps
         return True
+
+    def lost(self) -> Path | None:
+        """A file that was read and has been missing for some polls. It is reported once."""
+        gone = [path for path, stamp in self.known.items() if stamp is not None and self.seen.get(path) is None]
+        if self.told or not gone or self.agreed < LOST:
+            return None
+        self.told = True
+        return gone[0]
 
 
 def _stamp(path: Path) -> Stamp:

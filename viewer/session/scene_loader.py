@@ -8,6 +8,7 @@ from typing import NamedTuple
 import tracer
 from tracer.formats import UP_AXES
 from tracer.kernel.world import World
+from tracer.printable import shown_path
 from viewer.base.files import Unusable
 from viewer.lessons.lesson import Lesson, read_file
 from viewer.session.call_queue import CallQueue
@@ -94,6 +95,8 @@ class SceneLoader:
         """Load the scene again if one of its files has been saved. Called before every frame."""
         if self.watch.changed():
             self.reload()
+        elif lost := self.watch.lost():
+            self.calls.post(lambda: self.failed([f"{shown_path(lost)}: the file is gone"]))
 
     def _finish(self, loading: Future[World], opening: Opening) -> None:
         if loading is not self.loading:

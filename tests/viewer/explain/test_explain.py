@@ -175,7 +175,7 @@ def test_every_ray_of_every_lesson_can_be_explained(world: tracer.World) -> None
             tree = tracer.trace(world, pixel, depth=3, model=model)
             for i in range(len(tree)):
                 parts = explain_ray(tree, world, i)
-                assert parts[-1].title == "Numbers" and len({part.title for part in parts}) == len(parts)
+                assert parts[-1].title == "All of it" and len({part.title for part in parts}) == len(parts)
                 rows = [cell for row in interfaces(tree, i) for cell in row]
                 lines = [line for part in parts for section in part.sections for line in section.lines]
                 for value in (*rows, *(line.value for line in lines)):

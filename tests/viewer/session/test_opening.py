@@ -154,3 +154,25 @@ def test_a_saved_lesson_is_read_again(tmp_path: Path) -> None:
         saved(driver, tmp_path / "lesson.md")
         assert driver.session.lesson.text == "after" and "a lesson begins with" in driver.session.faults[0]
         driver.frames()
+
+
+def test_a_file_that_is_gone_is_said_and_the_scene_stays(tmp_path: Path) -> None:
+    path = tmp_path / "scene.toml"
+    write_ball(path, "1")
+    with viewer() as driver:
+        driver.open_file(path)
+        session, world = driver.session, driver.session.world
+        path.unlink()
+        for polls in range(12):
+            assert polls > 2 or not session.faults  # an editor may be replacing it
+            session.loader.watch.last = -1e9
+            session.update()
+        assert session.faults == [f"{path}: the file is gone"] and session.world is world
+        session.show_faults([])
+        for _ in range(6):
+            session.loader.watch.last = -1e9
+            session.update()
+        assert not session.faults  # it is said once
+        write_ball(path, "0.5")
+        saved(driver, path)
+        assert session.world is not world and not session.faults
