@@ -1,5 +1,6 @@
 """A viewer in a real window, used by a real mouse and real keys (`tests.viewer.screen`)."""
 
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -7,16 +8,26 @@ import glfw
 import numpy as np
 import pytest
 
+from tests.viewer.screen import missing, screen
 from viewer.lessons import lesson
 from viewer.session.session import Session
 from viewer.window.app import App
 from viewer.window.backend import Window
+
+LINUX_ONLY = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="X servers without a monitor are Linux's")
+
+
+def start_screen() -> None:
+    """Start the display of this process, if it has not started yet."""
+    assert not missing(), f"these tests need the Debian packages {', '.join(missing())}"
+    screen()
 
 
 class Desk:
     """A viewer in its window, and the means to use it by mouse and keys."""
 
     def __init__(self, name: str) -> None:
+        start_screen()
         self.window = Window("raytree", (1280, 720))
         self.app = App(self.window, Session())
         self.session = self.app.session

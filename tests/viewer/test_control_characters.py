@@ -176,7 +176,7 @@ def test_a_notice() -> None:
 
 
 def test_names_of_python_scenes() -> None:
-    """Where there is no file: lone surrogates are possible, too."""
+    """Names from Python, without a file: lone surrogates are possible, too."""
     from tests.scenes import ball, world_of
 
     world = world_of(replace(ball((0, 0, 0), 1), name="a\ud800\u200db"))

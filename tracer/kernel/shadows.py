@@ -67,10 +67,30 @@ def transmittance(
     if count == OPAQUE:
         return (0.0, -1)
     if count == OVERFLOW:
-        share, first = filter_stepwise(world, ray, end, row, behind, space)
+        enter_solids(space, row, behind)
+        share, first = filter_stepwise(world, ray, end, space)
     else:
-        share, first = filter_sorted(world, ray, count, row, behind, space)
+        doubtful = not adds_up(world, count, row, behind, space)
+        if doubtful:
+            enter_solids(space, row, behind)
+        share, first = filter_sorted(world, ray, count, doubtful, space)
     return (0.0, -1) if glass_blocks and first >= 0 else (share, first)
+
+
+@inlined
+def adds_up(world: Arrays, count: int, row: int, behind: bool, space: Space) -> bool:
+    """Whether the ray crosses each closed solid that it does not start in an even number of times: it enters and leaves
+    it. If not, it leaves one that it is not in, or the light lies in one.
+    """
+    for k in range(count):
+        solid = world.surfaces[space.crossed[k].surface].solid
+        if solid >= 0 and world.closed[solid] and not contains(space.solids[row, 1 if behind else 0], solid):
+            times = 0
+            for j in range(count):
+                times += world.surfaces[space.crossed[j].surface].solid == solid
+            if times % 2 == 1:
+                return False
+    return True
 
 
 @inlined
@@ -137,10 +157,11 @@ def add_crossings(world: Arrays, s: int, ray: Ray, end: float, crossed: Rows[Cro
 
 
 @compiled
-def filter_sorted(world: Arrays, ray: Ray, count: int, row: int, behind: bool, space: Space) -> tuple[float, int]:
+def filter_sorted(world: Arrays, ray: Ray, count: int, doubtful: bool, space: Space) -> tuple[float, int]:
     """(product of `transmit`, first surface) over the stored crossings, nearest first.
 
-    Surfaces of one object at the same distance count once: a ray through the edge of two faces crosses once.
+    Surfaces of one object at the same distance count once: a ray through the edge of two faces crosses once. If the
+    crossings are `doubtful`, those are left out where the ray leaves a solid that it is not in.
     """
     noinline()
     crossed = space.crossed
@@ -154,8 +175,7 @@ def filter_sorted(world: Arrays, ray: Ray, count: int, row: int, behind: bool, s
                 k = j
         t, s = crossed[k].t, crossed[k].surface
         crossed[k].t, crossed[k].surface = crossed[done].t, crossed[done].surface
-        crossed[done].t, crossed[done].surface = t, s
-        if may_be_misplaced(world, done, count, row, behind, space) and not is_entering(world, s, ray, t):
+        if doubtful and not is_crossed(world, ray, t, s, space):
             continue
         if t != last_t or world.surfaces[s].object != last_object:
             share *= transmit(world, s)
@@ -164,28 +184,10 @@ def filter_sorted(world: Arrays, ray: Ray, count: int, row: int, behind: bool, s
     return (share, first)
 
 
-@inlined
-def may_be_misplaced(world: Arrays, done: int, count: int, row: int, behind: bool, space: Space) -> bool:
-    """Whether the stored crossing `done` may be one where the ray leaves a solid that it is not in: the first of an odd
-    number of crossings of a closed solid around neither the hit nor, in most cases, the light.
-    """
-    solid = world.surfaces[space.crossed[done].surface].solid
-    if solid < 0 or not world.closed[solid] or contains(space.solids[row, 1 if behind else 0], solid):
-        return False
-    times = 0
-    for j in range(count):
-        if world.surfaces[space.crossed[j].surface].solid == solid:
-            if j < done:
-                return False
-            times += 1
-    return times % 2 == 1
-
-
 @compiled
-def filter_stepwise(world: Arrays, ray: Ray, end: float, row: int, behind: bool, space: Space) -> tuple[float, int]:
+def filter_stepwise(world: Arrays, ray: Ray, end: float, space: Space) -> tuple[float, int]:
     """`filter_sorted` for any number of crossings, with one closest-hit search for each."""
     noinline()
-    enter_solids(space, row, behind)
     share, first = 1.0, -1
     last_t, last_object = -1.0, -1
     t, s, _ = closest(world, ray, 0.0, -1, space)

@@ -156,7 +156,7 @@ def remove_stale_parts(folder: Path) -> None:
     if fcntl is None:
         return
     try:
-        found = [path for path in folder.iterdir() if PART.fullmatch(path.name)]
+        found = [path for path in folder.glob(".raytree-*.part") if PART.fullmatch(path.name)]
     except OSError:
         return
     for path in found:

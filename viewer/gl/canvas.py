@@ -9,6 +9,7 @@ from imgui_bundle import imgui
 
 from viewer.base.cached import Cached, Changed
 from viewer.base.colormap import colorize
+from viewer.explain.interfaces import Interface
 from viewer.explain.sections import Part
 from viewer.figures.layout.tidy_tree import Place as TreePlace
 from viewer.figures.ray_lines import RayLine, drawn_rows, ray_lines, relatives
@@ -40,6 +41,7 @@ class Canvas:
         self.stage = Stage(ctx)
         self.image = PictureTexture(ctx)
         self.lines: list[RayLine] = []  # rays in the 3D view
+        self.kept: set[int] | None = None  # rows of these rays that stay bright beside the selected one; None: all
         self.drawn = 0  # rows of the tree that the 3D view draws, of all kinds
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
         self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)  # left, top, size of a pixel
@@ -47,6 +49,7 @@ class Canvas:
         self.tree_kept: Cached[set[int]] = Cached()  # rows of the tree that stay bright beside the selected one
         self.tree_places: Cached[dict[int, TreePlace]] = Cached()  # of the tree, in its own units
         self.ray_changed = Changed()  # the ray whose numbers are shown
+        self.interfaces: Cached[list[Interface]] = Cached()  # at both ends of that ray
         self.explanation: Cached[list[Part]] = Cached()  # of that ray
         self._map: Cached[moderngl.Texture | None] = Cached(_release)
         self._near: Cached[Seen | None] = Cached(lambda seen: _release(seen and seen.texture))
@@ -145,7 +148,7 @@ class Canvas:
     def _set_lines(self) -> None:
         session = self.session
         marks = []
-        self.lines = []
+        self.lines, self.kept = [], None
         rays = []
         self._plane = None
         if session.world and session.shown.camera:
@@ -156,7 +159,7 @@ class Canvas:
             tree, selected, theme = session.tree, session.selected, session.appearance.theme
             rows = drawn_rows(tree, selected)
             self.drawn = len(rows)
-            kept = relatives(tree, selected, rows) if selected is not None else None
+            self.kept = kept = relatives(tree, selected, rows) if selected is not None else None
             self.lines = ray_lines(tree, rows, session.frame, session.shown.kinds)
             rays = style_rays(self.lines, kept, selected, theme)
             if session.shown.normals:

@@ -23,7 +23,7 @@ def draw(session: Session, canvas: Canvas) -> None:
     if canvas.ray_changed((world, tree.path(row))):  # not at another pixel, so that one number can be watched
         imgui.set_scroll_y(0.0)
     _head(session, tree, row)
-    _interfaces(session, interfaces(tree, row))
+    _interfaces(session, canvas.interfaces.get((tree, row), lambda: interfaces(tree, row)))
     for k, part in enumerate(canvas.explanation.get((tree, row), lambda: explain_ray(tree, world, row))):
         imgui.push_id(k)
         imgui.separator_text(part.title)

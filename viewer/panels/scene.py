@@ -8,7 +8,7 @@ from imgui_bundle import imgui
 from viewer.base.orbit import project
 from viewer.base.theme import DIMMED, SMALL, faded
 from viewer.figures.labels import ray_label
-from viewer.figures.ray_lines import nearest_row, relatives
+from viewer.figures.ray_lines import nearest_row
 from viewer.gl.canvas import Canvas, texture_ref
 from viewer.panels import draw as d
 from viewer.panels.panel import Corner, Panel
@@ -175,8 +175,7 @@ class _Overlay:
         assert tree
         nodes = tree.nodes
         rows = [line.row for line in self.canvas.lines if line.kind != "shadow"]
-        selected = session.selected
-        kept = relatives(tree, selected, rows) if selected is not None else None
+        kept = self.canvas.kept
         rows.sort(key=lambda i: (i != session.selected, -nodes["weight"][i].max(), i))
         for i in rows[:MOST_LABELS]:
             start = session.frame.inside(nodes["origin"][i])

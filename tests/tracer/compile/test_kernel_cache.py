@@ -28,7 +28,7 @@ print(is_cached(double), double(21.0), is_cached(double))
 
 
 def run_small(folder: Path, **places: Path) -> str:
-    """What the small program prints, with the user's cache and the folder for temporary files at these places."""
+    """The output of the small program, with the user's cache and the folder for temporary files at these places."""
     program = folder / "program.py"
     program.write_text(SMALL)
     environment = {**os.environ, "XDG_CACHE_HOME": "/dev/null", **{name: str(path) for name, path in places.items()}}

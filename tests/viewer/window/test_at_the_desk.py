@@ -1,25 +1,18 @@
 """A lecture at the desk: keys that are hit by accident, a remote, another keyboard. A real window, real keys."""
 
 import subprocess
-import sys
 from collections.abc import Iterator
 
 import pytest
 from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
-from tests.viewer.desk import Desk
+from tests.viewer.desk import LINUX_ONLY, Desk
 from tests.viewer.driver import Driver, viewer
-from tests.viewer.screen import hand, missing, screen
+from tests.viewer.screen import hand
 from viewer.panels import bar, ray, tree
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="X servers without a monitor are Linux's")
-
-
-@pytest.fixture(scope="module", autouse=True)
-def display() -> str:
-    assert not missing(), f"these tests need the Debian packages {', '.join(missing())}"
-    return screen()
+pytestmark = LINUX_ONLY
 
 
 @pytest.fixture

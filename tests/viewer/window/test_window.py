@@ -11,17 +11,11 @@ import PIL.Image
 import pytest
 
 import tracer
-from tests.viewer.desk import Desk
-from tests.viewer.screen import hand, missing, screen
+from tests.viewer.desk import LINUX_ONLY, Desk, start_screen
+from tests.viewer.screen import hand
 from viewer.cli import main
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="X servers without a monitor are Linux's")
-
-
-@pytest.fixture(scope="module", autouse=True)
-def display() -> str:
-    assert not missing(), f"these tests need the Debian packages {', '.join(missing())}"
-    return screen()
+pytestmark = LINUX_ONLY
 
 
 @pytest.fixture
@@ -107,6 +101,7 @@ def test_minimised_and_back(desk: Desk, worlds: dict[str, tracer.World]) -> None
 
 def test_program_runs_by_itself_and_ends_on_its_key(tmp_path: Path) -> None:
     """The command as a user starts it: a window comes up, Ctrl+Q closes it, the status is 0."""
+    start_screen()
     command = [str(Path(sys.executable).parent / "raytree"), "view", "two-lights", "--pixel", "300,300"]
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         window = hand("search", "--sync", "--onlyvisible", "--name", "A room with two lights").splitlines()[0]
