@@ -101,7 +101,11 @@ def test_one_place_knows_each_library() -> None:
         "llvmlite": {f"tracer/compile/{name}.py" for name in ("intrinsics", "bundle", "simd")},
         "glfw": {"viewer/window/backend.py"},
         "trimesh": set(),
-        "mapbox_earcut": {"tracer/shapes/polygon.py", "tracer/formats/polygons.py"},
+        "mapbox_earcut": {
+            "tracer/shapes/polygon.py",
+            "tracer/formats/polygons.py",
+            "viewer/figures/writers/imgui.py",
+        },
         "distributed": {"tracer/image/cluster.py"},
         "fpdf": {"viewer/figures/writers/pdf.py"},
         "pypdfium2": {"viewer/figures/writers/png.py"},

@@ -1,6 +1,8 @@
 """Drawing that all panels share: text with a halo, dashed lines, arrow heads, in the colours of a theme."""
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from imgui_bundle import imgui
 
@@ -16,6 +18,16 @@ def u32(color: Color) -> int:
 def unit() -> float:
     """Pixels per logical pixel. Sizes are multiplied by it."""
     return imgui.get_font_size() / FONT_SIZE
+
+
+@contextmanager
+def bold(size: float = 0.0) -> Iterator[None]:
+    """Text of the second weight, at a font size in logical pixels (0: the size on hand)."""
+    imgui.push_font(imgui.get_io().fonts.fonts[1], size)
+    try:
+        yield
+    finally:
+        imgui.pop_font()
 
 
 def text_size(text: str, size: float) -> Point:
