@@ -10,7 +10,7 @@ PICKED = ("ray", "hit")  # the kinds of names that can be picked: `ray-3` and `h
 
 
 def mark_at(marks: Iterable[Mark], point: Point, reach: float, kinds: Sequence[str] = PICKED) -> str | None:
-    """The name of the nearest mark that is at most `reach` away from a point, in the unit of the marks; None if there is
+    """The name of the nearest mark that is at most `reach` from a point, in the unit of the marks; None if there is
     none. Of several at one distance, as where one covers the other, it is the last, which is drawn on top.
 
     Only marks are considered whose names are one of `kinds`, a hyphen and a number.
