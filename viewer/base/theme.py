@@ -30,6 +30,12 @@ def faded(color: Color, opacity: float) -> Color:
     return (*color[:3], color[3] * opacity)
 
 
+def blend(color: Color, share: float, paper: Color) -> Color:
+    """The colour, of which only a share is left, on the colour of the paper; as opaque as before."""
+    r, g, b = (share * x + (1.0 - share) * y for x, y in zip(color[:3], paper[:3], strict=True))
+    return (r, g, b, color[3])
+
+
 class Arrow(Enum):
     """The arrow on a ray, which shows its direction and kind."""
 

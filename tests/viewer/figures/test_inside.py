@@ -129,10 +129,10 @@ def test_trees_lie_inside_their_panel(seed: int, lights: int, depth: int) -> Non
                 check_inside(list(page.marks), PAGE)
                 check_texts(list(page.marks))
             for marks in tree.pages(one, style, both.TREE):
-                check_inside(marks, (both.TREE[0], 0.0, both.TREE[1], HEIGHT))
+                check_inside(marks, both.TREE)
                 check_texts(marks)
     bare = Subject(without_lights(subject.steps))
-    for page in pages("tree", bare, FigureStyle(lights=False)):
+    for page in pages("tree", bare, FigureStyle()):
         check_inside(list(page.marks), PAGE)
 
 
@@ -161,5 +161,5 @@ def test_scenes_lie_inside_their_panel(seed: int, lights: int, depth: int) -> No
         left = scene.pages(subject, style, (0.0, 0.0, both.DIVIDE - both.GAP, HEIGHT))
         for page, marks in zip(pages("both", subject, style), left, strict=True):
             check_inside(list(page.marks[: len(marks)]), (0.0, 0.0, both.DIVIDE - both.GAP, HEIGHT))
-            check_inside(list(page.marks[len(marks) :]), (both.TREE[0], 0.0, both.TREE[1], HEIGHT))
+            check_inside(list(page.marks[len(marks) :]), both.TREE)
             check_texts(list(page.marks))

@@ -6,7 +6,7 @@ from viewer.figures.subject import FigureStyle, Pages, Subject
 
 DIVIDE = 0.46 * WIDTH  # between the scene and the tree
 GAP = 4.0  # on either side of it
-TREE = (DIVIDE + GAP, WIDTH)  # left and right of the tree
+TREE = (DIVIDE + GAP, 0.0, WIDTH, HEIGHT)  # the tree's part of the canvas
 
 
 def pages(subject: Subject, style: FigureStyle) -> Pages:
