@@ -19,7 +19,7 @@ from viewer.figures.figure import both, tree
 from viewer.figures.figure.hit import hit_row
 from viewer.figures.layout.tree_plan import fitting_size
 from viewer.figures.lights import many_lights
-from viewer.figures.marks import CANVAS, Figure, Text
+from viewer.figures.marks import Figure, Text
 from viewer.figures.pages import pages
 from viewer.figures.ray_lines import MOST_IN_FIGURE
 from viewer.figures.steps import Step, by_color, by_depth, by_ray, without_lights
@@ -174,7 +174,7 @@ def fold_notes(drawn: Sequence[Figure], figure: str, subject: Subject, style: Fi
     """A note on branches that were folded because they do not fit."""
     if style.fold or not any(mark.name.startswith("fold-") for page in drawn for mark in page.marks):
         return []
-    where = both.TREE if figure == "both" else CANVAS
+    where = both.tree_part(style) if figure == "both" else style.canvas
     size = fitting_size(tree.planned(subject.steps), tree.tree_style(subject.steps, style, where))
     helps = f", and --text-size {size:g} shows all branches" if size else ""
     return [f"{figure}: branches that do not fit are folded; a smaller --depth has fewer branches{helps}"]

@@ -40,6 +40,11 @@ class FigureStyle:
     eye: str = "top"  # of a tree: or "left"
     selected: int | None = None  # the row of a ray to emphasise; rays that are neither above nor below it are dimmed
     levels: bool = False  # a tree from the top: the depths, with their numbers
+    page: tuple[float, float] = (WIDTH, HEIGHT)  # width and height of the canvas, in points
+
+    @property
+    def canvas(self) -> Rectangle:
+        return (0.0, 0.0, *self.page)
 
 
 @dataclass(frozen=True)

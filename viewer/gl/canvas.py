@@ -11,8 +11,10 @@ from viewer.base.cached import Cached, Changed
 from viewer.base.colormap import colorize
 from viewer.explain.interfaces import Interface
 from viewer.explain.sections import Part
-from viewer.figures.layout.tidy_tree import Place as TreePlace
+from viewer.figures.layout.tree_plan import TreePlan
+from viewer.figures.marks import Mark
 from viewer.figures.ray_lines import RayLine, drawn_rows, ray_lines, relatives
+from viewer.figures.steps import Step
 from viewer.gl.magnified import NEAR, Place, magnify
 from viewer.gl.picture_texture import PictureTexture
 from viewer.gl.stage import ImagePlane, Stage
@@ -45,9 +47,11 @@ class Canvas:
         self.drawn = 0  # rows of the tree that the 3D view draws, of all kinds
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
         self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)  # left, top, size of a pixel
-        self.nodes: dict[int, tuple[float, float]] = {}  # of the tree
-        self.tree_kept: Cached[set[int]] = Cached()  # rows of the tree that stay bright beside the selected one
-        self.tree_places: Cached[dict[int, TreePlace]] = Cached()  # of the tree, in its own units
+        self.nodes: dict[int, tuple[float, float]] = {}  # of the tree: its boxes, and the signs of its shadow rays
+        self.tree_plan: Cached[TreePlan] = Cached()
+        self.tree_plan_of_ray: Cached[TreePlan] = Cached()  # in which a selected ray is seen that is folded otherwise
+        self.tree_step: Cached[Step] = Cached()
+        self.tree_marks: Cached[list[Mark]] = Cached()
         self.ray_changed = Changed()  # the ray whose numbers are shown
         self.interfaces: Cached[list[Interface]] = Cached()  # at both ends of that ray
         self.explanation: Cached[list[Part]] = Cached()  # of that ray

@@ -10,12 +10,12 @@ from viewer.base.theme import SMALL
 from viewer.gl.canvas import Canvas, texture_ref
 from viewer.gl.magnified import Place
 from viewer.panels import draw as d
-from viewer.panels.panel import Corner, Panel
+from viewer.panels.panel import Panel
+from viewer.session.layout import Corner
 from viewer.session.session import Session
 
 
 def draw(session: Session, canvas: Canvas) -> None:
-    _head(session)
     corner = imgui.get_cursor_screen_pos()
     room = imgui.get_content_region_avail()
     if room.x < 8 or room.y < 8:
@@ -226,4 +226,4 @@ def waiting_lines(session: Session) -> list[str]:
     return ["Loading ..."]
 
 
-PANEL = Panel("Image", draw, Corner.TOP_RIGHT, padding=(6, 5))
+PANEL = Panel("Image", draw, Corner.TOP_RIGHT, fills=True, head=_head)

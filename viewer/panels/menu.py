@@ -16,17 +16,14 @@ from viewer.session.session import Session
 from viewer.session.view_state import Request
 
 
-def draw(session: Session) -> bool:
-    """Draw the menu bar. Returns whether the panels are to be put back in place."""
-    reset = False
+def draw(session: Session) -> None:
     if imgui.begin_main_menu_bar():
         for title, draw_menu in MENUS.items():
             if imgui.begin_menu(title):
-                reset = draw_menu(session) is True or reset
+                draw_menu(session)
                 imgui.end_menu()
         _title(session)
         imgui.end_main_menu_bar()
-    return reset
 
 
 def _file_menu(session: Session) -> None:
@@ -80,7 +77,7 @@ def _lesson_item(session: Session, name: str) -> None:
         open_lesson(session, name)
 
 
-def _view_menu(session: Session) -> bool:
+def _view_menu(session: Session) -> None:
     shown = session.shown
     for field, label, key in (
         ("camera", "Camera and its image", "C"),
@@ -107,7 +104,9 @@ def _view_menu(session: Session) -> bool:
     if imgui.menu_item_simple("Black screen", "B"):
         session.is_blank = True
     imgui.separator()
-    return imgui.menu_item_simple("Reset the panels")
+    if imgui.menu_item_simple("Reset the panels"):
+        session.layout.reset()
+        session.guard.open_all()
 
 
 def _help_menu(session: Session) -> None:
@@ -130,7 +129,7 @@ def _title(session: Session) -> None:
         imgui.text_colored(session.appearance.theme.muted, content)
 
 
-MENUS: dict[str, Callable[[Session], bool | None]] = {
+MENUS: dict[str, Callable[[Session], None]] = {
     "File": _file_menu,
     "Figure": _figure_menu,
     "Lessons": _lessons_menu,

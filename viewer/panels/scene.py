@@ -11,7 +11,8 @@ from viewer.figures.labels import ray_label
 from viewer.figures.ray_lines import nearest_row
 from viewer.gl.canvas import Canvas, texture_ref
 from viewer.panels import draw as d
-from viewer.panels.panel import Corner, Panel
+from viewer.panels.panel import Panel
+from viewer.session.layout import Corner
 from viewer.session.session import Session
 
 REACH = 9.0  # logical pixels: the largest distance of a click from a ray
@@ -192,4 +193,9 @@ class _Overlay:
             self.label(at, ray_label(tree, i), color, (8, 4))
 
 
-PANEL = Panel("Scene", draw, Corner.TOP_LEFT, padding=(0, 0))
+def _head(session: Session) -> None:
+    """The scene's title."""
+    imgui.text(session.world.scene.caption if session.world else "Scene")
+
+
+PANEL = Panel("Scene", draw, Corner.TOP_LEFT, fills=True, head=_head)

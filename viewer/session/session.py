@@ -23,6 +23,7 @@ from viewer.session.figure_export import FigureExport
 from viewer.session.guard import Guard
 from viewer.session.history import History, Place
 from viewer.session.image_renderer import ImageRenderer
+from viewer.session.layout import Layout
 from viewer.session.refinement import Refinement
 from viewer.session.scene_loader import Opening, SceneLoader
 from viewer.session.verification import Verification
@@ -50,6 +51,7 @@ class Session:
         self.image_view = PanZoom()
         self.tree_view = PanZoom(home=(0.0, 0.0))  # moved by logical pixels
         self.appearance = Appearance()
+        self.layout = Layout()
         self.notice = Notice()
         self.dialog = OpenDialog()
         self.shows_help = self.is_blank = False  # is_blank: the window is black
@@ -69,6 +71,7 @@ class Session:
         self.full_tree: RayTree | None = None  # the same at least LAYOUT_DEPTH deep; `tree` is its first rows
         self.selection: str | None = None  # the path of the selected ray, if the tree has it
         self.history = History()
+        self.hovered: int | None = None  # the row of the tree under the mouse, in any view
         self._selected: Cached[int | None] = Cached()
         if NOTE:
             self.notice.say(NOTE)

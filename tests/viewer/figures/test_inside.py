@@ -128,8 +128,8 @@ def test_trees_lie_inside_their_panel(seed: int, lights: int, depth: int) -> Non
             for page in pages("tree", one, style):
                 check_inside(list(page.marks), PAGE)
                 check_texts(list(page.marks))
-            for marks in tree.pages(one, style, both.TREE):
-                check_inside(marks, both.TREE)
+            for marks in tree.pages(one, style, both.tree_part(FigureStyle())):
+                check_inside(marks, both.tree_part(FigureStyle()))
                 check_texts(marks)
     bare = Subject(without_lights(subject.steps))
     for page in pages("tree", bare, FigureStyle()):
@@ -161,5 +161,5 @@ def test_scenes_lie_inside_their_panel(seed: int, lights: int, depth: int) -> No
         left = scene.pages(subject, style, (0.0, 0.0, both.DIVIDE - both.GAP, HEIGHT))
         for page, marks in zip(pages("both", subject, style), left, strict=True):
             check_inside(list(page.marks[: len(marks)]), (0.0, 0.0, both.DIVIDE - both.GAP, HEIGHT))
-            check_inside(list(page.marks[len(marks) :]), both.TREE)
+            check_inside(list(page.marks[len(marks) :]), both.tree_part(FigureStyle()))
             check_texts(list(page.marks))

@@ -22,8 +22,6 @@ from viewer.figures.labels import ray_label, ray_title
 from viewer.figures.layout.label_placement import LabelPlacer, Spot
 from viewer.figures.lights import many_lights
 from viewer.figures.marks import (
-    HEIGHT,
-    WIDTH,
     Line,
     Mark,
     Piece,
@@ -60,9 +58,9 @@ FIRST = 12  # of these, rays whose names may cross other rays
 Named = tuple[frozenset[int], list[Mark]]  # the rays with which a label is drawn (empty: always), and its marks
 
 
-def pages(subject: Subject, style: FigureStyle, where: Rectangle = (0.0, 0.0, WIDTH, HEIGHT)) -> Pages:
+def pages(subject: Subject, style: FigureStyle, where: Rectangle | None = None) -> Pages:
     """The scene with the rays of each step."""
-    return view_pages(subject.view(where), subject.steps, style.text_size, style.theme)
+    return view_pages(subject.view(where or style.canvas), subject.steps, style.text_size, style.theme)
 
 
 def view_pages(view: SceneView, steps: Sequence[Step], size: float, theme: Theme) -> Pages:

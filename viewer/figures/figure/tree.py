@@ -20,7 +20,7 @@ from viewer.figures.layout.tree_legend import tree_entries
 from viewer.figures.layout.tree_plan import TreePlan, plan_tree
 from viewer.figures.legend import legend
 from viewer.figures.lights import MOST_LIGHTS, fate_of, light_title, ray_dash, shadow_rays
-from viewer.figures.marks import CANVAS, Line, Mark, Point, Rectangle, Stroke, Text, blended
+from viewer.figures.marks import Line, Mark, Point, Rectangle, Stroke, Text, blended
 from viewer.figures.ray_lines import ancestors, relatives
 from viewer.figures.steps import Step
 from viewer.figures.subject import FigureStyle, Pages, Subject
@@ -32,12 +32,12 @@ COMPACT_ARROW = 0.36  # of an edge's length, so that it is clear of the label
 OF_A_ROW = ("ray", "hit", "lights", "bar", "fold")  # in names of marks, before the number of a row
 
 
-def pages(subject: Subject, style: FigureStyle, where: Rectangle = CANVAS) -> Pages:
+def pages(subject: Subject, style: FigureStyle, where: Rectangle | None = None) -> Pages:
     """The ray tree. No box moves from step to step."""
-    return plan_pages(plan_steps(subject.steps, style, where), subject.steps, style)
+    return plan_pages(plan_steps(subject.steps, style, where or style.canvas), subject.steps, style)
 
 
-def plan_steps(steps: Sequence[Step], style: FigureStyle, where: Rectangle = CANVAS) -> TreePlan:
+def plan_steps(steps: Sequence[Step], style: FigureStyle, where: Rectangle) -> TreePlan:
     """The layout for these steps, the fullest last."""
     asked = tree_style(steps, style, where)
     plan = plan_tree(planned(steps), asked)
@@ -56,7 +56,7 @@ def planned(steps: Sequence[Step], first: int | None = None) -> PlannedRays:
     )
 
 
-def tree_style(steps: Sequence[Step], style: FigureStyle, where: Rectangle = CANVAS) -> TreeStyle:
+def tree_style(steps: Sequence[Step], style: FigureStyle, where: Rectangle) -> TreeStyle:
     """The part of a figure's style that decides on the tree's layout."""
     tree, rows = steps[-1].tree, steps[-1].rows
     lit = any(tree.nodes["kind"][i] == SHADOW for i in rows)

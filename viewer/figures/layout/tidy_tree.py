@@ -5,15 +5,10 @@ them, half a level down, are short stubs to the lights, as in Whitted's figure. 
 distance, and equal subtrees look the same.
 """
 
-from collections.abc import Set
 from dataclasses import dataclass
-
-import numpy as np
 
 from tracer.kernel.nodes import REFRACTION, SHADOW, TIR
 from tracer.tree.raytree import RayTree
-from tracer.tree.text import heaviest_rows
-from viewer.figures.ray_lines import drawn_rows
 
 
 @dataclass(frozen=True)
@@ -30,9 +25,6 @@ class Spacing:
     passes: float = 0.5  # length of its stubs in levels: down to there, edges of neighbours must stay outside them
     crowded: bool = False  # its stubs reach so far down that they must stay away from nodes of the next level
     bars: bool = False  # whether total internal reflection has a stub for the refracted ray that does not exist
-
-
-NAMES_BESIDE = Spacing(left=0.32, right=0.92, stub_gap=0.32, stub_half=0.16)
 
 
 @dataclass(frozen=True)
@@ -59,7 +51,7 @@ class _Subtree:
     right: list[float]
 
 
-def tidy_layout(tree: RayTree, rows: set[int], room: Spacing = NAMES_BESIDE) -> Layout:
+def tidy_layout(tree: RayTree, rows: set[int], room: Spacing) -> Layout:
     """Positions of these rows, the root at x = 0. With each row, its parent must be among them."""
     subtrees: dict[int, _Subtree] = {}
     for i in sorted(rows, reverse=True):
@@ -141,19 +133,3 @@ def _stub_places(count: int, ray_left: bool, ray_right: bool, room: Spacing) -> 
         sign = 1.0 if ray_left else -1.0
         return sorted(sign * (0.5 * room.edge + room.stub_gap * k) for k in range(count))
     return [room.stub_gap * (k - 0.5 * (count - 1)) for k in range(count)]
-
-
-def closed_under_parents(parents: np.ndarray, wanted: set[int]) -> set[int]:
-    """The rows whose ancestors are all wanted: without a row, its whole branch is left out."""
-    kept: set[int] = set()
-    for i in sorted(wanted):
-        if i == 0 or int(parents[i]) in kept:
-            kept.add(i)
-    return kept
-
-
-def heaviest_places(tree: RayTree, kinds: Set[str], most: int) -> dict[int, Place]:
-    """The positions of the heaviest rows of these kinds, at most `most`."""
-    wanted = {i for i in drawn_rows(tree) if tree.kind(i) in kinds or i == 0}
-    wanted = closed_under_parents(tree.nodes["parent"], wanted)
-    return tidy_layout(tree, heaviest_rows(tree, most, wanted)).places
