@@ -15,6 +15,7 @@ from viewer.figures.marks import Line, Mark, Point, Rectangle, Stroke, Text
 LINE = 1.3  # from line to line, in text sizes
 SAMPLE, BARE_SAMPLE = 2.4, 1.4  # width of a sample with its gap, and of one without a stub, in text sizes
 CLEAR = 0.5  # free space around a block, in text sizes
+APART = 1.0  # between two entries in a row
 
 CUT = "cut"  # what an entry about rays that were cut explains
 
@@ -56,6 +57,19 @@ def legend(entries: Sequence[Entry], marks: Sequence[Mark], where: Rectangle, si
             if at is not None:
                 found += _block([entry], at, size, theme)
     return found
+
+
+def legend_row(entries: Sequence[Entry], left: float, middle: float, size: float, theme: Theme) -> list[Mark]:
+    """The legend in one line, whose text has its middle at this height."""
+    found: list[Mark] = []
+    for entry in entries:
+        found += _entry(entry, (left, middle), size, theme)
+        left += entry.width(size) + APART * size
+    return found
+
+
+def row_width(entries: Sequence[Entry], size: float) -> float:
+    return sum(entry.width(size) + APART * size for entry in entries)
 
 
 def _take(vacant: FreeSpace, block: Sequence[Entry], corners: Sequence[str], size: float) -> Point | None:

@@ -40,6 +40,7 @@ class FigureStyle:
     eye: str = "top"  # of a tree: or "left"
     selected: int | None = None  # the row of a ray to emphasise; rays that are neither above nor below it are dimmed
     levels: bool = False  # a tree from the top: the depths, with their numbers
+    legend: bool = True  # of a tree
     page: tuple[float, float] = (WIDTH, HEIGHT)  # width and height of the canvas, in points
 
     @property

@@ -2,4 +2,5 @@
 
 from viewer.panels import error, image, lesson, ray, scene, tree
 
-PANELS = (scene.PANEL, image.PANEL, tree.PANEL, lesson.PANEL, ray.PANEL, error.PANEL)
+# In the order of the keys F2, F3, ... (`viewer.window.keys`). Of those that share a place, the first is in front.
+PANELS = (scene.PANEL, image.PANEL, tree.PANEL, ray.PANEL, lesson.PANEL, error.PANEL)

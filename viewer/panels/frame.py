@@ -66,7 +66,7 @@ def _row(session: Session, sharing: Sequence[Panel], front: Panel) -> None:
         _title(session, panel, panel is front, len(sharing) > 1)
     if front.head:
         imgui.same_line(0.0, BETWEEN * unit)
-        front.head(session)
+        front.head(session, imgui.get_content_region_avail().x)
     imgui.end_group()
     imgui.dummy((0.0, 0.25 * MARGIN * unit))
 
@@ -74,6 +74,7 @@ def _row(session: Session, sharing: Sequence[Panel], front: Panel) -> None:
 def _plate(session: Session, panel: Panel) -> None:
     """The title on the picture, with what belongs beside it."""
     unit, theme = d.unit(), session.appearance.theme
+    room = imgui.get_window_width() - 4.0 * MARGIN * unit
     imgui.set_cursor_pos((MARGIN * unit, MARGIN * unit))
     imgui.push_style_color(imgui.Col_.child_bg, faded(theme.panel, PLATE))
     imgui.push_style_var(imgui.StyleVar_.child_rounding, 6.0 * unit)
@@ -85,7 +86,7 @@ def _plate(session: Session, panel: Panel) -> None:
         flags.no_scrollbar | flags.no_saved_settings | flags.no_nav,
     )  # fmt: skip
     if shown and panel.head:
-        panel.head(session)
+        panel.head(session, room)
         if _is_doubly_clicked():
             session.layout.maximise(panel.title)
     elif shown:

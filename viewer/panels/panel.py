@@ -18,7 +18,7 @@ class Panel:
     place: Corner  # at the desk
     lecture_place: Corner | None = None  # in lecture mode, if it is another
     fills: bool = False  # its picture fills the panel, its title lies on it; otherwise it is text, which scrolls
-    head: Callable[[Session], None] | None = None  # draws the rest of the row with the title
+    head: Callable[[Session, float], None] | None = None  # in the place of the title; it may be so many pixels wide
     shows_ray: bool = False  # whether it shows what is selected
     request: Request | None = None  # that brings it to the front
     exists: Callable[[Session], bool] = lambda session: True

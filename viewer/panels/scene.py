@@ -10,7 +10,7 @@ from viewer.base.theme import DIMMED, SMALL, faded
 from viewer.figures.labels import ray_label
 from viewer.figures.ray_lines import nearest_row
 from viewer.gl.canvas import Canvas, texture_ref
-from viewer.panels import draw as d
+from viewer.panels import draw as d, inset
 from viewer.panels.panel import Panel
 from viewer.session.layout import Corner
 from viewer.session.session import Session
@@ -41,6 +41,7 @@ def draw(session: Session, canvas: Canvas) -> None:
     stage.push_clip_rect(corner, end, True)
     _Overlay(session, canvas, stage, corner, room).draw()
     stage.pop_clip_rect()
+    inset.draw(session, canvas, corner, room)
 
 
 def _handle_mouse(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
@@ -193,7 +194,7 @@ class _Overlay:
             self.label(at, ray_label(tree, i), color, (8, 4))
 
 
-def _head(session: Session) -> None:
+def _head(session: Session, room: float) -> None:
     """The scene's title."""
     imgui.text(session.world.scene.caption if session.world else "Scene")
 

@@ -6,9 +6,12 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from viewer.base.theme import TREE_TEXT
+from viewer.base.theme import SMALL, TREE_TEXT
 from viewer.explain.ray import headline
 from viewer.figures.figure.tree import plan_pages, plan_steps
+from viewer.figures.layout.tree_legend import sign_entries
+from viewer.figures.layout.tree_plan import TreePlan
+from viewer.figures.legend import legend_row, row_width
 from viewer.figures.marks import Box, Disc, Line, Mark, Point
 from viewer.figures.picking import mark_at, row_of
 from viewer.figures.steps import Step, of_kinds
@@ -20,6 +23,7 @@ from viewer.panels.panel import Panel
 from viewer.session.layout import Corner
 from viewer.session.session import Session
 
+EDGE = 6.0  # points: from the border of the panel to the legend
 REACH = 6.0  # logical pixels: the largest distance of a click from a mark
 GLOW = 6.0  # logical pixels: width of the line around the ray under the mouse
 SMALLEST, LARGEST = 0.4, 6.0  # zoom
@@ -62,7 +66,9 @@ def _marks(session: Session, canvas: Canvas, page: tuple[float, float]) -> list[
     """The marks of the tree on show. They are made again only if something has changed."""
     full, kinds, selected = session.full_tree, frozenset(session.shown.kinds), session.selected
     assert full
-    style = FigureStyle(session.appearance.theme, TREE_TEXT, swatches=True, selected=selected, levels=True, page=page)
+    style = FigureStyle(
+        session.appearance.theme, TREE_TEXT, swatches=True, selected=selected, levels=True, legend=False, page=page
+    )
 
     def plan_for(selected: int | None):
         whole = of_kinds([Step.whole(full)], kinds)
@@ -75,9 +81,18 @@ def _marks(session: Session, canvas: Canvas, page: tuple[float, float]) -> list[
     step = canvas.tree_step.get(session.tree, lambda: Step.whole(session.tree))
 
     def make() -> list[Mark]:
-        return plan_pages(plan, of_kinds([step], kinds), style)[0]
+        return [*_signs(plan, style), *plan_pages(plan, of_kinds([step], kinds), style)[0]]
 
     return canvas.tree_marks.get((plan, step, selected, style.theme.name), make)
+
+
+def _signs(plan: TreePlan, style: FigureStyle) -> list[Mark]:
+    """The legend of the signs, at the top right, beside the eye: as many as there is room for."""
+    size, right = SMALL * style.text_size, style.page[0] - EDGE
+    entries = [entry for entry in sign_entries(plan) if entry.what != "lights"]
+    while entries and right - row_width(entries, size) < plan.places.eye[0] + 2.0 * style.text_size:
+        entries.pop()
+    return legend_row(entries, right - row_width(entries, size), EDGE + size, size, style.theme)
 
 
 def nodes(marks: list[Mark]) -> dict[int, Point]:

@@ -63,6 +63,7 @@ class Layout:
     desk: Arrangement = field(default_factory=desk)
     lecture: Arrangement = field(default_factory=lecture)
     maximised: str | None = None  # its title
+    on_show: set[Corner] = field(default_factory=set)  # places of the last frame
 
     def reset(self) -> None:
         """Put all panels back in place."""

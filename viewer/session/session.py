@@ -27,7 +27,7 @@ from viewer.session.layout import Layout
 from viewer.session.refinement import Refinement
 from viewer.session.scene_loader import Opening, SceneLoader
 from viewer.session.verification import Verification
-from viewer.session.view_state import Appearance, Notice, OpenDialog, PanZoom, Request, Visibility
+from viewer.session.view_state import Appearance, Notice, OpenDialog, PanZoom, Pointer, Request, Visibility
 from viewer.session.warmup import Warmup
 
 LAYOUT_DEPTH = 3  # the tree is laid out for at least this depth, so that no node moves when the depth is stepped 0..3
@@ -54,6 +54,7 @@ class Session:
         self.layout = Layout()
         self.notice = Notice()
         self.dialog = OpenDialog()
+        self.pointer = Pointer.NONE
         self.shows_help = self.is_blank = False  # is_blank: the window is black
         self.scroll = 0  # lines by which the texts are to be scrolled
         # The scene on show.

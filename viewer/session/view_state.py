@@ -24,6 +24,18 @@ class Request(Enum):
     QUIT = auto()
 
 
+class Pointer(Enum):
+    """What shows the mouse to the room."""
+
+    NONE = auto()
+    DISC = auto()
+    SPOTLIGHT = auto()
+
+    def next(self) -> "Pointer":
+        kinds = list(Pointer)
+        return kinds[(kinds.index(self) + 1) % len(kinds)]
+
+
 @dataclass
 class Appearance:
     """Colours and size of the user interface."""

@@ -11,7 +11,7 @@ from tracer.printable import shown_path
 from viewer.base.cached import Changed
 from viewer.base.theme import STYLES
 from viewer.gl.canvas import Canvas
-from viewer.panels import PANELS, bar, blank, draw as d, frame, help, menu, messages, open_dialog
+from viewer.panels import PANELS, bar, blank, draw as d, frame, help, menu, messages, notice, open_dialog, pointer
 from viewer.panels.panel import Panel
 from viewer.session.layout import GAP, Arrangement, Corner, Rectangle, desk, lecture, tile
 from viewer.session.session import Session
@@ -176,16 +176,20 @@ class App:
         self._part("the dialog", lambda: open_dialog.draw(session))
         self._part("the messages", lambda: messages.draw(session))
         self._part("the help", lambda: help.draw(session, keys.HELP))
-        left, top = room.work_pos
+        # In lecture mode, the menu lies over the panels.
+        is_lecture = session.appearance.is_lecture_size
+        (left, top), size = (room.pos, room.size) if is_lecture else (room.work_pos, room.work_size)
         # In a window that is too small the panels are cut off.
-        width = max(room.work_size.x, SMALLEST[0])
-        height = max(room.work_size.y, SMALLEST[1]) - bar.height()
+        width = max(size.x, SMALLEST[0])
+        height = max(size.y, SMALLEST[1]) - bar.height()
         session.hovered = None
         self._panels((left, top, width, height))
         session.scroll = 0
         for request in session.take_requests():
             self._part("a request", lambda request=request: self._do(request), closes=False)
         self._part("the bar", lambda: bar.draw(session, left, top + height, width))
+        self._part("the notice", lambda: notice.draw(session, left, top + height, width))
+        self._part("the pointer", lambda: pointer.draw(session))
         if session.is_blank:
             self._part("the black screen", blank.draw)
 
@@ -259,6 +263,7 @@ class App:
             self.places, borders = {alone.place_in(session): room}, {}
         else:
             self.places, borders = tile(arrangement, set(sharing), room, GAP * d.unit())
+        layout.on_show = set(self.places)
         self._part("the borders", lambda: self._borders(arrangement, borders, room), closes=False)
         for place, where in self.places.items():
             panels = [alone] if alone else sharing[place]

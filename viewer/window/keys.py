@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
+from viewer.panels import PANELS
 from viewer.session.actions import go, look_through_camera, nudge, step, toggle_model, toggle_refinement
 from viewer.session.saving import copy_command, export_figure
 from viewer.session.session import Session
@@ -27,6 +28,7 @@ US_KEYS = {getattr(K, letter): letter for letter in "abcdefghijklmnopqrstuvwxyz"
     K.minus: "-", K.equal: "=", K.period: ".", K.slash: "/",
 }  # fmt: skip
 LINES = 3  # by which a key scrolls
+PANEL_KEYS = (K.f2, K.f3, K.f4, K.f6, K.f7, K.f8, K.f9, K.f10)  # F5 is a key of remotes, F11 is full screen
 
 
 @dataclass(frozen=True)
@@ -81,6 +83,14 @@ def _blank(session: Session) -> None:
     session.is_blank = True
 
 
+def _maximise(title: str) -> Act:
+    return lambda session: session.layout.maximise(title)
+
+
+def _point(session: Session) -> None:
+    session.pointer = session.pointer.next()
+
+
 def _scroll(by: int) -> Act:
     def act(session: Session) -> None:
         session.scroll += by
@@ -128,6 +138,12 @@ BINDINGS = (
         "C  L  N  A", "camera, lights, normals, names: show or hide",
         {"c": _toggle("camera"), "l": _toggle("lights"), "n": _toggle("normals"), "a": _toggle("labels")},
     ),
+    Binding(
+        "Z, F2 F3 F4, F6 ... F9", "all of the room for the panel under the mouse; for scene, image, tree, numbers, ...",
+        {"z": lambda session: session.requests.append(Request.MAXIMISE)},
+        {key: _maximise(panel.title) for key, panel in zip(PANEL_KEYS, PANELS, strict=False)},
+    ),
+    Binding("X", "pointer, spotlight", {"x": _point}),
     Binding("M", "Whitted's model or Fresnel's", {"m": toggle_model}),
     Binding("R", "refine the image, pause", {"r": toggle_refinement}),
     Binding("T", "light or dark theme", {"t": lambda s: s.appearance.toggle_theme()}),

@@ -28,7 +28,7 @@ from viewer.figures.subject import FigureStyle, Pages, Subject
 LEVEL = "depth {}"  # the name of a level
 LEVEL_OPACITY = 0.35  # of its line
 STRONG = 1.6  # factor of the width of the ray that is selected, or that a step adds
-COMPACT_ARROW = 0.36  # of an edge's length, so that it is clear of the label
+COMPACT_ARROW = 0.3  # of an edge's length, so that it is clear of the label
 OF_A_ROW = ("ray", "hit", "lights", "bar", "fold")  # in names of marks, before the number of a row
 
 
@@ -76,6 +76,8 @@ def plan_pages(plan: TreePlan, steps: Sequence[Step], style: FigureStyle) -> Pag
     marks.
     """
     drawn = [_Drawing(plan, step, style).marks for step in steps]
+    if not style.legend:
+        return drawn
     left, top, right, bottom = plan.style.where
     margin = MARGIN * plan.size
     where: Rectangle = (left + margin, top + margin, right - margin, bottom - margin)

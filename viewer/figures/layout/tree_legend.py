@@ -11,13 +11,19 @@ from viewer.figures.lights import FATES, counted, fate_of, shadow_rays
 
 
 def tree_entries(plan: TreePlan) -> list[Entry]:
-    """The signs that the legend explains: those of the deepest step."""
+    """What the legend explains: the lines and signs of the deepest step."""
+    kinds = {plan.tree.kind(i) for i in plan.rows}
+    rays = [Entry(kind, STYLES[kind].label) for kind in ("reflection", "refraction", "tir") if kind in kinds]
+    return [*rays, *sign_entries(plan)]
+
+
+def sign_entries(plan: TreePlan) -> list[Entry]:
+    """The signs in and below the boxes, and the order of the lights."""
     tree, lines = plan.tree, plan.places.lines
-    kinds = {tree.kind(i) for i in plan.rows}
-    entries = [Entry(kind, STYLES[kind].label) for kind in ("reflection", "refraction", "tir") if kind in kinds]
+    entries: list[Entry] = []
     shadows = [i for i in plan.rows if tree.nodes["kind"][i] == SHADOW]
     if plan.style.compact and any(tree.end(i) in CUTS for i in plan.rows):
-        entries.append(Entry(CUT, "cut: not followed", stub=False))
+        entries.append(Entry(CUT, "cut", stub=False))
     ends = {fate_of(tree, i).name for i in shadows}
     if plan.style.line == SIGNS and not plan.style.compact:
         ends |= {fate.name for hit in lines for fate, _ in counted(tree, shadow_rays(tree, hit))}
