@@ -9,6 +9,7 @@ from imgui_bundle import imgui
 from viewer.base.theme import SMALL, TREE_TEXT
 from viewer.explain.ray import headline
 from viewer.figures.figure.tree import plan_pages, plan_steps
+from viewer.figures.layout.sizes import OUTLINE
 from viewer.figures.layout.tree_legend import sign_entries
 from viewer.figures.layout.tree_plan import TreePlan
 from viewer.figures.legend import legend_row, row_width
@@ -87,12 +88,17 @@ def _marks(session: Session, canvas: Canvas, page: tuple[float, float]) -> list[
 
 
 def _signs(plan: TreePlan, style: FigureStyle) -> list[Mark]:
-    """The legend of the signs, at the top right, beside the eye: as many as there is room for."""
+    """The legend of the signs, at the top right, beside the eye, or below an outline: as many as there is room for."""
     size, right = SMALL * style.text_size, style.page[0] - EDGE
     entries = [entry for entry in sign_entries(plan) if entry.what != "lights"]
-    while entries and right - row_width(entries, size) < plan.places.eye[0] + 2.0 * style.text_size:
+    left, middle = plan.places.eye[0] + 2.0 * style.text_size, EDGE + size
+    if plan.style.eye == OUTLINE:
+        left, middle = EDGE, style.page[1] - EDGE - size
+        if middle - size < max(y for _, y in plan.at.values()) + plan.box[1]:
+            return []
+    while entries and right - row_width(entries, size) < left:
         entries.pop()
-    return legend_row(entries, right - row_width(entries, size), EDGE + size, size, style.theme)
+    return legend_row(entries, right - row_width(entries, size), middle, size, style.theme)
 
 
 def nodes(marks: list[Mark]) -> dict[int, Point]:

@@ -25,6 +25,7 @@ BUSY = 1 / 30  # the same while an image renders and nothing else happens
 SHARE = 0.1  # largest share of the time for drawing frames while an image renders
 EAGER = 0.6  # the same while the user does something
 SMALLEST = (560, 360)  # room for the panels, in pixels
+SLIDE = (1280, 720)  # size of a window, in logical pixels, for which the sizes of text are chosen
 FRAMES_AFTER_EVENT = 6  # frames drawn after the last event: imgui's tables need some to settle
 
 
@@ -160,7 +161,12 @@ class App:
             self.session.loader.open(dropped[-1])
 
     def _apply_style(self) -> None:
-        wanted = (self.session.appearance.theme, self.surface.scale, self.session.appearance.text_zoom)
+        appearance = self.session.appearance
+        zoom = appearance.text_zoom
+        if appearance.is_lecture_size:  # as on a slide: the larger the window, the larger the text
+            size = imgui.get_io().display_size
+            zoom *= max(1.0, min(size.x / SLIDE[0], size.y / SLIDE[1]) / self.surface.scale)
+        wanted = (appearance.theme, self.surface.scale, zoom)
         self.style_changed.run(wanted, lambda: style.apply(*wanted))
 
     def _set_title(self) -> None:

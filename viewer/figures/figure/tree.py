@@ -6,16 +6,18 @@ ones down.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
-from viewer.base.theme import DIMMED, STYLES, Color, faded
+from viewer.base.theme import DIMMED, STYLES, Arrow, Color, faded
 from viewer.figures import signs
 from viewer.figures.figure.tree_box import fold_box, hit_box
 from viewer.figures.font import text_width
 from viewer.figures.labels import ray_title
 from viewer.figures.layout.light_line import NO_LINE, SIGN, WORDS, LightLine
-from viewer.figures.layout.sizes import MARGIN, NO_RAY, PlannedRays, TreeStyle, edge_label, stub_label
+from viewer.figures.layout.outline import GAP, HEAD, edge_of
+from viewer.figures.layout.sizes import MARGIN, NO_RAY, OUTLINE, PlannedRays, TreeStyle, edge_label, stub_label
 from viewer.figures.layout.tree_legend import tree_entries
 from viewer.figures.layout.tree_plan import TreePlan, plan_tree
 from viewer.figures.legend import legend
@@ -61,9 +63,8 @@ def tree_style(steps: Sequence[Step], style: FigureStyle, where: Rectangle) -> T
     tree, rows = steps[-1].tree, steps[-1].rows
     lit = any(tree.nodes["kind"][i] == SHADOW for i in rows)
     lights, line = (MOST_LIGHTS, WORDS) if lit else (0, NO_LINE)
-    if style.levels and style.eye == "top":
-        where = (where[0] + _levels_wide(style.text_size), *where[1:])
-    return TreeStyle(style.text_size, style.swatches, style.fold, where, style.eye, lights, line)
+    aside = _levels_wide(style.text_size) if style.levels else 0.0
+    return TreeStyle(style.text_size, style.swatches, style.fold, where, aside, style.eye, lights, line)
 
 
 def _levels_wide(size: float) -> float:
@@ -95,17 +96,21 @@ class _Drawing:
         rows = sorted(plan.rows & step.rows)
         hits = [i for i in rows if self.tree.nodes["kind"][i] != SHADOW]
         folds = [fold for row, fold in sorted(plan.folds.items()) if row in step.rows]
-        if style.levels and not self.sideways:
+        self.is_outline = plan.style.eye == OUTLINE
+        if style.levels and plan.style.eye == "top":
             self._levels(hits)
         self.marks += signs.eye(plan.places.eye, self.size, self.theme)
         for i in rows:
             if self.tree.nodes["kind"][i] != SHADOW:
-                self._edge(i)
+                self._elbow(i) if self.is_outline else self._edge(i)
             elif not plan.style.compact:
                 self._stub(i)
         for fold in folds:
-            if fold.under is None:
+            if fold.under is None and not self.is_outline:
                 self._fold_edge(fold.row)
+            elif fold.under is None:
+                stroke = Stroke(self.theme.muted, 1.6, (2.0, 4.0))
+                self.marks += self._corners(f"fold-{fold.row}", fold.row, stroke, Arrow.NONE)
         for i in hits:
             self._bar(i)
             self._light_line(i)
@@ -153,6 +158,39 @@ class _Drawing:
             title=ray_title(self.tree, i),
         )
         self.marks += [line, label]
+
+    def _elbow(self, i: int) -> None:
+        """In an outline: the edge to hit i, with its label before the box."""
+        name, kind = f"ray-{i}", self.tree.kind(i)
+        style, color = STYLES[kind], self.theme.ray(kind)
+        x, y = self.plan.at[i]
+        strong = STRONG if i in (self.step.current, self.style.selected) else 1.0
+        stroke = Stroke(color, strong * style.width, ray_dash(self.tree, i))
+        if i:
+            self.marks += self._corners(name, i, stroke, style.arrow)
+        else:
+            start = (self.plan.places.eye[0] + 1.1 * self.size, y)
+            end = (x - 0.5 * self.plan.box[0], y)
+            title = ray_title(self.tree, i)
+            self.marks.append(
+                Line(name, start, end, stroke, style.arrow, 0.3, leaves="eye", reaches="hit-0", title=title)
+            )
+        label, wide = edge_label(self.tree, i), 0.5 * self.plan.box[0] + GAP * self.size
+        at = (x - self.plan.before, y) if i else (x - wide - text_width(label, self.size), y - 0.72 * self.size)
+        self.marks.append(Text(name, at, label, self.size, color, "start"))
+
+    def _corners(self, name: str, i: int, stroke: Stroke, arrow: Arrow) -> list[Mark]:
+        """In an outline: the edge to the label before row i, down and then to the right."""
+        parent = int(self.tree.nodes["parent"][i])
+        side = 1 if self.tree.kind(i) == "refraction" else -1
+        eye = self.plan.places.eye if parent == 0 else None
+        a, b, c = edge_of(self.plan.at[parent], self.plan.at[i], self.size, self.plan.before, side, eye)
+        title = "" if name.startswith("fold") else ray_title(self.tree, i)
+        head = max(0.5, 1.0 - HEAD * self.size / (b[1] - a[1]))
+        return [
+            Line(name, a, b, stroke, arrow, head, title=title),
+            Line(name, b, c, replace(stroke, dash=(0.0, 0.0))),
+        ]
 
     def _edge_label(self, i: int, start: Point, end: Point, color: Color) -> Text:
         """The factor, above the box where it interrupts the edge. The first ray is straight, and has its label beside
@@ -246,6 +284,7 @@ class _Drawing:
     def _levels(self, hits: Sequence[int]) -> None:
         """The depths of the rays on show, as faint lines with their numbers, behind everything."""
         left, _, right, _ = self.plan.style.where
+        left += _levels_wide(self.size)
         deepest = max(int(self.tree.nodes["depth"][i]) for i in hits)
         rows = {int(self.tree.nodes["depth"][i]): self.plan.at[i][1] for i in hits}
         ink = faded(self.theme.muted, LEVEL_OPACITY)

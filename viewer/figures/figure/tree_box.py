@@ -10,7 +10,7 @@ from viewer.figures import signs
 from viewer.figures.labels import end_label, hit_label, ray_label, ray_title
 from viewer.figures.layout.folds import Fold
 from viewer.figures.layout.light_line import SIGN, box_signs, signs_width
-from viewer.figures.layout.sizes import BARE_NOTE, CUT, INNER, LINE, NOTE, PADDING, SWATCH
+from viewer.figures.layout.sizes import BARE_NOTE, CUT, INNER, LINE, NOTE, OUTLINE, PADDING, SWATCH
 from viewer.figures.layout.tree_plan import TreePlan
 from viewer.figures.lights import shadow_rays
 from viewer.figures.marks import Box, Disc, Mark, Point, Stroke, Text
@@ -97,20 +97,20 @@ def _under(plan: TreePlan, i: int) -> Point:
 def fold_box(plan: TreePlan, step: Step, fold: Fold, theme: Theme) -> list[Mark]:
     """A folded branch: its number of rays and its weight, in its own box or under the hit."""
     name, size = f"fold-{fold.row}", plan.size
-    many, share = fold.words(sum(plan.inside.get(i) == fold.row for i in step.rows))
-    title = f"{many} not drawn, {share} of the weight"
+    count = sum(plan.inside.get(i) == fold.row for i in step.rows)
+    lines = fold.words(count, plan.style.eye == OUTLINE)
+    title = f"{' not drawn, '.join(fold.words(count))} of the weight"
     if fold.under is not None:
         x, y = _under(plan, fold.under)
         return [
-            Text(name, (x, y + k * LINE * size), words, size, theme.muted, title=title)
-            for k, words in enumerate((many, share))
+            Text(name, (x, y + k * LINE * size), words, size, theme.muted, title=title) for k, words in enumerate(lines)
         ]
     x, y = plan.at[fold.row]
     stroke = Stroke(theme.muted, 1.4, (3.0, 3.0))
     box = Box(name, (x, y), (plan.box[0], plan.fold_height), ROUND * size, None, stroke, title=title)
     words = [
-        Text(name, (x, y + dy * size), words, size, theme.muted, inside=name)
-        for words, dy in ((many, -0.6), (share, 0.6))
+        Text(name, (x, y + (1.2 * k - 0.6 * (len(lines) - 1)) * size), words, size, theme.muted, inside=name)
+        for k, words in enumerate(lines)
     ]
     return [box, *words]
 

@@ -21,9 +21,10 @@ class Fold:
     weight: float  # of its first rays, together
     under: int | None = None
 
-    def words(self, count: int) -> tuple[str, str]:
-        """(number of rays, their share of the weight), of a fold with so many rays."""
-        return (f"+{count} ray{'s' if count > 1 else ''}", f"{percent(self.weight)} %")
+    def words(self, count: int, one_line: bool = False) -> tuple[str, ...]:
+        """The number of rays and their share of the weight, of a fold with so many rays."""
+        words = (f"+{count} ray{'s' if count > 1 else ''}", f"{percent(self.weight)} %")
+        return (", ".join(words),) if one_line else words
 
 
 def percent(share: float) -> str:

@@ -5,11 +5,8 @@ Boxes and labels never overlap. Edges run through free space: from a box's sides
 right side through the free column to the next level.
 """
 
-from collections.abc import Collection
-from dataclasses import dataclass
-
 from tracer.kernel.nodes import SHADOW
-from tracer.tree.raytree import RayTree
+from viewer.figures.layout.places import LayoutTask, Places
 from viewer.figures.layout.sizes import (
     BARE_NOTE,
     BELOW,
@@ -46,35 +43,6 @@ CORRIDOR, WIDEST = 2.4, 6.0  # least and largest distance between the boxes of t
 EYES = ("top", "left")
 
 
-@dataclass(frozen=True)
-class Places:
-    """Centres of boxes and of signs at ends of stubs, ends of the bars of total internal reflection, middles of the
-    lines that stand for shadow rays, the eye.
-    """
-
-    at: dict[int, Point]
-    bars: dict[int, Point]
-    lines: dict[int, Point]
-    eye: Point
-
-
-@dataclass(frozen=True)
-class LayoutTask:
-    """The rows and the boxes of folds to place, in a style."""
-
-    tree: RayTree
-    rows: Collection[int]
-    folds: Collection[int]
-    sizes: Sizes
-    style: TreeStyle
-    hung: bool  # whether folds hang under the last level
-
-    @property
-    def levels(self) -> int:
-        """The number of levels below the first."""
-        return max(int(self.tree.nodes["depth"][i]) for i in (*self.rows, *self.folds))
-
-
 def levels_down(style: TreeStyle, hung: bool) -> int:
     """The largest possible number of levels below the first. `hung`: with folds under the last."""
     return int(_room_below(style, hung) / (_pitch(style) * style.size))
@@ -103,6 +71,7 @@ def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
     """The positions; None if they do not fit."""
     tree, style, sizes = task.tree, task.style, task.sizes
     size, (left, top, right, _) = style.size, style.where
+    left += style.aside
     margin, gap = MARGIN * size, GAP * size
     unit = sizes.column + gap
     stub = sizes.slot / unit

@@ -31,6 +31,7 @@ EDGE_LABEL = 1.1  # from a box up to the middle of its ray's label
 ABOVE, BELOW = 0.42, 0.61  # from the middle of a line of text to its ascenders and descenders
 
 NO_RAY = "no T"  # the refracted ray on total internal reflection
+OUTLINE = "outline"
 LONG, SHORT = 24, 14  # characters of a name, with and without enough room; longer names are cut
 
 
@@ -42,7 +43,8 @@ class TreeStyle:
     swatches: bool = False  # each box has the colour of its radiance
     fold: float = 0.0
     where: Rectangle = CANVAS  # its part of the canvas
-    eye: str = "top"  # or left
+    aside: float = 0.0  # width at the left that is kept free, with the eye at the top
+    eye: str = "top"  # or left, or OUTLINE: a compact tree with a line for each hit
     lights: int = MOST_LIGHTS  # shadow rays that are drawn at a hit; if it has more, a line stands for them
     line: int = WORDS  # the form of that line
     longest: int = LONG  # characters of a name
@@ -75,29 +77,31 @@ class Sizes:
     up: float
     down: float
     lines: dict[int, float]
+    label: float  # of a ray, the widest
 
     @staticmethod
     def of(measured: "HitSizes", rows: Collection[int], folds: dict[int, Fold], inside: dict[int, int]) -> "Sizes":
         """The sizes for everything in, above and below any box, at any step."""
-        tree, size = measured.tree, measured.style.size
+        tree, style, size = measured.tree, measured.style, measured.style.size
         kinds = tree.nodes["kind"]
         hung = {fold.under for fold in folds.values()}
         hits = {i: measured[i] for i in rows if kinds[i] != SHADOW}
         down = [0.5 * (FOLD if len(hung - {None}) < len(folds) else BOX) * size]
         down += [hit.down[i in hung] for i, hit in hits.items()]
         counts = Counter(inside.values())
-        shares = [words for fold in folds.values() for words in fold.words(counts[fold.row])]
+        shares = [words for fold in folds.values() for words in fold.words(counts[fold.row], style.eye == OUTLINE)]
         around = 2 * PADDING * size
         widest = max(
             max(hit.name for hit in hits.values()) + around + max(hit.signs for hit in hits.values()),
             _widest(shares, size) + around,
-            max(hit.loose for hit in hits.values()),
+            0.0 if style.eye == OUTLINE else max(max(hit.label, hit.note) for hit in hits.values()),
         )
         slot = max(hit.stub for hit in hits.values()) + (SIGN + SLOT) * size
         most, hangs = max(hit.stubs for hit in hits.values()), max(hit.hangs for hit in hits.values())
         lines = {i: hit.line for i, hit in hits.items() if hit.line}
         up = (0.5 * BOX + EDGE_LABEL + ABOVE) * size
-        return Sizes(max(widest, most * slot, hangs), BOX * size, slot, up, max(down), lines)
+        label = max(hit.label for hit in hits.values())
+        return Sizes(max(widest, most * slot, hangs), BOX * size, slot, up, max(down), lines, label)
 
 
 @dataclass(frozen=True)
@@ -106,7 +110,8 @@ class HitSize:
 
     name: float  # in its box
     signs: float  # beside the name
-    loose: float  # of the label of its ray, and of the note below it
+    label: float  # of its ray
+    note: float  # below it
     stubs: int  # that hang below it
     stub: float  # the widest label of a stub
     line: float  # that stands for its shadow rays; 0: none
@@ -132,15 +137,15 @@ class HitSizes:
         tree, style, size = self.tree, self.style, self.style.size
         name = text_width(name_in_box(tree, i, style.longest), size)
         signs = signs_width(tree, i, style.lights > 0, size) + (SWATCH * style.swatches + INNER + CUT) * size
-        loose = text_width(edge_label(tree, i), size)
+        label = text_width(edge_label(tree, i), size)
         down = 0.5 * BOX * size
-        return HitSize(name, signs, loose, 0, 0.0, 0.0, 0.0, (down, down + (BARE_NOTE + LINE + BELOW) * size))
+        return HitSize(name, signs, label, 0.0, 0, 0.0, 0.0, 0.0, (down, down + (BARE_NOTE + LINE + BELOW) * size))
 
     def _with_stubs(self, i: int) -> HitSize:
         tree, style, size = self.tree, self.style, self.style.size
         name = text_width(name_in_box(tree, i, style.longest), size)
         notes = [end_label(step, i) for step in self.rays.trees if i < len(step)]
-        loose = _widest([edge_label(tree, i), *notes], size)
+        label, note = text_width(edge_label(tree, i), size), _widest(notes, size)
         tir = any(tree.kind(c) == "tir" for c in tree.children[i])
         shadows = shadow_rays(tree, i)
         line = 0.0
@@ -157,7 +162,7 @@ class HitSizes:
 
         hangs = line + tir * bar_width(size) if line else 0.0
         extents = (down(1 if any(notes) else 0), down(2))
-        return HitSize(name, SWATCH * size * style.swatches, loose, len(drawn) + tir, stub, line, hangs, extents)
+        return HitSize(name, SWATCH * size * style.swatches, label, note, len(drawn) + tir, stub, line, hangs, extents)
 
 
 def bar_width(size: float) -> float:

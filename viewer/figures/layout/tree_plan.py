@@ -4,7 +4,7 @@ Each hit is a box, and all boxes have one size, so that equal subtrees look the 
 left side, refracted ones at its right, and stubs to the lights hang below: no lines cross. With the eye at the left,
 all rays leave at the right side, reflected ones upwards. If the tree does not fit, it becomes compact: the signs of
 shadow rays stand in the boxes. If that does not fit either, the lightest branches are folded into boxes that give
-their number of rays and weight.
+their number of rays and weight. In a place that is narrow and high, the tree may become an outline.
 """
 
 import math
@@ -17,17 +17,19 @@ from tracer.tree.raytree import RayTree
 from viewer.figures.labels import hit_label
 from viewer.figures.layout.folds import Fold, fold_branches
 from viewer.figures.layout.light_line import NO_LINE, SIGNS, WORDS
+from viewer.figures.layout.outline import GAP, place_as_outline
+from viewer.figures.layout.places import LayoutTask, Places
 from viewer.figures.layout.placing import (
-    LayoutTask,
-    Places,
     levels_down,
     levels_right,
     place_downwards,
     place_rightwards,
 )
 from viewer.figures.layout.sizes import (
+    BOX,
     EDGE_LABEL,
     FOLD,
+    OUTLINE,
     SHORT,
     STUB,
     HitSizes,
@@ -41,6 +43,7 @@ from viewer.figures.marks import Point
 
 SMALLEST = 8.0  # points: the smallest text size
 MORE = 40  # if the whole tree does not fit, this many of the other rays are tried one by one, the heaviest first,
+NARROW = 1.3  # width over height of a place in which the tree may be an outline
 VAIN = 8  # until so many in turn do not fit
 
 
@@ -57,6 +60,7 @@ class TreePlan:
     inside: dict[int, int]  # a folded row -> the row of its fold
     places: Places
     box: tuple[float, float]
+    label: float  # width of the widest label of a ray
     fits: bool  # on its part of the canvas
     lights_left_out: bool = False  # for want of room
 
@@ -82,7 +86,12 @@ class TreePlan:
 
     @property
     def fold_height(self) -> float:
-        return FOLD * self.size
+        return (BOX if self.style.eye == OUTLINE else FOLD) * self.size
+
+    @property
+    def before(self) -> float:
+        """In an outline: from a box's middle to the left end of its ray's label."""
+        return self.label + GAP * self.size + 0.5 * self.box[0]
 
     @property
     def top(self) -> float:
@@ -111,6 +120,9 @@ def _plan_forms(rays: PlannedRays, style: TreeStyle) -> TreePlan:
     if style.lights and many_lights(rays.tree):
         bare = _named(rays, replace(low, lights=0, line=NO_LINE))
         plans.append(replace(bare, lights_left_out=True))
+    left, top, right, bottom = style.where
+    if right - left < NARROW * (bottom - top):
+        plans.append(_named(rays, replace(low, eye=OUTLINE)))
     return max(plans, key=lambda plan: plan.seen)
 
 
@@ -216,8 +228,13 @@ def _last_level(measured: HitSizes) -> int:
     deepest = int(measured.tree.nodes["depth"].max())
     if style.eye == "left":
         return levels_right(Sizes.of(measured, measured.rays.rows, {}, {}), style)
+    if style.eye == OUTLINE:
+        return deepest
     whole = levels_down(style, hung=False)
     return whole if deepest <= whole else max(0, levels_down(style, hung=True))
+
+
+PLACINGS = {"top": place_downwards, "left": place_rightwards, OUTLINE: place_as_outline}
 
 
 def _try(measured: HitSizes, kept: set[int], last: int, anyhow: bool = False) -> TreePlan | None:
@@ -227,7 +244,9 @@ def _try(measured: HitSizes, kept: set[int], last: int, anyhow: bool = False) ->
     sizes = Sizes.of(measured, rows, folds, inside)
     boxes = {row for row, fold in folds.items() if fold.under is None}
     task = LayoutTask(tree, rows, boxes, sizes, style, hung=len(boxes) < len(folds))
-    places = (place_rightwards if style.eye == "left" else place_downwards)(task, anyhow)
+    places = PLACINGS[style.eye](task, anyhow)
     if places is None:
         return None
-    return TreePlan(tree, style, frozenset(rows), folds, inside, places, (sizes.column, sizes.box), not anyhow)
+    return TreePlan(
+        tree, style, frozenset(rows), folds, inside, places, (sizes.column, sizes.box), sizes.label, not anyhow
+    )
