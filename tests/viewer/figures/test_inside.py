@@ -158,8 +158,8 @@ def test_scenes_lie_inside_their_panel(seed: int, lights: int, depth: int) -> No
         check_inside(list(page.marks), PAGE)
         check_texts(list(page.marks))
     if seed % 2 == 0:
-        left = scene.pages(subject, style, (0.0, 0.0, both.DIVIDE - both.GAP, HEIGHT))
+        left = scene.pages(subject, style, (0.0, 0.0, both.DIVIDE * WIDTH - both.GAP, HEIGHT))
         for page, marks in zip(pages("both", subject, style), left, strict=True):
-            check_inside(list(page.marks[: len(marks)]), (0.0, 0.0, both.DIVIDE - both.GAP, HEIGHT))
+            check_inside(list(page.marks[: len(marks)]), (0.0, 0.0, both.DIVIDE * WIDTH - both.GAP, HEIGHT))
             check_inside(list(page.marks[len(marks) :]), both.tree_part(FigureStyle()))
             check_texts(list(page.marks))

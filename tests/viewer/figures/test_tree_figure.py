@@ -13,7 +13,7 @@ from tests.conftest import LESSONS
 from tests.scenes import MATTE, ball, world_of
 from tests.viewer.figures.geometry import check
 from tests.viewer.figures.random_tree import random_tree
-from tests.viewer.panels.test_layout import plates
+from tests.viewer.figures.test_tidy_tree import plates
 from tracer.kernel.nodes import SHADOW
 from tracer.scene import Light, Material
 from tracer.tree.raytree import RayTree

@@ -20,7 +20,6 @@ class Spacing:
     stub_gap: float  # between two stubs
     stub_half: float
     lean: float = 0.5  # sideways offset of an only child
-    edge: float = 0.2  # between a stub and the edges beside it
     sides: bool = False  # rays leave at a node's sides instead of its middle, and its stubs are as wide as itself
     passes: float = 0.5  # length of its stubs in levels: down to there, edges of neighbours must stay outside them
     crowded: bool = False  # its stubs reach so far down that they must stay away from nodes of the next level
@@ -76,11 +75,6 @@ def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtr
     count = len(stubs) + barred
     shifts = _apart([subtrees[child] for child in rays])
     if reflected and refracted:
-        # The edges must leave room for the stubs where they pass them, halfway down.
-        between = count > 0 and not room.sides
-        wanted = 4.0 * (0.5 * room.stub_gap * max(count - 1, 0) + room.edge) if between else 0.0
-        grow = max(0.0, wanted - (shifts[-1] - shifts[0]))
-        shifts = [shift + (grow if k >= len(reflected) else 0.0) for k, shift in enumerate(shifts)]
         middle = 0.5 * (shifts[0] + shifts[-1])
     elif rays:
         middle = shifts[-1] + room.lean if reflected else shifts[0] - room.lean
@@ -89,7 +83,7 @@ def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtr
     shifts = [shift - middle for shift in shifts]
     offsets, bars = {i: 0.0}, {}
     left, right = ([-room.left] * 2, [room.right] * 2) if room.sides else ([-room.left, 0.0], [room.right, 0.0])
-    places = _stub_places(count, bool(reflected), bool(refracted), room)
+    places = [room.stub_gap * (k - 0.5 * (count - 1)) for k in range(count)]  # in the middle, below the hit
     for x in places:
         left[1], right[1] = min(left[1], x - room.stub_half), max(right[1], x + room.stub_half)
     if barred:
@@ -125,11 +119,3 @@ def _apart(subtrees: list[_Subtree]) -> list[float]:
                 edge.append(reach + shift)
             edge[level] = max(edge[level], reach + shift)
     return shifts
-
-
-def _stub_places(count: int, ray_left: bool, ray_right: bool, room: Spacing) -> list[float]:
-    """Positions of the stubs to the lights: in the middle, or on the side without a ray."""
-    if ray_left != ray_right and not room.sides:
-        sign = 1.0 if ray_left else -1.0
-        return sorted(sign * (0.5 * room.edge + room.stub_gap * k) for k in range(count))
-    return [room.stub_gap * (k - 0.5 * (count - 1)) for k in range(count)]
