@@ -12,5 +12,5 @@ TREE = (DIVIDE + GAP, WIDTH)  # left and right of the tree
 def pages(subject: Subject, style: FigureStyle) -> Pages:
     """Both panels on each page."""
     scenes = scene.pages(subject, style, (0.0, 0.0, DIVIDE - GAP, HEIGHT))
-    trees = tree.pages(subject, style, TREE)
+    trees = tree.pages(subject, style, TREE, scenes)
     return [[*left, *right] for left, right in zip(scenes, trees, strict=True)]

@@ -30,6 +30,7 @@ from viewer.figures.layout.sizes import (
     edge_label,
     stub_label,
 )
+from viewer.figures.layout.sum_block import SumBlock, with_sum
 from viewer.figures.layout.tree_legend import tree_entries
 from viewer.figures.layout.tree_plan import TreePlan, plan_tree
 from viewer.figures.legend import legend
@@ -47,10 +48,12 @@ from viewer.figures.subject import FigureStyle, Pages, Subject
 WHERE = (0.0, WIDTH)  # left and right of the tree on the canvas
 
 
-def pages(subject: Subject, style: FigureStyle, where: tuple[float, float] = WHERE) -> Pages:
-    """The ray tree. No box moves from step to step."""
+def pages(
+    subject: Subject, style: FigureStyle, where: tuple[float, float] = WHERE, beside: Pages | None = None
+) -> Pages:
+    """The ray tree. No box moves from step to step. `beside` are the marks of each page on the rest of the canvas."""
     plan = plan_tree([step.tree for step in subject.steps], tree_style(style, where))
-    return plan_pages(plan, subject.steps, style.theme)
+    return plan_pages(plan, subject.steps, style.theme, beside)
 
 
 def tree_style(style: FigureStyle, where: tuple[float, float] = WHERE) -> TreeStyle:
@@ -59,16 +62,17 @@ def tree_style(style: FigureStyle, where: tuple[float, float] = WHERE) -> TreeSt
     return TreeStyle(style.text_size, style.swatches, style.fold, where, style.eye, lights, line)
 
 
-def plan_pages(plan: TreePlan, steps: Sequence[Step], theme: Theme) -> Pages:
+def plan_pages(plan: TreePlan, steps: Sequence[Step], theme: Theme, beside: Pages | None = None) -> Pages:
     """One page for each step, with those rows of the plan that the step has. The legend stands where there are no
-    marks.
+    marks. `beside` are the marks of each page on the rest of the canvas.
     """
-    drawn = [_Drawing(plan, step, theme).marks for step in steps]
+    drawings = [_Drawing(plan, step, theme) for step in steps]
+    drawn = [drawing.marks for drawing in drawings]
     left, right = plan.style.where
     margin = MARGIN * plan.size
     where: Rectangle = (left + margin, margin, right - margin, HEIGHT - margin)
     signs_meant = legend(tree_entries(plan), [mark for marks in drawn for mark in marks], where, plan.size, theme)
-    return [[*signs_meant, *marks] for marks in drawn]
+    return [drawing.page(signs_meant, where, beside[k] if beside else []) for k, drawing in enumerate(drawings)]
 
 
 class _Drawing:
@@ -94,6 +98,15 @@ class _Drawing:
         for fold in folds:
             self._fold(fold)
 
+    def page(self, signs_meant: list[Mark], where: Rectangle, beside: Sequence[Mark]) -> list[Mark]:
+        """The marks with the legend, and with the sum of the hit that the step sums up."""
+        hit = self.step.sum
+        if hit is None or hit not in self.plan.rows:
+            return [*signs_meant, *self.marks]
+        (x, y), (w, h) = self.plan.at[hit], self.plan.box
+        box = (x - 0.5 * w, y - 0.5 * h, x + 0.5 * w, y + 0.5 * h)
+        return with_sum(SumBlock(self.tree, hit, box, self.size, self.theme), self.marks, signs_meant, where, beside)
+
     # --- rays ---------------------------------------------------------------------------------------------------------
 
     def _leave(self, i: int) -> tuple[Point, str]:
@@ -117,7 +130,7 @@ class _Drawing:
         style, color = STYLES[kind], self.theme.ray(kind)
         start, leaves = self._leave(i)
         end = self._reach(i, self.plan.box[1])
-        strong = 1.8 if i == self.step.current else 1.0
+        strong = 1.8 if i in self.step.current else 1.0
         label = self._edge_label(i, start, end, color)
         line = Line(
             f"ray-{i}",
@@ -159,7 +172,7 @@ class _Drawing:
         sign, text = self._side_by_side(at, label)
         start = (x + 0.6 * (sign[0] - x), y + 0.5 * self.plan.box[1])
         stop = (sign[0], at[1] - 0.5 * self.size)
-        strong = 1.8 if i == self.step.current else 1.0
+        strong = 1.8 if i in self.step.current else 1.0
         self.marks.append(
             Line(
                 name,
@@ -186,7 +199,7 @@ class _Drawing:
             return
         name, (x, y), size = f"lights-{i}", middle, self.size
         top = self.plan.at[i][1] + 0.5 * self.plan.box[1]
-        strong = 1.8 if self.step.current in shadows else 1.0
+        strong = 1.8 if self.step.current & set(shadows) else 1.0
         stroke = Stroke(self.theme.ray("shadow"), strong * STYLES["shadow"].width, STYLES["shadow"].dash)
         title = light_title(self.tree, shadows)
         self.marks.append(Line(name, (x, top), (x, y - 0.5 * size), stroke, leaves=f"hit-{i}", title=title))
@@ -219,7 +232,7 @@ class _Drawing:
     def _box(self, i: int) -> None:
         name, at = f"hit-{i}", self.plan.at[i]
         background = self.tree.end(i) == "background"
-        stroke = Stroke(self.theme.text, 2.6 if i == self.step.current else 1.4)
+        stroke = Stroke(self.theme.text, 2.6 if i in self.step.current else 1.4)
         if background:
             stroke = Stroke(self.theme.muted, 1.4, (3.0, 3.0))
         color = self.theme.text

@@ -22,11 +22,10 @@ from viewer.figures.layout.placing import (
     place_downwards,
     place_rightwards,
 )
-from viewer.figures.layout.sizes import EDGE_LABEL, FOLD, SHORT, STUB, Sizes, TreeStyle, name_in_box
+from viewer.figures.layout.sizes import EDGE_LABEL, FOLD, SHORT, SMALLEST, STUB, Sizes, TreeStyle, name_in_box
 from viewer.figures.lights import many_lights
 from viewer.figures.marks import Point
 
-SMALLEST = 8.0  # points: the smallest text size
 MORE = 40  # if the whole tree does not fit, this many of the other rays are tried one by one, the heaviest first
 
 
