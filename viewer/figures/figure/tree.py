@@ -72,7 +72,7 @@ def plan_pages(plan: TreePlan, steps: Sequence[Step], theme: Theme, beside: Page
     margin = MARGIN * plan.size
     where: Rectangle = (left + margin, margin, right - margin, HEIGHT - margin)
     signs_meant = legend(tree_entries(plan), [mark for marks in drawn for mark in marks], where, plan.size, theme)
-    return [drawing.page(signs_meant, where, beside[k] if beside else []) for k, drawing in enumerate(drawings)]
+    return [drawing.page(signs_meant, where, beside[k] if beside else None) for k, drawing in enumerate(drawings)]
 
 
 class _Drawing:
@@ -98,7 +98,7 @@ class _Drawing:
         for fold in folds:
             self._fold(fold)
 
-    def page(self, signs_meant: list[Mark], where: Rectangle, beside: Sequence[Mark]) -> list[Mark]:
+    def page(self, signs_meant: list[Mark], where: Rectangle, beside: Sequence[Mark] | None) -> list[Mark]:
         """The marks with the legend, and with the sum of the hit that the step sums up."""
         hit = self.step.sum
         if hit is None or hit not in self.plan.rows:

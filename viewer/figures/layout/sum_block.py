@@ -57,19 +57,19 @@ class SumBlock:
 
 
 def with_sum(
-    block: SumBlock, marks: list[Mark], legend: list[Mark], where: Rectangle, beside: Sequence[Mark]
+    block: SumBlock, marks: list[Mark], legend: list[Mark], where: Rectangle, beside: Sequence[Mark] | None
 ) -> list[Mark]:
     """A page with the sum of a hit, in the tree's part of the canvas (`where`). If there is no room for it, it stands
-    elsewhere on the canvas, where other marks are `beside`; then it takes the room of the legend, which the page does
-    not have then; then its text is smaller.
+    on the rest of the canvas, if the marks `beside` the tree are known; then it takes the room of the legend, which the
+    page does not have then; then its text is smaller.
     """
     margin = MARGIN * block.size
-    canvas = (margin, margin, WIDTH - margin, HEIGHT - margin)
+    canvas = where if beside is None else (margin, margin, WIDTH - margin, HEIGHT - margin)
     sizes = [share * block.size for share in SMALLER if share == 1.0 or share * block.size >= SMALLEST]
     for size in sizes:
         for signs, room in ((legend, where), (legend, canvas), ([], canvas)):
             drawn = [*signs, *marks]
-            found = replace(block, size=size).place(FreeSpace(room, [*drawn, *beside]))
+            found = replace(block, size=size).place(FreeSpace(room, [*drawn, *(beside or ())]))
             if found:
                 return [*drawn, *found]
     return [*legend, *marks]
