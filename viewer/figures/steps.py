@@ -92,9 +92,9 @@ class Steps(Sequence[Step]):
             found |= {(row, change.sums): max(k - self._begin, 0) for row in change.rows}
         return found
 
-    def find(self, row: int, sums: bool) -> int:
-        """The index of the step that adds a row, or with `sums` of the one that sums it up."""
-        return self._places[row, sums]
+    def find(self, row: int, sums: bool) -> int | None:
+        """The index of the step that adds a row, or with `sums` of the one that sums it up; None if there is none."""
+        return self._places.get((row, sums))
 
 
 def by_depth(trees: Sequence[RayTree], lights: bool = True) -> list[Step]:

@@ -52,7 +52,8 @@ class App:
             busy = self._is_busy()
             since = time.perf_counter() - drawn
             rest = self._rest(busy, frames_left > 0, took)
-            self.surface.wait(max(0.0, rest - since) if frames_left > 0 or busy else IDLE)
+            idle = min(IDLE, self.session.reveal.wait(time.monotonic()))  # until the next step of an animation
+            self.surface.wait(max(0.0, rest - since) if frames_left > 0 or busy else idle)
             news = self.session.update()
             if news or self._has_events():
                 frames_left = FRAMES_AFTER_EVENT
