@@ -15,7 +15,7 @@ from viewer.figures.layout.tree_plan import TreePlan
 from viewer.figures.legend import legend_row, row_width
 from viewer.figures.marks import Box, Disc, Line, Mark, Point
 from viewer.figures.picking import mark_at, row_of
-from viewer.figures.steps import Step, of_kinds
+from viewer.figures.steps import of_kinds, whole
 from viewer.figures.subject import FigureStyle
 from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas
@@ -72,17 +72,17 @@ def _marks(session: Session, canvas: Canvas, page: tuple[float, float]) -> list[
     )
 
     def plan_for(selected: int | None):
-        whole = of_kinds([Step.whole(full)], kinds)
-        return plan_steps(whole, replace(style, selected=selected), style.canvas)
+        steps = [of_kinds(whole(full), kinds)]
+        return plan_steps(steps, replace(style, selected=selected), style.canvas)
 
     plan = canvas.tree_plan.get((full, kinds, page), lambda: plan_for(None))
     if selected is not None and selected not in plan.rows:
         plan = canvas.tree_plan_of_ray.get((full, kinds, page, selected), lambda: plan_for(selected))
     assert session.tree
-    step = canvas.tree_step.get(session.tree, lambda: Step.whole(session.tree))
+    step = session.step or canvas.tree_step.get(session.tree, lambda tree=session.tree: whole(tree))
 
     def make() -> list[Mark]:
-        return [*_signs(plan, style), *plan_pages(plan, of_kinds([step], kinds), style)[0]]
+        return [*_signs(plan, style), *plan_pages(plan, [of_kinds(step, kinds)], style)[0]]
 
     return canvas.tree_marks.get((plan, step, selected, style.theme.name), make)
 

@@ -51,7 +51,8 @@ class App:
             busy = self._is_busy()
             since = time.perf_counter() - drawn
             rest = self._rest(busy, frames_left > 0, took)
-            self.surface.wait(max(0.0, rest - since) if frames_left > 0 or busy else IDLE)
+            pause = max(0.0, rest - since) if frames_left > 0 or busy else IDLE
+            self.surface.wait(min(pause, self.session.reveal.wait(time.monotonic())))  # the next step of an animation
             news = self.session.update()
             if news or self._has_events():
                 frames_left = FRAMES_AFTER_EVENT

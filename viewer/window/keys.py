@@ -11,7 +11,18 @@ from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
 from viewer.panels import PANELS
-from viewer.session.actions import go, look_through_camera, nudge, step, toggle_model, toggle_refinement
+from viewer.session.actions import (
+    change_speed,
+    go,
+    look_through_camera,
+    nudge,
+    step,
+    toggle_granularity,
+    toggle_loop,
+    toggle_model,
+    toggle_order,
+    toggle_refinement,
+)
 from viewer.session.saving import copy_command, export_figure
 from viewer.session.session import Session
 from viewer.session.view_state import Request
@@ -21,7 +32,14 @@ K = imgui.Key
 CTRL = (K.left_ctrl, K.right_ctrl, K.left_super, K.right_super)
 SHIFT = (K.left_shift, K.right_shift)
 ALT = (K.left_alt, K.right_alt)
-LEAVING = (K.page_down, K.page_up, K.up_arrow, K.down_arrow, K.tab)  # keys that a field for numbers has no use for
+LEAVING = (
+    K.page_down,
+    K.page_up,
+    K.up_arrow,
+    K.down_arrow,
+    K.tab,
+    K.f5,
+)  # keys that a field for numbers has no use for
 EDITING = (K.a, K.c, K.v, K.x, K.z, K.y)  # with Ctrl, they edit the text in a field
 US_KEYS = {getattr(K, letter): letter for letter in "abcdefghijklmnopqrstuvwxyz"} | {
     **{getattr(K, f"_{digit}"): str(digit) for digit in range(10)},
@@ -68,14 +86,14 @@ def _copy(session: Session) -> None:
 
 
 def _escape(session: Session) -> None:
-    """Close what is open; if nothing is, unselect the ray."""
+    """Close what is open; if nothing is, show the whole tree; if it is on show, unselect the ray."""
     if session.shows_help:
         session.shows_help = False
     elif session.faults:
         session.show_faults([])
     elif session.notes:
         session.notes = []
-    else:
+    elif not session.reveal.leave():
         session.select(None)
 
 
@@ -96,6 +114,10 @@ def _scroll(by: int) -> Act:
         session.scroll += by
 
     return act
+
+
+def _speed(by: int) -> Act:
+    return lambda session: change_speed(session, by)
 
 
 def _help(session: Session) -> None:
@@ -119,8 +141,24 @@ BINDINGS = (
     Binding("+  -", "increase, decrease the depth by one", typed={"+": _deeper(1), "=": _deeper(1), "-": _deeper(-1)}),
     Binding("click", "on a ray, in 3D or in the tree: select it"),
     Binding(
-        "Page Down, Page Up", "select the next ray, the one before",
-        repeated={K.page_down: lambda session: step(session, 1), K.page_up: lambda session: step(session, -1)},
+        "Alt+Down, Alt+Up", "select the next ray, the one before",
+        alt={K.down_arrow: lambda session: step(session, 1), K.up_arrow: lambda session: step(session, -1)},
+    ),
+    Binding(
+        "Page Down, Page Up", "reveal the tree: next step, the one before",
+        pressed={K.page_down: lambda s: s.reveal.go(1), K.page_up: lambda s: s.reveal.go(-1)},
+    ),
+    Binding(
+        "Home, End", "first step, last step",
+        pressed={K.home: lambda s: s.reveal.first(), K.end: lambda s: s.reveal.last()},
+    ),
+    Binding(
+        "F5 or Space", "play the steps, pause", pressed=dict.fromkeys((K.f5, K.space), lambda s: s.reveal.toggle_play())
+    ),
+    Binding("<  >  E", "play slower, faster; endlessly", {"<": _speed(-1), ">": _speed(1), "e": toggle_loop}),
+    Binding(
+        "G  O", "steps by level or by ray; breadth-first as the kernel, or depth-first as the recursive procedure",
+        {"g": toggle_granularity, "o": toggle_order},
     ),
     Binding("J  K", "scroll the text or the numbers: down, up", {"j": _scroll(LINES), "k": _scroll(-LINES)}),
     Binding(
@@ -149,7 +187,7 @@ BINDINGS = (
     Binding("T", "light or dark theme", {"t": lambda s: s.appearance.toggle_theme()}),
     Binding("Tab", "lecture size: everything larger", pressed={K.tab: lambda s: s.appearance.toggle_lecture_size()}),
     Binding("B or .", "black screen; any key or click brings the window back", {"b": _blank, ".": _blank}),
-    Binding("Esc", "close a message or the help; unselect the ray", pressed={K.escape: _escape}),
+    Binding("Esc", "close a message or the help; leave the steps; unselect the ray", pressed={K.escape: _escape}),
     Binding(
         "Ctrl+S", "export a figure of the current view (the menu Figure selects it)", ctrl={K.s: export_figure}
     ),

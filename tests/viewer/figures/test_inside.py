@@ -20,7 +20,7 @@ from viewer.figures.figure.hit import BOTTOM, LARGEST, LEFT, RIGHT, TOP, WORDS
 from viewer.figures.layout.placing import EYES
 from viewer.figures.marks import HEIGHT, WIDTH, Box, Disc, Line, Mark, Rectangle, Shape, Text
 from viewer.figures.pages import pages
-from viewer.figures.steps import by_depth, by_ray, without_lights
+from viewer.figures.steps import by_depth, by_ray
 from viewer.figures.subject import FigureStyle, Subject
 from viewer.figures.writers.arrows import heads
 
@@ -131,7 +131,7 @@ def test_trees_lie_inside_their_panel(seed: int, lights: int, depth: int) -> Non
             for marks in tree.pages(one, style, both.tree_part(FigureStyle())):
                 check_inside(marks, both.tree_part(FigureStyle()))
                 check_texts(marks)
-    bare = Subject(without_lights(subject.steps))
+    bare = Subject(by_depth([step.tree for step in subject.steps], lights=False))
     for page in pages("tree", bare, FigureStyle()):
         check_inside(list(page.marks), PAGE)
 

@@ -12,7 +12,7 @@ def pages(subject: Subject, style: FigureStyle) -> Pages:
     """Both panels on each page."""
     width, height = style.page
     scenes = scene.pages(subject, style, (0.0, 0.0, DIVIDE * width - GAP, height))
-    trees = tree.pages(subject, style, tree_part(style))
+    trees = tree.pages(subject, style, tree_part(style), scenes)
     return [[*left, *right] for left, right in zip(scenes, trees, strict=True)]
 
 

@@ -85,8 +85,10 @@ class _Drawing:
             self._thing(part, 1.0)
         for part in view.seen.glass:
             self._thing(part, GLASS)
-        # Dashes to many lights would hide all other rays: the figure has only the one that the step adds.
-        left_out = many_lights(self.tree) - {step.current}
+        # Dashes to many lights would hide all other rays: the figure has only those that the step adds to a hit.
+        left_out = many_lights(self.tree)
+        if step.current <= left_out:
+            left_out = left_out - step.current
         self.has_many = bool(left_out)
         rows = sorted(step.rows & heaviest_rows(self.tree, MOST_IN_FIGURE, set(range(len(self.tree))) - left_out))
         self.lines = ray_lines(self.tree, rows, view.frame, frozenset(KINDS))
@@ -135,7 +137,7 @@ class _Drawing:
         name, title = f"ray-{line.row}", ray_title(self.tree, line.row)
         slim = SLIM if line.kind == "shadow" else 1.0
         halo = 2.0 * HALO if line.kind != "shadow" else 0.0
-        stroke = Stroke(color, (STRONG if line.row == self.step.current else 1.0) * slim * style.width, line.dash)
+        stroke = Stroke(color, (STRONG if line.row in self.step.current else 1.0) * slim * style.width, line.dash)
         faint = Stroke(faded(color, FAINT), style.width, line.dash)
         strong = self.share * STRONG * style.width
         arrow = self.view.arrow_at(line, 0.0 if style.arrow is Arrow.NONE else HEAD_ROOM * strong)

@@ -6,18 +6,18 @@ ones down.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
-from viewer.base.theme import DIMMED, STYLES, Arrow, Color, faded
+from viewer.base.theme import DIMMED, STYLES, Color, faded
 from viewer.figures import signs
 from viewer.figures.figure.tree_box import fold_box, hit_box
+from viewer.figures.figure.tree_outline import outline_edge, outline_ray
 from viewer.figures.font import text_width
 from viewer.figures.labels import ray_title
 from viewer.figures.layout.light_line import NO_LINE, SIGN, WORDS, LightLine
-from viewer.figures.layout.outline import GAP, HEAD, edge_of
 from viewer.figures.layout.sizes import MARGIN, NO_RAY, OUTLINE, PlannedRays, TreeStyle, edge_label, stub_label
+from viewer.figures.layout.sum_block import SumBlock, with_sum
 from viewer.figures.layout.tree_legend import tree_entries
 from viewer.figures.layout.tree_plan import TreePlan, plan_tree
 from viewer.figures.legend import legend
@@ -34,9 +34,9 @@ COMPACT_ARROW = 0.3  # of an edge's length, so that it is clear of the label
 OF_A_ROW = ("ray", "hit", "lights", "bar", "fold")  # in names of marks, before the number of a row
 
 
-def pages(subject: Subject, style: FigureStyle, where: Rectangle | None = None) -> Pages:
-    """The ray tree. No box moves from step to step."""
-    return plan_pages(plan_steps(subject.steps, style, where or style.canvas), subject.steps, style)
+def pages(subject: Subject, style: FigureStyle, where: Rectangle | None = None, beside: Pages | None = None) -> Pages:
+    """The ray tree. No box moves from step to step. `beside` are the marks of each page on the rest of the canvas."""
+    return plan_pages(plan_steps(subject.steps, style, where or style.canvas), subject.steps, style, beside)
 
 
 def plan_steps(steps: Sequence[Step], style: FigureStyle, where: Rectangle) -> TreePlan:
@@ -72,18 +72,17 @@ def _levels_wide(size: float) -> float:
     return text_width(LEVEL.format(0), size) + MARGIN * size
 
 
-def plan_pages(plan: TreePlan, steps: Sequence[Step], style: FigureStyle) -> Pages:
+def plan_pages(plan: TreePlan, steps: Sequence[Step], style: FigureStyle, beside: Pages | None = None) -> Pages:
     """One page for each step, with those rows of the plan that the step has. The legend stands where there are no
-    marks.
+    marks. `beside` are the marks of each page on the rest of the canvas.
     """
-    drawn = [_Drawing(plan, step, style).marks for step in steps]
-    if not style.legend:
-        return drawn
+    drawings = [_Drawing(plan, step, style) for step in steps]
+    drawn = [mark for drawing in drawings for mark in drawing.marks]
     left, top, right, bottom = plan.style.where
     margin = MARGIN * plan.size
     where: Rectangle = (left + margin, top + margin, right - margin, bottom - margin)
-    signs_meant = legend(tree_entries(plan), [mark for marks in drawn for mark in marks], where, plan.size, style.theme)
-    return [[*signs_meant, *marks] for marks in drawn]
+    signs_meant = legend(tree_entries(plan), drawn, where, plan.size, style.theme) if style.legend else []
+    return [drawing.page(signs_meant, where, beside[k] if beside else None) for k, drawing in enumerate(drawings)]
 
 
 class _Drawing:
@@ -92,25 +91,22 @@ class _Drawing:
         self.tree: RayTree = step.tree
         self.size = plan.size
         self.sideways = plan.style.eye == "left"
+        self.strong = {*step.current, style.selected}
         self.marks: list[Mark] = []
         rows = sorted(plan.rows & step.rows)
         hits = [i for i in rows if self.tree.nodes["kind"][i] != SHADOW]
         folds = [fold for row, fold in sorted(plan.folds.items()) if row in step.rows]
-        self.is_outline = plan.style.eye == OUTLINE
         if style.levels and plan.style.eye == "top":
             self._levels(hits)
         self.marks += signs.eye(plan.places.eye, self.size, self.theme)
         for i in rows:
             if self.tree.nodes["kind"][i] != SHADOW:
-                self._elbow(i) if self.is_outline else self._edge(i)
+                self._ray(i)
             elif not plan.style.compact:
                 self._stub(i)
         for fold in folds:
-            if fold.under is None and not self.is_outline:
+            if fold.under is None:
                 self._fold_edge(fold.row)
-            elif fold.under is None:
-                stroke = Stroke(self.theme.muted, 1.6, (2.0, 4.0))
-                self.marks += self._corners(f"fold-{fold.row}", fold.row, stroke, Arrow.NONE)
         for i in hits:
             self._bar(i)
             self._light_line(i)
@@ -119,6 +115,15 @@ class _Drawing:
             self.marks += fold_box(plan, step, fold, self.theme)
         if style.selected in step.rows:
             self._dim(rows)
+
+    def page(self, signs_meant: list[Mark], where: Rectangle, beside: Sequence[Mark] | None) -> list[Mark]:
+        """The marks with the legend, and with the sum of the hit that the step sums up."""
+        hit = self.step.sum
+        if hit is None or hit not in self.plan.rows:
+            return [*signs_meant, *self.marks]
+        (x, y), (w, h) = self.plan.at[hit], self.plan.box
+        box = (x - 0.5 * w, y - 0.5 * h, x + 0.5 * w, y + 0.5 * h)
+        return with_sum(SumBlock(self.tree, hit, box, self.size, self.theme), self.marks, signs_meant, where, beside)
 
     # --- rays ---------------------------------------------------------------------------------------------------------
 
@@ -138,18 +143,28 @@ class _Drawing:
         x, y = self.plan.at[i]
         return (x - 0.5 * self.plan.box[0], y) if self.sideways else (x, y - 0.5 * height)
 
-    def _edge(self, i: int) -> None:
+    def _ray(self, i: int) -> None:
+        if self.plan.style.eye == OUTLINE:
+            self.marks += outline_ray(self.plan, self.tree, i, self._stroke(i))
+        else:
+            self._edge(i)
+
+    def _stroke(self, i: int) -> Stroke:
+        """The line of ray i."""
         kind = self.tree.kind(i)
-        style, color = STYLES[kind], self.theme.ray(kind)
+        width = STYLES[kind].width * (STRONG if i in self.strong else 1.0)
+        return Stroke(self.theme.ray(kind), width, ray_dash(self.tree, i))
+
+    def _edge(self, i: int) -> None:
+        stroke, style = self._stroke(i), STYLES[self.tree.kind(i)]
         start, leaves = self._leave(i)
         end = self._reach(i, self.plan.box[1])
-        strong = STRONG if i in (self.step.current, self.style.selected) else 1.0
-        label = self._edge_label(i, start, end, color)
+        label = self._edge_label(i, start, end, stroke.color)
         line = Line(
             f"ray-{i}",
             start,
             end,
-            Stroke(color, strong * style.width, ray_dash(self.tree, i)),
+            stroke,
             style.arrow,
             COMPACT_ARROW if self.plan.style.compact else 0.5,
             leaves,
@@ -158,39 +173,6 @@ class _Drawing:
             title=ray_title(self.tree, i),
         )
         self.marks += [line, label]
-
-    def _elbow(self, i: int) -> None:
-        """In an outline: the edge to hit i, with its label before the box."""
-        name, kind = f"ray-{i}", self.tree.kind(i)
-        style, color = STYLES[kind], self.theme.ray(kind)
-        x, y = self.plan.at[i]
-        strong = STRONG if i in (self.step.current, self.style.selected) else 1.0
-        stroke = Stroke(color, strong * style.width, ray_dash(self.tree, i))
-        if i:
-            self.marks += self._corners(name, i, stroke, style.arrow)
-        else:
-            start = (self.plan.places.eye[0] + 1.1 * self.size, y)
-            end = (x - 0.5 * self.plan.box[0], y)
-            title = ray_title(self.tree, i)
-            self.marks.append(
-                Line(name, start, end, stroke, style.arrow, 0.3, leaves="eye", reaches="hit-0", title=title)
-            )
-        label, wide = edge_label(self.tree, i), 0.5 * self.plan.box[0] + GAP * self.size
-        at = (x - self.plan.before, y) if i else (x - wide - text_width(label, self.size), y - 0.72 * self.size)
-        self.marks.append(Text(name, at, label, self.size, color, "start"))
-
-    def _corners(self, name: str, i: int, stroke: Stroke, arrow: Arrow) -> list[Mark]:
-        """In an outline: the edge to the label before row i, down and then to the right."""
-        parent = int(self.tree.nodes["parent"][i])
-        side = 1 if self.tree.kind(i) == "refraction" else -1
-        eye = self.plan.places.eye if parent == 0 else None
-        a, b, c = edge_of(self.plan.at[parent], self.plan.at[i], self.size, self.plan.before, side, eye)
-        title = "" if name.startswith("fold") else ray_title(self.tree, i)
-        head = max(0.5, 1.0 - HEAD * self.size / (b[1] - a[1]))
-        return [
-            Line(name, a, b, stroke, arrow, head, title=title),
-            Line(name, b, c, replace(stroke, dash=(0.0, 0.0))),
-        ]
 
     def _edge_label(self, i: int, start: Point, end: Point, color: Color) -> Text:
         """The factor, above the box where it interrupts the edge. The first ray is straight, and has its label beside
@@ -218,7 +200,7 @@ class _Drawing:
         sign, text = self._side_by_side(at, label)
         start = (x + 0.6 * (sign[0] - x), y + 0.5 * self.plan.box[1])
         stop = (sign[0], at[1] - 0.5 * self.size)
-        strong = STRONG if i in (self.step.current, self.style.selected) else 1.0
+        strong = STRONG if i in self.strong else 1.0
         self.marks.append(
             Line(
                 name,
@@ -245,7 +227,7 @@ class _Drawing:
             return
         name, (x, y), size = f"lights-{i}", middle, self.size
         top = self.plan.at[i][1] + 0.5 * self.plan.box[1]
-        strong = STRONG if self.step.current in shadows else 1.0
+        strong = STRONG if self.step.current & set(shadows) else 1.0
         stroke = Stroke(self.theme.ray("shadow"), strong * STYLES["shadow"].width, STYLES["shadow"].dash)
         title = light_title(self.tree, shadows)
         self.marks.append(Line(name, (x, top), (x, y - 0.5 * size), stroke, leaves=f"hit-{i}", title=title))
@@ -274,9 +256,12 @@ class _Drawing:
         self.marks.append(Text(name, text, NO_RAY, self.size, color, "start"))
 
     def _fold_edge(self, row: int) -> None:
+        stroke = Stroke(self.theme.muted, 1.6, (2.0, 4.0))
+        if self.plan.style.eye == OUTLINE:
+            self.marks += outline_edge(self.plan, self.tree, row, f"fold-{row}", stroke)
+            return
         start, leaves = self._leave(row)
         reach = self._reach(row, self.plan.fold_height)
-        stroke = Stroke(self.theme.muted, 1.6, (2.0, 4.0))
         self.marks.append(Line(f"fold-{row}", start, reach, stroke, leaves=leaves, reaches=f"fold-{row}"))
 
     # --- all of it ----------------------------------------------------------------------------------------------------

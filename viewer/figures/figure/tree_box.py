@@ -51,7 +51,7 @@ def _outline(tree: RayTree, i: int, step: Step, style: FigureStyle) -> Stroke:
         return Stroke(theme.accent, 2.6)
     if tree.end(i) == "background":
         return Stroke(theme.muted, 1.4, (3.0, 3.0))
-    return Stroke(theme.text, 2.6 if i == step.current else 1.4)
+    return Stroke(theme.text, 2.6 if i in step.current else 1.4)
 
 
 def _is_leaf(tree: RayTree, i: int) -> bool:
@@ -78,7 +78,7 @@ def _signs(plan: TreePlan, step: Step, i: int, style: FigureStyle) -> list[Mark]
         name = f"lights-{i}" if row is None else f"ray-{row}"
         at = (left + part.left + 0.45 * size, y)
         marks += signs.light_end(part.sign, name, at, size, theme, "" if row is None else ray_title(tree, row))
-        if row is not None and row in (step.current, style.selected):
+        if row is not None and (row in step.current or row == style.selected):
             marks.append(Disc(name, at, 0.62 * size, None, Stroke(theme.accent, 1.8)))
         if part.text:
             place = (at[0] + (SIGN - 0.45) * size, y)

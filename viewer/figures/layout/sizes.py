@@ -15,6 +15,7 @@ from viewer.figures.lights import MOST_LIGHTS, shadow_rays
 from viewer.figures.marks import CANVAS, Rectangle
 
 # All in text sizes.
+SMALLEST = 8.0  # points: the smallest text size
 MARGIN = 0.6
 PADDING = 0.5  # on either side of a name in its box
 SWATCH = 1.5  # width of the radiance's colour in a box

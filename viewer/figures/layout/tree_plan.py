@@ -31,6 +31,7 @@ from viewer.figures.layout.sizes import (
     FOLD,
     OUTLINE,
     SHORT,
+    SMALLEST,
     STUB,
     HitSizes,
     PlannedRays,
@@ -41,10 +42,9 @@ from viewer.figures.layout.sizes import (
 from viewer.figures.lights import many_lights
 from viewer.figures.marks import Point
 
-SMALLEST = 8.0  # points: the smallest text size
 MORE = 40  # if the whole tree does not fit, this many of the other rays are tried one by one, the heaviest first,
-NARROW = 1.3  # width over height of a place in which the tree may be an outline
 VAIN = 8  # until so many in turn do not fit
+NARROW = 1.3  # width over height of a place in which the tree may be an outline
 
 
 @dataclass(frozen=True)
