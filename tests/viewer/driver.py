@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 from imgui_bundle import imgui
+from imgui_bundle.imgui import internal
 
 from viewer.base.orbit import project
+from viewer.figures.marks import Mark, Text
 from viewer.lessons import lesson
 from viewer.session.session import Session
 from viewer.window.app import App
@@ -132,8 +134,24 @@ class Driver:
                 return left + float(x), top + float(y)
         return None
 
+    def tree_marks(self) -> list[Mark]:
+        """The marks of the tree panel."""
+        return self.canvas.tree_marks.last
+
+    def tree_texts(self) -> list[Text]:
+        return [mark for mark in self.tree_marks() if isinstance(mark, Text)]
+
     def picture(self) -> np.ndarray:
         return self.app.surface.grab()
+
+
+def body_of(title: str) -> internal.Window:
+    """The imgui window with the text of a panel: it scrolls, below the titles."""
+    panel = internal.find_window_by_name(title)
+    assert panel and panel.active, f"{title} is not on show"
+    found = internal.find_window_by_name(f"{title}/body_{panel.get_id('body'):08X}")
+    assert found
+    return found
 
 
 @contextmanager

@@ -2,11 +2,14 @@
 zoom, double click to fit.
 """
 
+import math
 from dataclasses import replace
 
 from imgui_bundle import imgui
 
+from tracer.tree.text import cut_summary
 from viewer.base.theme import SMALL, TREE_TEXT
+from viewer.base.wording import format_number
 from viewer.explain.ray import headline
 from viewer.figures.figure.tree import plan_pages, plan_steps
 from viewer.figures.layout.sizes import OUTLINE
@@ -156,4 +159,18 @@ def _handle_mouse(session: Session, marks: list[Mark], origin: Point, scale: flo
         session.select(row)
 
 
-PANEL = Panel("Ray tree", draw, Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT, fills=True, shows_ray=True)
+def _head(session: Session, room: float) -> None:
+    """A note about the rays that were cut, as long as there is room for."""
+    tree = session.tree
+    if not tree or tree.residual <= 0.0:
+        return
+    weight, most = format_number(tree.residual, 3), tree.bound
+    bound = f"at most {format_number(most, 3)} missing" if most < math.inf else "no bound on the missing light"
+    for note in (cut_summary(tree), f"cut: {weight} of the weight, {bound}", f"cut: {weight} of the weight"):
+        if d.text_size(note, SMALL * imgui.get_font_size())[0] <= room:
+            d.small_text(note, session.appearance.theme.muted)
+            return
+    imgui.new_line()
+
+
+PANEL = Panel("Ray tree", draw, Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT, fills=True, head=_head, shows_ray=True)

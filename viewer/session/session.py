@@ -25,21 +25,21 @@ from viewer.session.figure_export import FigureExport
 from viewer.session.guard import Guard
 from viewer.session.history import History, Place
 from viewer.session.image_renderer import ImageRenderer
-from viewer.session.layout import Layout
 from viewer.session.refinement import Refinement
 from viewer.session.reveal import Reveal
 from viewer.session.scene_loader import Opening, SceneLoader
 from viewer.session.verification import Verification
-from viewer.session.view_state import Appearance, Notice, OpenDialog, PanZoom, Pointer, Request, Visibility
+from viewer.session.view_state import Looks, Request
 from viewer.session.warmup import Warmup
 
 LAYOUT_DEPTH = 3  # the tree is laid out for at least this depth, so that no node moves when the depth is stepped 0..3
 
 
-class Session:
+class Session(Looks):
     """One scene, one picked pixel, one selected ray."""
 
     def __init__(self) -> None:
+        super().__init__()
         self.guard = Guard(self.show_faults)
         self.calls = CallQueue(self.guard)
         self.requests: list[Request] = []  # to the window
@@ -50,17 +50,6 @@ class Session:
         self.export = FigureExport(self.calls.post)
         self.verification = Verification(self.calls.post)
         self.reveal = Reveal(lambda: self.tree, lambda: "shadow" in self.shown.kinds)
-        # How the scene is looked at.
-        self.shown = Visibility()
-        self.image_view = PanZoom()
-        self.tree_view = PanZoom(home=(0.0, 0.0))  # moved by logical pixels
-        self.appearance = Appearance()
-        self.layout = Layout()
-        self.notice = Notice()
-        self.dialog = OpenDialog()
-        self.pointer = Pointer.NONE
-        self.shows_help = self.is_blank = False  # is_blank: the window is black
-        self.scroll = 0  # lines by which the texts are to be scrolled
         # The scene on show.
         self.faults: list[str] = []  # of the last opened scene or the last action; the last good scene stays on show
         self.faults_in_files = False  # whether they are of the scene's files
@@ -76,7 +65,6 @@ class Session:
         self.full_tree: RayTree | None = None  # the same at least LAYOUT_DEPTH deep; `tree` is its first rows
         self.selection: str | None = None  # the path of the selected ray, if the tree has it
         self.history = History()
-        self.hovered: int | None = None  # the row of the tree under the mouse, in any view
         self._selected: Cached[int | None] = Cached()
         if NOTE:
             self.notice.say(NOTE)

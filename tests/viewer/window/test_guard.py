@@ -10,11 +10,11 @@ from imgui_bundle import imgui
 from tests.viewer.driver import Driver, viewer
 from tracer.kernel.world import World
 from viewer.gl import surfaces
-from viewer.panels import PANELS, bar, error, help, menu, messages
+from viewer.panels import PANELS, error
 from viewer.panels.panel import Panel
 from viewer.session import saving
 from viewer.session.session import Session
-from viewer.window import keys
+from viewer.window import bar, help, keys, menu, messages
 
 SCENE = """
 format = 1
