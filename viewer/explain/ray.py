@@ -22,6 +22,7 @@ from viewer.base.wording import (
     format_weight,
 )
 from viewer.explain.fate import ray_fate
+from viewer.explain.formulas import Lecture
 from viewer.explain.lighting import local_light, one_light
 from viewer.explain.scattering import (
     brought_error,
@@ -71,10 +72,10 @@ def ray_numbers(tree: RayTree, i: int) -> Section:
         section.add("estimated rounding error", f"{error:.1g}".replace("-", "−"))
     if not shadow:
         section.add("normal n", format_point(row["normal"], turn))
-        section.add("n₁ → n₂", format_pair(format_number(row["n1"]), format_number(row["n2"])))
-        section.add("θ₁ → θ₂", format_pair(format_angle(row["theta1"], turn), format_angle(row["theta2"], turn)))
+        section.add(Lecture.INDICES, format_pair(format_number(row["n1"]), format_number(row["n2"])))
+        section.add(Lecture.ANGLES, format_pair(format_angle(row["theta1"], turn), format_angle(row["theta2"], turn)))
         if not math.isnan(row["radicand"]):
-            section.add("1 − η²(1 − c₁²)", format_number(row["radicand"]))
+            section.add(Lecture.RADICAND, format_number(row["radicand"]))
     section.add("closest decision", margin_text(tree, i))
     section.add("factor", format_weight(row["factor"], row["factor_error"]))
     section.add("weight", format_weight(row["weight"], row["weight_error"]))
@@ -120,7 +121,7 @@ def explain_ray(tree: RayTree, world: World, i: int) -> list[Part]:
 def _sum(tree: RayTree, i: int) -> Section:
     """The ray's radiance, written as a sum."""
     row = tree.nodes[i]
-    section = Section("Radiance", "I = local + Σ factor × child")
+    section = Section("Radiance", Lecture.RADIANCE)
     if tree.end(i) == "background":
         section.add("background", format_rgb(row["radiance"], 4))
         return section

@@ -1,0 +1,1 @@
+"""Formulas, typeset: their outlines, from `viewer.explain.formulas` or any other source."""
