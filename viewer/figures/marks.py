@@ -51,6 +51,10 @@ def inside(point: Point, box: Rectangle) -> bool:
     return box[0] < point[0] < box[2] and box[1] < point[1] < box[3]
 
 
+def within(box: Rectangle, outer: Rectangle) -> bool:
+    return box[0] >= outer[0] and box[1] >= outer[1] and box[2] <= outer[2] and box[3] <= outer[3]
+
+
 def widened(box: Rectangle, by: float) -> Rectangle:
     """The rectangle, wider by this length on each side."""
     return (box[0] - by, box[1] - by, box[2] + by, box[3] + by)
