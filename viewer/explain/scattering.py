@@ -147,11 +147,13 @@ def _fresnel(tree: RayTree, i: int) -> Section:
     section = Section("Fresnel", Lecture.FRESNEL)
     section.add(Lecture.AMPLITUDE_S, format_number(_amplitude(n1 * c1, n2 * c2)))
     section.add(Lecture.AMPLITUDE_P, format_number(_amplitude(n2 * c1, n1 * c2)))
-    section.add(Lecture.REFLECTANCE, format_number(r))
-    section.add(Lecture.TRANSMITTED, format_number(t))
     share = material.reflect + material.transmit
-    section.add(Lecture.SHARE_R, format_number(share * r), _child(tree, i, "reflection"))
-    section.add(Lecture.SHARE_T, format_number(share * t), _child(tree, i, "refraction"))
+    rays = (_child(tree, i, "reflection"), _child(tree, i, "refraction"))
+    section.add(Lecture.REFLECTANCE, format_number(r), rays[0] if share == 1.0 else "")
+    section.add(Lecture.TRANSMITTED, format_number(t), rays[1] if share == 1.0 else "")
+    if share != 1.0:
+        section.add(Lecture.SHARE_R, format_number(share * r), rays[0])
+        section.add(Lecture.SHARE_T, format_number(share * t), rays[1])
     return section
 
 

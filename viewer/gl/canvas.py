@@ -55,6 +55,7 @@ class Canvas:
         self.ray_changed = Changed()  # the ray whose numbers are shown
         self.interfaces: Cached[list[Interface]] = Cached()  # at both ends of that ray
         self.explanation: Cached[list[Part]] = Cached()  # of that ray
+        self.hit: Cached[list[Mark]] = Cached()  # the marks of the hit on show
         self._map: Cached[moderngl.Texture | None] = Cached(_release)
         self._near: Cached[Seen | None] = Cached(lambda seen: _release(seen and seen.texture))
         self._view_changed = Changed()

@@ -7,6 +7,7 @@ lies in this plane: it is drawn at its true angle from the normal, rotated into 
 
 import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 from tracer.kernel.nodes import SHADOW
@@ -22,7 +23,7 @@ from viewer.figures.figure.hit_lights import HitLights
 from viewer.figures.font import fitted, text_width
 from viewer.figures.labels import end_label, factor_label, hit_label, ray_label, ray_title
 from viewer.figures.layout.formula_column import LINE, formula_columns
-from viewer.figures.layout.hit_frame import hit_frame, is_free
+from viewer.figures.layout.hit_frame import BESIDE, arc_radius, has_room, hit_frame, is_free
 from viewer.figures.layout.sizes import NO_RAY
 from viewer.figures.lights import MOST_LIGHTS, ray_dash
 from viewer.figures.marks import (
@@ -45,12 +46,11 @@ from viewer.figures.subject import FigureStyle, Pages, Subject
 
 LARGEST = 20.0  # points, of an exported figure
 TINTS = (0.06, 0.16)  # of the medium with the lower and with the higher index
-ARCS = (0.3, 0.42)  # radius of the angles' arcs, in lengths of rays: the first with room for all symbols
+FULL, THINNEST = 150.0, 0.6  # length of rays with full line width, in points; least share of it, for shorter ones
+LOW = 17.0  # height of a picture, in text sizes, below which lines are saved
 ARROW = 0.66  # distance of an arrow from the hit, the same
 NORMAL = 1.08  # length of the normal, the same
 SYMBOL = 1.15  # size of a symbol in the picture, in text sizes
-BESIDE = 0.75  # from a ray to its symbol, and from an arc to its symbol, the same
-STEEP = 0.55  # least distance of an angle's symbol from the lines at its sides, the same
 
 
 def pages(subject: Subject, style: FigureStyle) -> Pages:
@@ -77,28 +77,6 @@ def hit_marks(
     return _Drawing(step, node, size, theme, world, where).marks
 
 
-def hit_rows(tree: RayTree) -> list[int]:
-    """The rays that meet a surface."""
-    return [i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW and tree.object_name(i)]
-
-
-def hit_row(tree: RayTree, asked: str | None) -> int:
-    """The row of a hit that was asked for by its ray's path (TR) or label (R3); without a request, the first.
-    ValueError with a message for the user.
-    """
-    hits = hit_rows(tree)
-    if not hits:
-        raise ValueError("--figure hit: the ray meets no surface")
-    if asked is None:
-        return 0
-    for i in hits:
-        if asked.upper() in (tree.path(i), tree.label(i)):
-            return i
-    known = ", ".join(f"{tree.path(i)} ({tree.label(i)})" if i else tree.path(i) for i in hits[:12])
-    more = " ..." if len(hits) > 12 else ""
-    raise ValueError(f"--node {asked} must be the path or the label of a ray that meets a surface: {known}{more}")
-
-
 class _Drawing:
     def __init__(self, step: Step, node: int, size: float, theme: Theme, world: World | None, where: Rectangle) -> None:
         self.tree: RayTree = step.tree
@@ -107,23 +85,25 @@ class _Drawing:
         self.below = [child for child in self.tree.children[node] if child in step.rows]
         self.going_on = [child for child in self.below if self.tree.nodes["kind"][child] != SHADOW]
         self.theta1, self.theta2 = float(self.row["theta1"]), float(self.row["theta2"])
+        self.least = min(self.theta1, math.inf if math.isnan(self.theta2) else self.theta2)  # of the two angles
         self.frame = hit_frame(where, size)
         left, top, right, bottom = self.frame.picture
         self.left, self.right = left + 0.5 * size, right - 0.5 * size  # of texts
         self.first, self.low = top + 0.9 * size, bottom - 0.9 * size  # the first and the last line of text
-        self.symbols: list[Formula] = []
         self.marks: list[Mark] = []
-        self._media()
         self._corners()
-        self.texts = [mark.box() for mark in self.marks if isinstance(mark, Text)]
+        self._media()
+        self.taken = [mark.box() for mark in self.marks if isinstance(mark, Text)]
         turns = [0.0, math.pi, -self.theta1, *map(self._turn, self.going_on)]
-        self.reach = self.frame.reach(turns, self.texts, size)
+        self.reach = self.frame.reach(turns, self.taken, size)
+        self.share = min(1.0, max(THINNEST, self.reach / FULL))  # of line widths
         self._normal()
         self._rays()
         self.lights = HitLights(self.step, node, self.below, self.frame, self.reach, size, theme)
         self._no_ray()
         self._name()
-        self.marks += self.lights.draw(self.marks)
+        lights = self.lights.draw(self.marks)
+        self.marks = [*self._uncrossed(lights), *lights]
         self._formulas()
 
     def _turn(self, child: int) -> float:
@@ -138,50 +118,67 @@ class _Drawing:
         above = TINTS[n1 > n2] if clear else TINTS[0]
         under = f"n₂ = {format_number(n2)}" if clear else "opaque"
         behind = f"the medium behind the surface, index {format_number(n2)}" if clear else "behind the opaque surface"
+        grounds = []
         for name, first, last, tint, title in (
             ("medium-1", top, y, above, f"the medium the ray comes from, index {format_number(n1)}"),
             ("medium-2", y, bottom, below, behind),
         ):
             corners = ((x0, first), (x1, first), (x1, last), (x0, last))
-            self.marks.append(Shape(name, corners, faded(self.theme.text, tint), None, title=title))
-        text, size = self.theme.text, self.size
-        third = self.first + 2 * LINE * size
-        self.marks.append(Text("medium-1", (self.left, third), f"n₁ = {format_number(n1)}", size, text, "start"))
-        self.marks.append(Text("medium-2", (self.left, self.low), under, size, text, "start"))
+            grounds.append(Shape(name, corners, faded(self.theme.text, tint), None, title=title))
+        self.marks[:0] = grounds
+        for name, y, words in (("medium-1", self.third, f"n₁ = {format_number(n1)}"), ("medium-2", self.low, under)):
+            self.marks.append(Text(name, (self.left, y), words, self.size, self.theme.text, "start"))
 
     def _corners(self) -> None:
         """The names of the rays with their angles, in the corners that they come from and go to."""
-        tree, node, line = self.tree, self.node, LINE * self.size
+        tree, node = self.tree, self.node
         turn = direction_error(tree, node)
         theta1, theta2 = format_angle(self.theta1, turn), format_angle(self.theta2, turn)
-        self._words(node, (self.left, self.first), f"v: {ray_label(tree, node)}", "start")
-        self._words(node, (self.left, self.first + line), f"θ₁ = {theta1}", "start")
+        words = self._words(f"v: {ray_label(tree, node)}", f"θ₁ = {theta1}")
+        self.third = self._write(node, words, (self.left, self.first), "start")
         end = end_label(tree, node)
         if end and not self.going_on:
             at = (self.right, self.first)
             self.marks.append(Text(f"ray-{node}", at, end, self.size, self.theme.muted, "end"))
         for child in self.going_on:
             refracted = tree.kind(child) == "refraction"
-            y = self.low - line if refracted else self.first
-            self._words(child, (self.right, y), self._corner_label(child, "t" if refracted else "r"), "end")
-            self._words(child, (self.right, y + line), f"θ₂ = {theta2}" if refracted else f"θ₁ = {theta1}", "end")
+            label = self._corner_label(child, "t" if refracted else "r")
+            words = self._words(label, f"θ₂ = {theta2}" if refracted else f"θ₁ = {theta1}")
+            y = self.low - (len(words) - 1) * LINE * self.size if refracted else self.first
+            self._write(child, words, (self.right, y), "end")
 
     def _corner_label(self, child: int, letter: str) -> str:
         """The label of a ray, with its factor if there is room on its side of the normal."""
         label = f"{letter}: {ray_label(self.tree, child)}"
         full = f"{label} {factor_label(self.tree, child)}"
-        room = self.right - self.frame.center[0] - self.size
-        return full if text_width(full, self.size) <= room else label
+        return full if self._fits_aside(full) else label
 
-    def _words(self, row: int, at: Point, content: str, anchor: str) -> None:
-        color = self.theme.ray(self.tree.kind(row))
-        self.marks.append(Text(f"ray-{row}", at, content, self.size, color, anchor))
+    def _fits_aside(self, content: str) -> bool:
+        return text_width(content, self.size) <= self.right - self.frame.center[0] - self.size
+
+    def _words(self, label: str, angle: str) -> list[str]:
+        """The lines of a corner: in a low picture one, if there is room on this side of the normal."""
+        _, top, _, bottom = self.frame.picture
+        one = f"{label}   {angle}"
+        if not self._fits_aside(angle):
+            return [label]
+        return [one] if bottom - top < LOW * self.size and self._fits_aside(one) else [label, angle]
+
+    def _write(self, row: int, lines: Sequence[str], at: Point, anchor: str) -> float:
+        """Write lines in the colour of a ray. Returns the place of the next line."""
+        (x, y), color = at, self.theme.ray(self.tree.kind(row))
+        for words in lines:
+            self.marks.append(Text(f"ray-{row}", (x, y), words, self.size, color, anchor))
+            y += LINE * self.size
+        return y
 
     def _normal(self) -> None:
         (x, y), color, size = self.frame.center, self.theme.normal, SYMBOL * self.size
         room = y - self.frame.picture[1] - 1.3 * self.size
         top, bottom = self.frame.at(0.0, min(NORMAL * self.reach, room)), self.frame.at(math.pi, 0.9 * self.reach)
-        self.marks.append(Line("normal", (x, y), top, Stroke(color, 2.0), STYLES["refraction"].arrow, 0.97))
+        self.marks.append(
+            Line("normal", (x, y), top, Stroke(color, 2.0 * self.share), STYLES["refraction"].arrow, 0.97)
+        )
         self.marks.append(Line("normal", (x, y), bottom, Stroke(color, 1.4, (5.0, 5.0))))
         self._symbol(Formula("normal", Lecture.NORMAL, (x, top[1] - 0.35 * self.size), size, color))
 
@@ -204,26 +201,18 @@ class _Drawing:
     def _ray(self, i: int, start: Point, end: Point, arrow_at: float) -> None:
         kind = self.tree.kind(i)
         style = STYLES[kind]
-        stroke = Stroke(self.theme.ray(kind), 1.3 * style.width, ray_dash(self.tree, i))
+        stroke = Stroke(self.theme.ray(kind), 1.3 * style.width, ray_dash(self.tree, i)).times(self.share)
         self.marks.append(Line(f"ray-{i}", start, end, stroke, style.arrow, arrow_at, title=ray_title(self.tree, i)))
 
     def _angle(self, name: str, begin: float, end: float, kind: str, symbol: str) -> None:
         """An arc, with its symbol outside it if there is room between the lines at its sides."""
-        radius, color = self._arc_radius(), self.theme.ray(kind)
+        color = self.theme.ray(kind)
+        radius = arc_radius(self.least, self.reach, self.size)
         corners = signs.arc(self.frame.center, radius, begin, end)
-        self.marks.append(Shape(f"angle-{name}", corners, None, Stroke(color, 1.8), closed=False))
+        self.marks.append(Shape(f"angle-{name}", corners, None, Stroke(color, 1.8 * self.share), closed=False))
         away = radius + BESIDE * self.size
-        if self._is_wide(end - begin, radius):
+        if has_room(end - begin, radius, self.size):
             self._symbol(self._centered(f"angle-{name}", symbol, self.frame.at(0.5 * (begin + end), away), color))
-
-    def _is_wide(self, angle: float, radius: float) -> bool:
-        """Whether the symbol outside an arc has room between the lines at its sides."""
-        return (radius + BESIDE * self.size) * math.sin(0.5 * angle) >= STEEP * self.size
-
-    def _arc_radius(self) -> float:
-        least = min(self.theta1, math.inf if math.isnan(self.theta2) else self.theta2)
-        radii = [share * self.reach for share in ARCS]
-        return next((radius for radius in radii if self._is_wide(least, radius)), radii[0])
 
     def _vector(self, row: int, turn: float, side: int, symbol: str) -> None:
         """The letter of a vector beside its ray, near its outer end: on this side of it (1: clockwise), or on the
@@ -247,13 +236,17 @@ class _Drawing:
         """Add a symbol, if it is in the picture and free of texts, lines and other symbols."""
         box, picture = mark.box(), self.frame.picture
         lines = [(other.start, other.end) for other in self.marks if isinstance(other, Line)]
-        taken = [*self.texts, *(other.box() for other in self.symbols)]
         surface = ((picture[0], self.frame.center[1]), (picture[2], self.frame.center[1]))
-        if not within(box, picture) or not is_free(widened(box, 0.08 * self.size), taken, [*lines, surface]):
+        if not within(box, picture) or not is_free(widened(box, 0.08 * self.size), self.taken, [*lines, surface]):
             return False
-        self.symbols.append(mark)
+        self.taken.append(box)
         self.marks.append(mark)
         return True
+
+    def _uncrossed(self, lights: Sequence[Mark]) -> list[Mark]:
+        """The marks without symbols that rays to lights cross because there was no other way for them."""
+        lines = [(light.start, light.end) for light in lights if isinstance(light, Line)]
+        return [mark for mark in self.marks if not isinstance(mark, Formula) or is_free(mark.box(), (), lines)]
 
     def _no_ray(self) -> None:
         """Total internal reflection: a cross below the surface, or in the corner if rays to lights run there."""
@@ -278,14 +271,13 @@ class _Drawing:
         if sheet:
             places = [(left, y)]
         elif self.tree.from_inside(self.node) and not math.isnan(self.row["n2"]):
-            places = [(left, y - 0.8 * size), (left, self.first + 3 * LINE * size)]
+            places = [(left, y - 0.8 * size), (left, self.third + LINE * size)]
         lines = [(mark.start, mark.end) for mark in self.marks if isinstance(mark, Line)]
-        taken = [*self.texts, *(symbol.box() for symbol in self.symbols)]
         text = Text("surface", places[0], "", size, self.theme.text, "start", on_line=sheet)
         for share, at in itertools.product((1.0, 0.8, 0.6, 0.4), places):
             name = fitted(hit_label(self.tree, self.node), share * (x - left - 2.0 * size), size)
             text = replace(text, at=at, content=name)
-            if is_free(text.box(), taken, lines) and self.lights.keeps_clear(text.box()):
+            if is_free(text.box(), self.taken, lines) and self.lights.keeps_clear(text.box()):
                 break
         hole = text.box() if sheet else None
         x0, _, x1, _ = self.frame.picture

@@ -11,7 +11,7 @@ from viewer.base.wording import format_angle
 from viewer.figures import signs
 from viewer.figures.labels import ray_label, ray_title
 from viewer.figures.layout.formula_column import LINE
-from viewer.figures.layout.hit_frame import HitFrame
+from viewer.figures.layout.hit_frame import HitFrame, is_free
 from viewer.figures.layout.label_placement import LabelPlacer, Spot
 from viewer.figures.lights import (
     MOST_LIGHTS,
@@ -92,7 +92,11 @@ class HitLights:
             stop = point_along((center, end), 1.0 - 0.5 * self.size / math.dist(center, end))  # up to the sign
             found.append(Line(name, center, stop, stroke, title=title))
             found += signs.light_end(fate.name, name, end, self.size, self.theme)
-            found += names.label(name, ray_label(self.tree, child), [Spot(end)], color, most=0)
+            taken = list(names.taken)
+            label = names.label(name, ray_label(self.tree, child), [Spot(end)], color, most=0)
+            leaders = [(mark.start, mark.end) for mark in label if isinstance(mark, Line)]
+            if all(is_free(box, (), leaders) for box in taken):
+                found += label
         return found
 
     def _end(self, turn: float, names: LabelPlacer, words: Sequence[Rectangle], rays: Sequence[Line]) -> Point:

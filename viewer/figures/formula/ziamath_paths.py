@@ -17,20 +17,20 @@ _LOCK = threading.Lock()  # ziafont's setting is that of all threads
 
 def paths(source: str) -> tuple[float, list[str]]:
     """(width, SVG paths with the commands M, L, Q, Z) of a formula, in units, from the left end of its baseline."""
-    import ziafont
-    import ziamath
+    from ziafont.config import config
+    from ziamath.zmath import Latex
 
     size: Any = UNITS
     with _LOCK:
-        before, ziafont.config.svg2 = ziafont.config.svg2, False  # paths in the place of references to glyphs
+        before, config.svg2 = config.svg2, False  # paths in the place of references to glyphs
         try:
-            made = ziamath.Latex(_spaced(source), size=size, margin=0.0)
+            made = Latex(_spaced(source), size=size, margin=0.0)
             drawn = made.svgxml()
             width = float(made.node.bbox.xmax)
         except Exception as error:  # of no type of its own
             raise FormulaError(f"formula {source!r} cannot be typeset: {error}") from None
         finally:
-            ziafont.config.svg2 = before
+            config.svg2 = before
     found = [path for element in drawn.iter() if (path := _path(element))]
     if not found:
         raise FormulaError(f"formula {source!r} is empty")

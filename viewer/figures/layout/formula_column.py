@@ -83,11 +83,16 @@ class _Columns:
         return [*heading, *(row for line in lines for row in self._lines(line, style))] if style.numbers else heading
 
     def _heading(self, source: str) -> Iterator[Formula]:
+        """The formula, in two lines or smaller where it is wider than the column."""
         large, accent = LARGE * self.size, self.theme.accent
         whole = Formula("formulas", joined(source), (0.0, 0.0), large, accent, "start")
-        parts = [whole.source] if self._width(whole) <= self.wide else broken(source)
-        for k, part in enumerate(parts):
-            yield replace(whole, source=part, at=(INDENT * self.size if k else 0.0, 0.0))
+        if self._width(whole) <= self.wide:
+            yield whole
+            return
+        for k, part in enumerate(broken(source)):
+            indent = INDENT * self.size if k else 0.0
+            mark = replace(whole, source=part, at=(indent, 0.0))
+            yield replace(mark, size=large * min(1.0, (self.wide - indent) / self._width(mark)))
 
     @property
     def values_at(self) -> float:
@@ -106,9 +111,14 @@ class _Columns:
             yield self._row(beside[0], value)
         elif self._width(name) + text_width(line.value, self.size) + GAP * self.size <= self.wide:
             yield self._row(name, replace(value, at=(self.wide, value.at[1]), anchor="end"))
-        elif INDENT * self.size + text_width(line.value, self.size) <= self.wide:
+        else:
             yield self._row(name)
-            yield self._row(replace(value, at=(INDENT * self.size, value.at[1]), anchor="start"))
+            parts = [line.value] if self._fits_below(line.value) else line.value.split(": ")
+            for part in filter(self._fits_below, parts):
+                yield self._row(replace(value, content=part, at=(INDENT * self.size, value.at[1]), anchor="start"))
+
+    def _fits_below(self, value: str) -> bool:
+        return INDENT * self.size + text_width(value, self.size) <= self.wide
 
     def _name(self, line: Line, brief: bool) -> Text | Formula:
         """The name of a value; if it is brief, without the definition of a symbol."""

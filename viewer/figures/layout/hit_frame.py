@@ -15,9 +15,13 @@ MARGIN = 2.0 / 3.0  # around the picture and the formulas
 COLUMN = 17.0  # width of a column of formulas
 GAP = 4.0 / 3.0  # between the picture and the formulas
 LEAST = (17.0, 12.5)  # width and height of a picture beside or above formulas
-FIRST = 3.0  # least height of formulas below the picture
+FIRST = 5.0  # least height of formulas below the picture
 APART = 0.3  # least distance between a ray and a text
 
+BESIDE = 0.75  # from a ray or an arc to its symbol
+STEEP = 0.75  # least distance of an angle's symbol from the lines at its sides
+
+ARCS = (0.3, 0.42)  # radius of the angles' arcs, in lengths of rays
 WIDE = 1.25  # the least ratio of width to height with formulas on the right
 PICTURE = (0.53, 0.56)  # the picture's share of the width and of the height
 BELOW = 0.04  # the hit is lower than the middle of the picture, by this share of its height: the normal's name is above
@@ -70,6 +74,17 @@ def _frame(picture: Rectangle, formulas: tuple[Rectangle, ...]) -> HitFrame:
     left, top, right, bottom = picture
     center = (0.5 * (left + right), 0.5 * (top + bottom) + BELOW * (bottom - top))
     return HitFrame(picture, center, formulas)
+
+
+def has_room(angle: float, radius: float, size: float) -> bool:
+    """Whether the symbol of an angle, outside its arc, has room between the lines at its sides."""
+    return (radius + BESIDE * size) * math.sin(0.5 * angle) >= STEEP * size
+
+
+def arc_radius(angle: float, reach: float, size: float) -> float:
+    """The radius of the arcs at the hit: the first with room for the symbol of the smallest angle."""
+    radii = [share * reach for share in ARCS]
+    return next((radius for radius in radii if has_room(angle, radius, size)), radii[0])
 
 
 def is_free(box: Rectangle, taken: Sequence[Rectangle], lines: Sequence[tuple[Point, Point]]) -> bool:
