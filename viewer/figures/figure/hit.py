@@ -48,7 +48,7 @@ LARGEST = 20.0  # points, of an exported figure
 TINTS = (0.06, 0.16)  # of the medium with the lower and with the higher index
 FULL, THINNEST = 150.0, 0.6  # length of rays with full line width, in points; least share of it, for shorter ones
 LOW = 17.0  # height of a picture, in text sizes, below which lines are saved
-ARROW = 0.66  # distance of an arrow from the hit, the same
+ARROW = 0.66  # distance of an arrow from the hit, in lengths of rays
 NORMAL = 1.08  # length of the normal, the same
 SYMBOL = 1.15  # size of a symbol in the picture, in text sizes
 

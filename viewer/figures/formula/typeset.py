@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from viewer.explain.plain_formula import joined, plain
+from viewer.figures.formula import UNITS
 
 SHIPPED = Path(__file__).parent / "outlines.json"
-UNITS = 1000  # of paths, in an em
 
 Segment = tuple[float, ...]  # the end of a line (x, y), or control point and end of a parabola (x, y, x, y)
 Contour = tuple[Segment, ...]  # closed; the first segment is its start

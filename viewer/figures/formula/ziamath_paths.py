@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ElementTree
 from typing import Any
 
 from viewer.explain.plain_formula import FUNCTIONS, FormulaError
-from viewer.figures.formula.typeset import UNITS
+from viewer.figures.formula import UNITS
 
 _LOCK = threading.Lock()  # ziafont's setting is that of all threads
 
