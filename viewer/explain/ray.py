@@ -11,7 +11,7 @@ import numpy as np
 from tracer.kernel.nodes import SHADOW
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
-from tracer.tree.text import END_REASONS
+from tracer.tree.text import END_REASONS, cut_summary
 from viewer.base.wording import (
     format_angle,
     format_color,
@@ -54,6 +54,28 @@ def headline(tree: RayTree, i: int) -> tuple[str, str]:
         fate = f"{fate}, but rounding has left no correct digit of the point"
     why = END_REASONS[tree.end(i)]
     return name, f"{fate}; {why}" if why else fate
+
+
+def ray_facts(tree: RayTree, i: int) -> str:
+    """The kind of a ray, its weight and the medium that it runs in, in a line beside its label."""
+    row = tree.nodes[i]
+    if row["kind"] == SHADOW:
+        return f"shadow ray from {tree.object_name(int(row['parent']))} to {tree.light_name(i)}"
+    facts = [KIND_NAMES[tree.kind(i)].lower(), f"weight {format_number(float(row['weight'].max()), 3)}"]
+    if tree.object_name(i) and tree.from_inside(i):
+        facts.append(f"inside {tree.object_name(i)}")
+    return ", ".join(facts)
+
+
+def certainty(tree: RayTree, i: int) -> list[str]:
+    """Paragraphs on what becomes of ray i, on what is missing, and on how certain its numbers are."""
+    fate, missing = headline(tree, i)[1], cut_summary(tree)
+    found = " ".join(f"{words[0].upper()}{words[1:]}." for words in (fate, missing))
+    certain = ""
+    if tree.object_name(i) and tree.nodes["kind"][i] != SHADOW:
+        digits = tree.digits(i)
+        certain = "1 digit of its point is certain. " if digits == 1 else f"{digits} digits of its point are certain. "
+    return [found, f"{certain}Closest decision: {margin_text(tree, i)}."]
 
 
 def ray_numbers(tree: RayTree, i: int) -> Section:
