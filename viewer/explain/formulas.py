@@ -18,10 +18,10 @@ class Lecture(StrEnum):
     FRESNEL = r"R = \frac{r_s^2 + r_p^2}{2}"
     LOCAL = (
         r"I = A k_a C + \sum S L \\ "
-        r"\left(k_d C (\mathbf{N}\cdot\mathbf{L}) + k_s (\mathbf{R}\cdot\mathbf{V})^p\right)"
+        r"\left[k_d C (\mathbf{N}\cdot\mathbf{L}) + k_s (\mathbf{R}\cdot\mathbf{V})^p\right]"
     )
-    ONE_LIGHT = r"S L \left(k_d C (\mathbf{N}\cdot\mathbf{L}) + k_s (\mathbf{R}\cdot\mathbf{V})^p\right)"
-    RADIANCE = r"I = \mathrm{local} + \sum \mathrm{factor}\, \times \,\mathrm{child}"
+    ONE_LIGHT = r"S L \left[k_d C (\mathbf{N}\cdot\mathbf{L}) + k_s (\mathbf{R}\cdot\mathbf{V})^p\right]"
+    RADIANCE = r"I = \mathrm{local} + \sum \mathrm{factor}\,\times\,\mathrm{child}"
 
     ETA = r"\eta = n_1/n_2"
     COSINE_1 = r"c_1 = {-\mathbf{v}}\cdot\mathbf{n}"

@@ -15,7 +15,7 @@ STEP = 0.125  # pixels: the longest piece, which counts as inside the pixel of i
 
 def coverage(formula: Typeset, size: float, left: int, top: int, width: int, height: int) -> np.ndarray:
     """8-bit coverage (height, width) of a formula whose font is `size` pixels high. Its baseline starts at (left, top)
-    of the image.
+    of the image, which must hold all of it.
     """
     starts, ends = (points + np.array((left, top)) for points in _pieces(formula, size))
     x = 0.5 * (starts[:, 0] + ends[:, 0])

@@ -156,6 +156,7 @@ class _Slide:
             path.getparent().replace(path, parse_xml(_curves(outline, box)))
             _name(made, formula.name, "")
             _look(made, formula.color, None)
+        group._element.recalculate_extents()
 
     def _text(self, text: Text) -> None:
         """Draw a text in a frame a little wider than its width, since another font may be wider."""
