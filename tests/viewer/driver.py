@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from imgui_bundle import imgui
+from imgui_bundle.imgui import internal
 
 from viewer.base.orbit import project
 from viewer.lessons import lesson
@@ -134,6 +135,13 @@ class Driver:
 
     def picture(self) -> np.ndarray:
         return self.app.surface.grab()
+
+
+def body(title: str) -> internal.Window:
+    """The part of a panel below its titles, which scrolls."""
+    found = [window for window in imgui.get_current_context().windows if window.name.startswith(f"{title}/body")]
+    assert len(found) == 1, title
+    return found[0]
 
 
 @contextmanager

@@ -47,6 +47,11 @@ def broken(source: str) -> list[str]:
     return [part.strip() for part in source.split(r"\\")]
 
 
+def left_side(source: str) -> str:
+    """The symbol that a formula defines: what stands before the equals sign."""
+    return source.partition(" = ")[0]
+
+
 def joined(source: str) -> str:
     """The formula in one line."""
     return " ".join(broken(source))

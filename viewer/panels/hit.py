@@ -71,4 +71,4 @@ def _marks(session: Session, tree: RayTree, row: int, size: tuple[int, int]) -> 
     return hit_marks(step, row, EM * FONT_SIZE, session.appearance.theme, session.world, where)
 
 
-PANEL = Panel("Hit", draw, Corner.BOTTOM_RIGHT, fills=True)
+PANEL = Panel("Hit", draw, Corner.BOTTOM_RIGHT, fills=True, shows_ray=True)

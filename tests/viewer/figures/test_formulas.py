@@ -181,8 +181,8 @@ def test_shipped_outlines_are_up_to_date() -> None:
 def test_shipped_formulas_need_no_typesetter_others_do() -> None:
     program = (
         "import sys\nfrom viewer.explain.formulas import Lecture\nfrom viewer.figures.formula.typeset import typeset\n"
-        "from viewer.explain.plain_formula import broken\n"
-        "all(typeset(line) for source in Lecture for line in (source, *broken(source)))\n"
+        "from viewer.explain.plain_formula import broken, left_side\n"
+        "all(typeset(line) for source in Lecture for line in (source, left_side(source), *broken(source)))\n"
         "print('ziamath' in sys.modules)\ntypeset('a_2 + b')\nprint('ziamath' in sys.modules)"
     )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)

@@ -8,7 +8,7 @@ import re
 
 from viewer.base.files import write_atomically
 from viewer.explain.formulas import Lecture
-from viewer.explain.plain_formula import broken, joined
+from viewer.explain.plain_formula import broken, joined, left_side
 from viewer.figures.formula.typeset import SHIPPED
 from viewer.figures.formula.ziamath_paths import paths
 
@@ -19,7 +19,8 @@ def content() -> bytes:
     """The file's content."""
     glyphs: dict[str, int] = {}
     formulas: dict[str, list] = {}
-    for source in sorted({line for formula in Lecture for line in (joined(formula), *broken(formula))}):
+    sources = {line for formula in Lecture for line in (joined(formula), *broken(formula), left_side(formula))}
+    for source in sorted(sources):
         width, found = paths(source)
         placed = []
         for path in found:

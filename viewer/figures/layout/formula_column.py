@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from viewer.base.theme import Theme
 from viewer.explain.formulas import Lecture
-from viewer.explain.plain_formula import broken, joined
+from viewer.explain.plain_formula import broken, joined, left_side
 from viewer.explain.sections import Line, Section
 from viewer.figures.font import ASCENT, BASELINE, DESCENT, fitted, text_width
 from viewer.figures.marks import Formula, Mark, Rectangle, Text
@@ -125,7 +125,7 @@ class _Columns:
         muted = self.theme.muted
         if line.symbol:
             long = any(command in line.symbol for command in (r"\frac", r"\sqrt"))
-            source = line.symbol.partition(" = ")[0] if brief and long else line.symbol
+            source = left_side(line.symbol) if brief and long else line.symbol
             return Formula("formulas", source, (0.0, 0.0), SYMBOL * self.size, muted, "start")
         return self._text(fitted(line.name, self.wide, self.size), 0.0, muted=True)
 

@@ -54,7 +54,9 @@ def _element(mark: Mark) -> list[str]:
             return _line(mark)
         case Text():
             place = f'x="{_n(mark.at[0])}" y="{_n(mark.at[1] + BASELINE * mark.size)}" font-size="{_n(mark.size)}"'
-            return [f'<text {place} text-anchor="{mark.anchor}"{_fill(mark.color)}>{escape(mark.content)}</text>']
+            kept = ' xml:space="preserve"' if "  " in mark.content else ""
+            text = f'<text {place} text-anchor="{mark.anchor}"{_fill(mark.color)}{kept}>{escape(mark.content)}</text>'
+            return [text]
         case Formula():
             path = "".join(_contour(contour) for outline in mark.outlines() for contour in outline)
             said = f'role="img" aria-label={quoteattr(mark.plain)} data-tex={quoteattr(mark.source)}'

@@ -90,7 +90,8 @@ def _node(anchor: str, size: float, color: Color) -> str:
 
 
 def escaped(text: str) -> str:
-    return "".join(SIGNS.get(letter, letter) if has(letter) else BOX for letter in text)
+    found = "".join(SIGNS.get(letter, letter) if has(letter) else BOX for letter in text)
+    return found.replace("  ", r"\ \ ")  # TeX takes several spaces for one
 
 
 def has(letter: str) -> bool:
