@@ -49,7 +49,8 @@ def formula_columns(
     sections: Sequence[Section], last: int, columns: Sequence[Rectangle], size: float, theme: Theme
 ) -> list[Mark]:
     """The marks of these sections. If they do not all fit, vectors are left out, then the definitions of symbols, then
-    all of the last section but its `last` lines, then whole sections from the end; of the first, its numbers.
+    all of the last section but its `last` lines, then sections from the end, as far as need be; of the first, its
+    numbers.
     """
     if not columns or not sections:
         return []
@@ -65,8 +66,9 @@ def formula_columns(
             return marks
     for count in range(len(sections) - 1, 0, -1):
         for style in styles[1:3]:
-            if (marks := made.place([made.rows(s, style, False) for s in sections[:count]])) is not None:
-                return marks
+            blocks = [made.rows(s, style, False) for s in sections[:count]]
+            if (marks := made.place(blocks)) is not None:
+                return made.with_part(blocks, made.rows(sections[count], style, False)) or marks
     return made.place([made.rows(sections[0], _Style(numbers=False), False)]) or []
 
 
@@ -162,6 +164,14 @@ class _Columns:
                     y, first = end, False
                     rest.pop(0)
             if not rest:
+                return marks
+        return None
+
+    def with_part(self, blocks: Sequence[list[_Row]], more: list[_Row]) -> list[Mark] | None:
+        """The marks of these sections and as much of another as fits: at least its formula and one number."""
+        for count in range(len(more) - 1, 1, -1):
+            is_value = more[count].marks[0].at[0] > 0.0  # of the name in the row before
+            if not is_value and (marks := self.place([*blocks, more[:count]])) is not None:
                 return marks
         return None
 
