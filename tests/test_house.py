@@ -109,6 +109,7 @@ def test_one_place_knows_each_library() -> None:
         "distributed": {"tracer/image/cluster.py"},
         "fpdf": {"viewer/figures/writers/pdf.py"},
         "pypdfium2": {"viewer/figures/writers/png.py"},
+        "ziamath": {"viewer/figures/formula/ziamath_paths.py"},
         "pptx": {"viewer/figures/writers/pptx.py"},
         "contourpy": {"viewer/figures/visible/outlines.py"},
         "copykitten": {"viewer/base/clipboard.py"},

@@ -145,13 +145,11 @@ class Driver:
         return self.app.surface.grab()
 
 
-def body_of(title: str) -> internal.Window:
-    """The imgui window with the text of a panel: it scrolls, below the titles."""
-    panel = internal.find_window_by_name(title)
-    assert panel and panel.active, f"{title} is not on show"
-    found = internal.find_window_by_name(f"{title}/body_{panel.get_id('body'):08X}")
-    assert found
-    return found
+def body(title: str) -> internal.Window:
+    """The part of a panel below its titles, which scrolls."""
+    found = [window for window in imgui.get_current_context().windows if window.name.startswith(f"{title}/body")]
+    assert len(found) == 1, title
+    return found[0]
 
 
 @contextmanager

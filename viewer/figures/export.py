@@ -16,7 +16,7 @@ from viewer.base.theme import THEMES
 from viewer.figures.catalogue import BREADTH, FIGURES, FORMATS
 from viewer.figures.export_options import ExportOptions
 from viewer.figures.figure import both, tree
-from viewer.figures.figure.hit import hit_row
+from viewer.figures.labels import hit_row
 from viewer.figures.layout.tree_plan import fitting_size
 from viewer.figures.lights import many_lights
 from viewer.figures.marks import Figure, Text

@@ -23,6 +23,7 @@ from imgui_bundle.imgui import backends
 
 from viewer.base.files import Unusable, write_atomically
 from viewer.base.theme import FONT_SIZE
+from viewer.figures.writers.imgui_formula import forget_images
 
 GLSL = "#version 330"
 SMALLEST = (480, 320)  # of a window, in its own units
@@ -53,6 +54,11 @@ class Surface:
         io.config_windows_move_from_title_bar_only = True
         io.config_error_recovery_enable_assert = True
         _load_fonts()
+
+    def _end_imgui(self) -> None:
+        implot.destroy_context()
+        imgui.destroy_context()
+        forget_images()
 
     def keep_layout(self) -> None:
         """Store the places of the panels, if there is a file for them, and it can be written."""
@@ -178,8 +184,7 @@ class Window(Surface):
         self.keep_layout()
         backends.opengl3_shutdown()
         backends.glfw_shutdown()
-        implot.destroy_context()
-        imgui.destroy_context()
+        self._end_imgui()
         self.ctx.release()
         glfw.destroy_window(self.window)
         glfw.terminate()
@@ -232,8 +237,7 @@ class Offscreen(Surface):
 
     def close(self) -> None:
         backends.opengl3_shutdown()
-        implot.destroy_context()
-        imgui.destroy_context()
+        self._end_imgui()
         with self.ctx:  # unbinds the context from this thread, which may open a window next
             pass
         self.ctx.release()

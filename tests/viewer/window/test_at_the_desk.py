@@ -10,13 +10,12 @@ from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
 from tests.viewer.desk import LINUX_ONLY, Desk
-from tests.viewer.driver import Driver, body_of, viewer
+from tests.viewer.driver import Driver, body, viewer
 from tests.viewer.screen import hand
 from viewer.base.theme import FONT_SIZE, LECTURE_ZOOM
 from viewer.figures.catalogue import BREADTH, RECURSION
 from viewer.figures.steps import by_level
 from viewer.panels import ray, tree
-from viewer.session.layout import Corner
 from viewer.session.reveal import LEVELS, RAYS
 from viewer.window import bar
 from viewer.window.app import FASTEST
@@ -275,7 +274,7 @@ def test_back_to_the_lesson_before() -> None:
 
 
 def scroll_of_numbers() -> float:
-    return body_of(ray.PANEL.title).scroll.y
+    return body(ray.PANEL.title).scroll.y
 
 
 def test_the_numbers_stay_in_place_while_the_pixel_moves(desk: Desk) -> None:
@@ -302,21 +301,20 @@ def test_the_numbers_stay_in_place_while_the_pixel_moves(desk: Desk) -> None:
 
 @pytest.mark.parametrize("lecture", (False, True))
 def test_the_most_telling_numbers_are_seen_without_scrolling(lecture: bool) -> None:
-    """At 1280x720: the table with angle, critical angle and radicand lies inside the panel."""
+    """At 1280x720: angle, critical angle and radicand lie inside the panel."""
     with viewer() as driver:
         driver.open("underwater")
         driver.session.select(driver.session.tree.find("I"))  # type: ignore[union-attr]
         if lecture:
             driver.press(imgui.Key.tab)
         driver.frames(4)
-        driver.session.layout.lecture.front[Corner.BOTTOM_RIGHT] = ray.PANEL.title
-        driver.frames(4)
-        panel = body_of(ray.PANEL.title)
-        table = internal.table_find_by_id(panel.get_id("interfaces"))
-        assert panel and table and panel.scroll.y == 0.0
-        inside, outer = panel.inner_clip_rect, table.outer_rect
-        assert inside.min.y <= outer.min.y and outer.max.y <= inside.max.y and outer.max.x <= inside.max.x + 1.0
-        assert table.row_pos_y2 <= inside.max.y
+        if lecture:
+            driver.type("p")
+            driver.frames(4)
+        panel = body(ray.PANEL.title)
+        inside, (left, top, right, bottom) = panel.inner_clip_rect, driver.canvas.ray_ends
+        assert panel.scroll.y == 0.0 and inside.min.y <= top < bottom <= inside.max.y
+        assert inside.min.x <= left < right <= inside.max.x + 1.0
 
 
 @pytest.mark.parametrize("way", ("f", "double click", "new lesson"))

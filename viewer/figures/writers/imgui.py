@@ -12,8 +12,9 @@ from imgui_bundle import imgui
 from viewer.base.theme import Color
 from viewer.figures import signs
 from viewer.figures.font import ANCHORS, BASELINE
-from viewer.figures.marks import Box, Disc, Line, Mark, Piece, Point, Shape, Stroke, Text, point_along
+from viewer.figures.marks import Box, Disc, Formula, Line, Mark, Piece, Point, Shape, Stroke, Text, point_along
 from viewer.figures.writers.arrows import heads
+from viewer.figures.writers.imgui_formula import draw_formula
 
 EM = 2048 / 2400  # of the window's font, over its size for imgui, which is the distance from ascender to descender
 CORNERS = 24  # of the arcs of the smallest discs
@@ -48,6 +49,8 @@ class _Writer:
                 self._disc(mark)
             case Shape():
                 self._shape(mark)
+            case Formula():
+                draw_formula(self.pad, mark, self.corner, self.scale)
             case _:
                 raise TypeError(f"the window cannot draw a {type(mark).__name__}")
 

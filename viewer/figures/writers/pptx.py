@@ -14,7 +14,8 @@ from tracer.extras import missing_extra
 from viewer.base.files import Unusable
 from viewer.base.theme import Arrow, Color, rgb_bytes
 from viewer.figures.font import ANCHORS, FAMILY, text_width
-from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.formula.typeset import Contour
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Rectangle, Shape, Stroke, Text
 
 EMU = 12_700  # PowerPoint's units per point
 UNDATED = datetime.datetime(2000, 1, 1)  # so that the same figure is the same file on every day
@@ -68,6 +69,8 @@ class _Slide:
                 continue
             if isinstance(mark, Text):
                 self._text(mark)
+            elif isinstance(mark, Formula):
+                self._formula(mark)
             elif not isinstance(mark, Line) or not (mark.leaves or mark.reaches):
                 if mark.name not in signs:
                     signs[mark.name] = self.shapes.add_group_shape()
@@ -137,6 +140,24 @@ class _Slide:
         _name(made, shape.name, "")
         _look(made, shape.fill, shape.stroke)
 
+    def _formula(self, formula: Formula) -> None:
+        """A group with an outline for each glyph, and the formula as alternative text."""
+        from pptx.oxml import parse_xml
+
+        group = self.shapes.add_group_shape()
+        _name(group, f"{formula.name} formula", formula.plain)
+        for outline in formula.outlines():
+            places = [place for contour in outline for segment in contour for place in segment]
+            box = (min(places[::2]), min(places[1::2]), max(places[::2]), max(places[1::2]))
+            builder = group.shapes.build_freeform(_emu(box[0]), _emu(box[1]), scale=1.0)
+            builder.add_line_segments([(_emu(box[2]), _emu(box[3]))], close=True)
+            made = builder.convert_to_shape()
+            (path,) = made._element.xpath(".//a:path")
+            path.getparent().replace(path, parse_xml(_curves(outline, box)))
+            _name(made, formula.name, "")
+            _look(made, formula.color, None)
+        group._element.recalculate_extents()
+
     def _text(self, text: Text) -> None:
         """Draw a text in a frame a little wider than its width, since another font may be wider."""
         width, height = 1.15 * text_width(text.content, text.size) + 4.0, 1.2 * text.size
@@ -152,6 +173,24 @@ class _Slide:
 def _fills_box(mark: Mark) -> TypeGuard[Text]:
     """Whether it is the text of a box; a text at one end of it is a frame of its own."""
     return isinstance(mark, Text) and bool(mark.inside) and mark.anchor == "middle"
+
+
+def _curves(outline: Sequence[Contour], box: Rectangle) -> str:
+    """The path of a custom geometry, which may have parabolas, relative to its box."""
+    left, top, right, bottom = map(_emu, box)
+
+    def points(segment: Sequence[float]) -> str:
+        pairs = zip(segment[::2], segment[1::2], strict=True)
+        return "".join(f'<a:pt x="{_emu(x) - left}" y="{_emu(y) - top}"/>' for x, y in pairs)
+
+    parts = []
+    for start, *rest in outline:
+        parts.append(f"<a:moveTo>{points(start)}</a:moveTo>")
+        for segment in rest:
+            kind = "lnTo" if len(segment) == 2 else "quadBezTo"
+            parts.append(f"<a:{kind}>{points(segment)}</a:{kind}>")
+        parts.append("<a:close/>")
+    return f'<a:path xmlns:a="{A[1:-1]}" w="{right - left}" h="{bottom - top}">{"".join(parts)}</a:path>'
 
 
 def _write(frame: Any, words: Sequence[Text], anchor: str) -> None:
