@@ -2,6 +2,7 @@
 
 import contextlib
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import tracer
@@ -13,6 +14,10 @@ from viewer.base.files import Unusable, has_folder, is_there
 from viewer.base.progress import Progress
 from viewer.lessons import lesson
 from viewer.lessons.lesson import Lesson
+from viewer.reopen.places import CARRYING, is_figure
+from viewer.reopen.view_state import UNCHANGED
+from viewer.session.restore.figure_scene import FigureScene, FigureScenes
+from viewer.session.scene_loader import with_lesson
 
 
 def find(name: str) -> tuple[Path, Lesson | None]:
@@ -23,12 +28,26 @@ def find(name: str) -> tuple[Path, Lesson | None]:
         return found.scene, found
     if has_folder(path):
         raise Unusable(f"{shown_path(path)}: a folder must have a file lesson.md, got none")
-    if is_there(path) or path.suffix.lower() in (*READERS, *OTHER_MESHES):
+    if is_there(path) or path.suffix.lower() in (*READERS, *OTHER_MESHES, *CARRYING):
         return path, None
     if name not in lesson.names() and (path.suffix or len(path.parts) > 1):
         raise Unusable(f"{name}: a scene must be one of {', '.join(READERS)} or a lesson's name")
     found = lesson.read(name)
     return found.scene, found
+
+
+@contextlib.contextmanager
+def found_scene(name: str) -> Iterator[FigureScene]:
+    """The scene of a file, a lesson or a figure, with the state that it opens with. A copy that a figure carries is
+    there until the end. Unusable if there is none.
+    """
+    path, lesson = find(name)
+    figures = FigureScenes()
+    try:
+        found = figures.find(path) if is_figure(path) else FigureScene(path, lesson, UNCHANGED, path.parent)
+        yield replace(found, state=with_lesson(found.state, found.lesson))
+    finally:
+        figures.close()
 
 
 @contextlib.contextmanager

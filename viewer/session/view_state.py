@@ -20,6 +20,8 @@ class Request(Enum):
     SHOW_ERROR = auto()
     NEXT_PANEL = auto()  # of those at the lower right
     OPEN_DIALOG = auto()
+    COPY_VIEW = auto()  # as a command line with the window's size
+    FULL_SCREEN = auto()  # or back
     QUIT = auto()
 
 

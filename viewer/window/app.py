@@ -13,6 +13,7 @@ from viewer.base.theme import STYLES
 from viewer.gl.canvas import Canvas
 from viewer.panels import PANELS, bar, blank, help, menu, messages, open_dialog
 from viewer.panels.panel import Corner, Panel
+from viewer.session.saving import copy_view
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 from viewer.window import keys, style
@@ -39,6 +40,7 @@ class App:
         self.has_layout = False
         self.resets_layout = False
         self.drawn_state: object = None  # of the surface when it was drawn last
+        self.each_round: Callable[[], None] = lambda: None  # called by `run`, some times a second
         self.style_changed = Changed()
         self.title_changed = Changed()
         session.calls.wake = surface.wake
@@ -54,6 +56,7 @@ class App:
             rest = self._rest(busy, frames_left > 0, took)
             self.surface.wait(max(0.0, rest - since) if frames_left > 0 or busy else IDLE)
             news = self.session.update()
+            self.each_round()
             if news or self._has_events():
                 frames_left = FRAMES_AFTER_EVENT
                 rest = self._rest(busy, True, took)
@@ -219,6 +222,10 @@ class App:
             self.surface.close_requested()
         elif request is Request.OPEN_DIALOG:
             open_dialog.open_dialog()
+        elif request is Request.COPY_VIEW:
+            copy_view(self.session, self.surface.size)
+        elif request is Request.FULL_SCREEN:
+            self.surface.toggle_full_screen()
         elif request is Request.NEXT_PANEL:
             self._show_next_panel()
         else:

@@ -15,6 +15,7 @@ from viewer.base.files import Unusable
 from viewer.base.theme import Arrow, Color, rgb_bytes
 from viewer.figures.font import ANCHORS, FAMILY, text_width
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
+from viewer.reopen.places import PART, as_xml
 
 EMU = 12_700  # PowerPoint's units per point
 UNDATED = datetime.datetime(2000, 1, 1)  # so that the same figure is the same file on every day
@@ -36,6 +37,8 @@ def write_pptx(figures: Sequence[Figure]) -> bytes:
     about.title, about.subject, about.comments = figures[0].title, figures[0].description, figures[0].command
     about.author = about.last_modified_by = "raytree"
     about.created = about.modified = UNDATED
+    if figures[0].embedded:
+        _add_part(deck, PART, as_xml(figures[0].embedded).encode("utf-8"))
     for figure in figures:
         slide = deck.slides.add_slide(deck.slide_layouts[BLANK])
         _paint(slide.background.fill, figure.paper)
@@ -43,6 +46,16 @@ def write_pptx(figures: Sequence[Figure]) -> bytes:
     buffer = io.BytesIO()
     deck.save(buffer)
     return _undated(buffer.getvalue())
+
+
+def _add_part(deck: Any, name: str, content: bytes) -> None:
+    """Add a custom XML part."""
+    from pptx.opc.constants import CONTENT_TYPE, RELATIONSHIP_TYPE
+    from pptx.opc.package import Part
+    from pptx.opc.packuri import PackURI
+
+    part = Part(PackURI(name), CONTENT_TYPE.XML, deck.part.package, content)
+    deck.part.relate_to(part, RELATIONSHIP_TYPE.CUSTOM_XML)
 
 
 class _Slide:

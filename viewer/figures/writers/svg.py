@@ -6,6 +6,7 @@ from viewer.base.theme import Color, rgb_bytes
 from viewer.figures.font import BASELINE, FALLBACK, FAMILY
 from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
+from viewer.reopen.places import as_xml
 
 
 def write_svg(figure: Figure) -> bytes:
@@ -16,7 +17,7 @@ def write_svg(figure: Figure) -> bytes:
         f" font-family={quoteattr(', '.join((_quoted(FAMILY), *FALLBACK)))}>",
         f"<title>{escape(figure.title)}</title>",
         f"<desc>{escape(figure.description)}</desc>",
-        f"<metadata>{escape(figure.command)}</metadata>",
+        f"<metadata>{escape(figure.command)}{as_xml(figure.embedded) if figure.embedded else ''}</metadata>",
     ]
     if figure.ground:
         lines.append(f'<rect width="{w}" height="{h}"{_fill(figure.paper)}/>')
