@@ -87,7 +87,7 @@ class Window(Surface):
     def __init__(
         self, title: str, size: tuple[int, int], ini: Path | None = None, place: WindowPlace | None = None
     ) -> None:
-        """`place`: where it stood before, which counts if it is still on a screen; its size is not used."""
+        """`place`: where it stood before, if that is still on a screen."""
         self.dropped: list[Path] = []
         self.windowed: tuple[int, int, int, int] | None = None  # place and size to go back to from full screen
         self.on_refresh: Callable[[], None] = lambda: None
@@ -172,8 +172,9 @@ class Window(Surface):
         monitors = glfw.get_monitors()
         modes = [glfw.get_video_mode(monitor) for monitor in monitors]
         corners = [glfw.get_monitor_pos(monitor) for monitor in monitors]
-        k = screen_of(self.windowed, [(*at, *mode.size) for at, mode in zip(corners, modes, strict=True)])
-        glfw.set_window_monitor(self.window, monitors[k], 0, 0, *modes[k].size, modes[k].refresh_rate)
+        screens = [(*at, mode.size.width, mode.size.height) for at, mode in zip(corners, modes, strict=True)]
+        k = screen_of(self.windowed, screens)
+        glfw.set_window_monitor(self.window, monitors[k], 0, 0, *screens[k][2:], modes[k].refresh_rate)
 
     @property
     def closing(self) -> bool:
@@ -269,8 +270,7 @@ class Offscreen(Surface):
     def wait(self, seconds: float) -> None:
         """Returns at once: there are no events from outside."""
 
-    def wake(self) -> None:
-        """See `wait`."""
+    def wake(self) -> None: ...
 
     def begin(self) -> None:
         imgui.get_io().delta_time = 1 / 60
