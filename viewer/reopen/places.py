@@ -17,6 +17,7 @@ import zlib
 from collections.abc import Callable
 from pathlib import Path
 from xml.parsers import expat
+from xml.sax.saxutils import escape
 
 from tracer.formats.source import Fault, read_bytes
 from tracer.printable import shown_path
@@ -36,6 +37,12 @@ MOST_XML = 64 * 2**20  # bytes of an unpacked part of PPTX
 def as_xml(data: bytes) -> str:
     """The element that carries a view in XML."""
     return f'<raytree:{ELEMENT} xmlns:raytree="{NAMESPACE}">\n{as_text(data)}</raytree:{ELEMENT}>'
+
+
+def as_part(command: str, data: bytes) -> bytes:
+    """An XML document with the command line that makes a figure again, and the view that it carries."""
+    view = as_xml(data) if data else ""
+    return f'<figure xmlns="{NAMESPACE}"><command>{escape(command)}</command>{view}</figure>'.encode()
 
 
 def as_text(data: bytes) -> str:
