@@ -11,6 +11,7 @@ from tracer.formats import READERS
 
 MAX_PIXELS = 16384  # across an image
 SMALLEST_ZOOM, LARGEST_ZOOM = 0.01, 1000.0  # of a picture in its panel
+NEAREST, FARTHEST = 1e-9, 1e9  # distance of the 3D view, in radii of the scene
 FAR = 1e6  # limit of the coordinates of a picture's middle
 UP_HELP = "axis of a mesh file that points upwards, y by default"
 DEPTH_HELP = "recursion depth, the scene's own by default"
@@ -95,10 +96,11 @@ def _pan_zoom(text: str) -> tuple[float, ...]:
 def _orbit(text: str) -> tuple[float, ...]:
     numbers = _numbers(text)
     finite = all(map(math.isfinite, numbers))
-    if finite and len(numbers) in (3, 6) and -90.0 <= numbers[1] <= 90.0 and numbers[2] > 0.0:
+    if finite and len(numbers) in (3, 6) and -90.0 <= numbers[1] <= 90.0 and NEAREST <= numbers[2] <= FARTHEST:
         return numbers
     asked = (
-        "azimuth and elevation (-90 to 90) in degrees and a distance > 0, like 38,22,2.6, or these and a target X,Y,Z"
+        f"azimuth and elevation (-90 to 90) in degrees and a distance ({NEAREST:g} to {FARTHEST:g}), like 38,22,2.6,"
+        " or these and a target X,Y,Z"
     )
     raise Unreadable(f'{asked}, got "{text}"')
 

@@ -71,7 +71,7 @@ def test_hostile_texts_are_refused_in_words(found: dict) -> None:
     [
         (["--filter", "mirror"], 'any of camera,reflection,refraction,tir,shadow, or none, got "mirror"'),
         (["--hide", "eye"], 'any of camera,lights,normals,labels, or none, got "eye"'),
-        (["--camera", "1,2"], "azimuth and elevation (-90 to 90) in degrees and a distance > 0"),
+        (["--camera", "1,2"], "azimuth and elevation (-90 to 90) in degrees and a distance (1e-09 to 1e+09)"),
         (["--select", "Q"], 'the path of a ray, like E, TR or TR.L(key), got "Q"'),
         (["--theme", "mono"], 'one of dark, light, got "mono"'),
         (["--type-size", "huge"], 'one of normal, lecture, got "huge"'),

@@ -27,6 +27,7 @@ class Viewed(Protocol):
     model: str
     selection: str | None
 
+    def show_faults(self, faults: list[str]) -> None: ...
     @property
     def up(self) -> str: ...
     @property
@@ -92,10 +93,13 @@ def restore_appearance(look: Appearance, state: ViewState) -> None:
 
 
 def restore_camera(viewed: Viewed, state: ViewState) -> None:
-    """Take over the 3D view: azimuth, elevation, distance, and if given the target."""
+    """Take over the 3D view: azimuth, elevation, distance, and if given the target. One that cannot be is a fault."""
     if state.camera and viewed.world:
         azimuth, elevation, distance, *target = state.camera
-        viewed.orbit = orbit_beside(viewed.world, viewed.frame, azimuth, elevation, distance, target)
+        try:
+            viewed.orbit = orbit_beside(viewed.world, viewed.frame, azimuth, elevation, distance, target)
+        except ValueError as error:
+            viewed.show_faults([str(error)])
 
 
 def type_size_of(look: Appearance) -> str:
