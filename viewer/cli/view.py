@@ -26,6 +26,8 @@ from viewer.window.app import App
 from viewer.window.backend import NoWindow, Offscreen, Window
 
 SIZE = (1280, 720)
+MOST_PATHS = 12  # that a fault lists
+NOT_RESTORED = "the last scene is not restored: "
 CONTENTS = "raytree window"  # the text in a screenshot that names what is shown
 
 
@@ -90,8 +92,9 @@ def _with_last_session(options: ViewOptions, folder: Path | None) -> tuple[LastS
     try:
         opening = _opening(replace(options, scene=last.scene))
     except Unusable as unusable:
-        return last, replace(first, note=f"the last scene is not restored: {unusable.faults[0]}")
-    return last, replace(opening, state=merged(last.state, options.state), instead=first)
+        return last, replace(first, note=f"{NOT_RESTORED}{unusable.faults[0]}")
+    instead = replace(first, note=NOT_RESTORED)
+    return last, replace(opening, state=merged(last.state, options.state), instead=instead)
 
 
 class SelectionCheck:
@@ -116,9 +119,6 @@ class SelectionCheck:
             self.session.show_faults([fault])
         if self.session.tree:
             self.asked = None
-
-
-MOST_PATHS = 12  # that a fault lists
 
 
 def take_screenshot(opening: Opening, options: ViewOptions, target: Path) -> None:

@@ -138,7 +138,7 @@ def _embedded(table: dict[str, Any], archive: zipfile.ZipFile) -> Embedded:
     if own and table["folder"] != ".":
         _safe(table["folder"])
     scene = SceneFiles(folder, table["scene"], str(table["lesson"]), tuple(files))
-    return Embedded(str(table["raytree"]), from_texts(dict(table["view"])), scene, own)
+    return Embedded(str(table["raytree"]), from_texts(table["view"]), scene, own)
 
 
 def _safe(name: Any) -> str:

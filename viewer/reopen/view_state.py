@@ -73,11 +73,13 @@ def texts(state: ViewState) -> dict[str, str]:
     return found
 
 
-def from_texts(found: Mapping[str, Any]) -> ViewState:
+def from_texts(found: Any) -> ViewState:
     """The state of these texts. Names that are not known are left out: a later version may have written them.
 
     Raises Unreadable, with the field's name, if a text is not such a value.
     """
+    if not isinstance(found, Mapping):
+        raise Unreadable("a view must be a table of texts")
     values = {}
     for item in fields(ViewState):
         kind = spelling(item).value

@@ -32,7 +32,7 @@ class Opening:
     figure: Path | None = None  # whose copy of the scene this is
     files: SceneFiles | None = None  # the content of the scene's files, when it is loaded
     note: str = ""  # a notice for when it is shown
-    instead: "Opening | None" = None  # what to open if this cannot be loaded
+    instead: "Opening | None" = None  # what to open if this cannot be loaded; its note is followed by the reason
 
     @property
     def up(self) -> str:
@@ -142,7 +142,7 @@ class SceneLoader:
 
     def _fail(self, faults: list[str], opening: Opening) -> None:
         if opening.instead:
-            self.load(replace(opening.instead, note=faults[0]))
+            self.load(replace(opening.instead, note=f"{opening.instead.note}{faults[0]}"))
         else:
             self.failed(faults)
 

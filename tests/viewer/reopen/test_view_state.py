@@ -1,5 +1,6 @@
 """The state of a view: one list of fields for the command line, JSON and the window."""
 
+import subprocess
 from dataclasses import fields
 
 import pytest
@@ -89,8 +90,6 @@ def test_a_bad_value_is_one_line_with_what_is_allowed(
 
 
 def test_a_line_for_the_shell_has_no_control_characters_and_reads_back() -> None:
-    import subprocess
-
     words = ["raytree", "a b'c\\d", "x\x1b[2J\n\x7f'\\", "\u202e\x85", "", "\udcff.toml", "π $HOME `ls`"]
     line = shell_line(words)
     assert line.isprintable()

@@ -69,7 +69,7 @@ def _last(found: dict[str, Any]) -> LastSession:
     scene = found["scene"]
     if not isinstance(scene, str) or not scene or "\0" in scene:
         raise ValueError("its scene must be a name")
-    return LastSession(scene, from_texts(dict(found["view"])), _window(found.get("window")))
+    return LastSession(scene, from_texts(found["view"]), _window(found.get("window")))
 
 
 def _window(found: Any) -> WindowPlace | None:
