@@ -131,7 +131,8 @@ def words(options: Any, leave_out: Sequence[str] = ()) -> list[str]:
         elif how.is_positional:
             found += [how.value.show(part) for part in (value if how.nargs in ("+", "*") else [value])]
         else:
-            found += joined([flag(item.name), how.value.show(value)], [flag(item.name)])
+            name, text = flag(item.name), how.value.show(value)
+            found += [f"{name}={text}"] if text.startswith("-") else [name, text]  # no option of its own
     return found
 
 

@@ -20,6 +20,7 @@ MAX_RAYS_HELP = (
     "limit of rays of the image, 10^10 for each sample of a pixel by default; every tree gets an equal share"
 )
 SCENE_HELP = f"a {', '.join(list(READERS)[:-1])} or {list(READERS)[-1]} file, or a lesson's name"
+FIGURE_TOO = f"{SCENE_HELP}; or a figure that raytree wrote"
 
 
 class Unreadable(ValueError):

@@ -10,6 +10,7 @@ from viewer.base.options import argument, option, switch
 from viewer.base.pictures import WRITERS
 from viewer.base.values import (
     DEPTH_HELP,
+    FIGURE_TOO,
     FILE,
     LIGHT,
     MAX_RAYS_HELP,
@@ -74,7 +75,7 @@ def _up() -> Any:
 class ViewOptions(ViewState):
     """`raytree view`. The fields of ViewState bring a view back."""
 
-    scene: str | None = argument("SCENE", TEXT, f"{SCENE_HELP}, or a figure that raytree wrote", nargs="?")
+    scene: str | None = argument("SCENE", TEXT, FIGURE_TOO, nargs="?")
     screenshot: Path | None = option(FILE, "draw the viewer into a file, and exit", metavar="FILE.png")
     size: tuple[int, int] | None = _size("of the window or the screenshot")
 
@@ -88,7 +89,7 @@ class ViewOptions(ViewState):
 class TraceOptions:
     """`raytree trace`."""
 
-    scene: str = argument("SCENE", TEXT, SCENE_HELP)
+    scene: str = argument("SCENE", TEXT, FIGURE_TOO)
     pixel: tuple[int, int] | None = option(PIXEL, "counted from the image's top left", group="where", required=True)
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where", required=True)
     depth: int | None = _depth()

@@ -8,6 +8,7 @@ from viewer.base.options import argument, option, switch
 from viewer.base.theme import THEMES
 from viewer.base.values import (
     DEPTHS,
+    FIGURE_TOO,
     MAX_RAYS_HELP,
     ORBIT,
     PIXEL,
@@ -16,7 +17,6 @@ from viewer.base.values import (
     RAY,
     RAY_NAME,
     RAY_PATH,
-    SCENE_HELP,
     SHARE,
     SIZE,
     TEXT,
@@ -38,7 +38,7 @@ EYES = ("top", "left")  # of a tree
 class ExportOptions:
     """`raytree export`."""
 
-    scene: str = argument("SCENE", TEXT, SCENE_HELP)
+    scene: str = argument("SCENE", TEXT, FIGURE_TOO)
     pixel: tuple[int, int] | None = option(PIXEL, "from the image's top left; a lesson's own by default", group="where")
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where")
     figure: str = option(one_of(FIGURE_NAMES), "tree by default", "tree")

@@ -119,6 +119,8 @@ def _embedded(table: dict[str, Any], archive: zipfile.ZipFile) -> Embedded:
     if table["format"] != FORMAT:
         raise Damaged(f"its view must have the format {FORMAT}, got {printable(str(table['format']))[:60]}")
     files = []
+    if len(table["files"]) > MOST_FILES:
+        raise Damaged(f"its scene must have at most {MOST_FILES} files, got {len(table['files'])}")
     for k, entry in enumerate(table["files"]):
         file = SceneFile(_safe(entry["name"]), str(entry["sha256"]))
         if entry["carried"]:

@@ -98,7 +98,7 @@ class Session:
             self.pixel, self.selection = state.pixel, state.select
             self.home()
             restore(self, state, opening.note)
-        self._check_pixel(again)
+        self._check_pixel(again or opening.instead is not None)
         self.notes = world.notes
         if not again and not opening.is_return:
             self.history.add(Place(self._now()))

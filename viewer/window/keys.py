@@ -20,7 +20,14 @@ K = imgui.Key
 CTRL = (K.left_ctrl, K.right_ctrl, K.left_super, K.right_super)
 SHIFT = (K.left_shift, K.right_shift)
 ALT = (K.left_alt, K.right_alt)
-LEAVING = (K.page_down, K.page_up, K.up_arrow, K.down_arrow, K.tab)  # keys that a field for numbers has no use for
+LEAVING = (
+    K.page_down,
+    K.page_up,
+    K.up_arrow,
+    K.down_arrow,
+    K.tab,
+    K.f11,
+)  # keys that a field for numbers has no use for
 EDITING = (K.a, K.c, K.v, K.x, K.z, K.y)  # with Ctrl, they edit the text in a field
 US_KEYS = {getattr(K, letter): letter for letter in "abcdefghijklmnopqrstuvwxyz"} | {
     **{getattr(K, f"_{digit}"): str(digit) for digit in range(10)},

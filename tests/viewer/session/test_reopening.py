@@ -1,5 +1,6 @@
 """Figures dropped on the window bring their view back, with the scene's file or without it. Real GL, no screen."""
 
+import shlex
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -33,6 +34,12 @@ def fresh(driver: Driver) -> Driver:
     driver.app.close()
     driver.__init__()
     return driver
+
+
+def radius(driver: Driver) -> float:
+    """The radius of the only ball, at the origin."""
+    assert driver.session.world
+    return float(driver.session.world.bounds[0, 1, 0])
 
 
 def drop(driver: Driver, path: Path) -> None:
@@ -114,7 +121,7 @@ def test_without_its_file_the_scene_is_the_figures_copy(room: Driver, tmp_path: 
     other = fresh(room)
     drop(other, figure)
     assert other.session.notice.text == f"{path} has changed: this is the copy in {figure.name}"
-    assert other.session.world and other.session.world.scene.objects[0].shape.radius == 1.0
+    assert radius(other) == 1.0
     assert (still(other) == picture).all()
 
     path.unlink()
@@ -135,7 +142,7 @@ def test_without_its_file_the_scene_is_the_figures_copy(room: Driver, tmp_path: 
     assert other.session.path == path and not other.session.notice.text
     write_ball(path, "0.25")  # it is watched
     saved(other, path)
-    assert other.session.world and other.session.world.scene.objects[0].shape.radius == 0.25
+    assert radius(other) == 0.25
 
 
 def test_a_scene_beside_the_figure_is_found(room: Driver, tmp_path: Path) -> None:
@@ -236,6 +243,7 @@ def test_a_changed_lesson_opens_as_it_was(room: Driver, tmp_path: Path) -> None:
     room.app.settle()
     room.frames()
     figure, picture, text = save(room), still(room), found.text
+    assert shlex.split(room.session.export.command)[:3] == ["raytree", "export", str(home)]
     (home / "lesson.md").write_text((home / "lesson.md").read_text() + "\nMore.")
     other = fresh(room)
     drop(other, figure)

@@ -116,7 +116,8 @@ class SessionKeeper:
         self.seen = current
 
     def close(self) -> None:
-        """Write the session if it has changed."""
+        """Write the session: of several windows, the last one that is closed is kept."""
+        self.kept = None
         self._keep(self._current())
 
     def _current(self) -> LastSession | None:
