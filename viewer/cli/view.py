@@ -73,7 +73,7 @@ def view(options: ViewOptions) -> int:
 
 def _opening(options: ViewOptions) -> Opening:
     """The scene, lesson or figure that was asked for; the first lesson if none was."""
-    path, lesson = find(options.scene or lessons.names()[0])
+    path, lesson = find(options.scene or lessons.names()[0], takes_figures=True)
     if not is_there(path):  # a file that cannot be read is shown with its faults: perhaps it is being written
         raise Unusable(f"{shown_path(path)}: file not found")
     return Opening(path, lesson, options.state)

@@ -92,6 +92,7 @@ def test_export_and_trace_take_a_figure_whose_scene_is_gone(tmp_path: Path, monk
     a, b = (Path(name).read_text().split('"pixel"')[1] for name in ("a.json", "b.json"))
     assert a == b
     assert main(["export", "a.svg", "-o", "b.svg"]) == 0
+    assert main(["plan", "a.svg"]) == 2
     a, b = (Path(name).read_bytes().split(b"</metadata>")[1] for name in ("a.svg", "b.svg"))
     assert a == b
 
