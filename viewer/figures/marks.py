@@ -244,6 +244,7 @@ class Figure:
     ground: bool = False  # whether it has that background; otherwise it is transparent
     width: float = WIDTH
     height: float = HEIGHT
+    embedded: bytes = b""  # the view and its scene, to be reopened (`viewer.reopen.embedded`)
 
     def __post_init__(self) -> None:
         make_printable(self, "title", "description", "command")

@@ -22,6 +22,8 @@ class Request(Enum):
     MAXIMISE = auto()  # the panel under the mouse; again: give the room back
     NEXT_PANEL = auto()  # of those at the lower right
     OPEN_DIALOG = auto()
+    COPY_VIEW = auto()  # as a command line with the window's size
+    FULL_SCREEN = auto()  # or back
     QUIT = auto()
 
 

@@ -12,6 +12,7 @@ from viewer.base.cached import Changed
 from viewer.base.theme import STYLES
 from viewer.gl.canvas import Canvas
 from viewer.panels import PANELS
+from viewer.session.saving import copy_view
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 from viewer.window import bar, blank, help, keys, menu, messages, notice, open_dialog, pointer, style
@@ -37,6 +38,7 @@ class App:
         self.canvas = Canvas(surface.ctx, session)
         self.tiles = Tiles(session, self.canvas, self._part)
         self.drawn_state: object = None  # of the surface when it was drawn last
+        self.each_round: Callable[[], None] = lambda: None  # called by `run`, some times a second
         self.style_changed = Changed()
         self.title_changed = Changed()
         session.calls.wake = surface.wake
@@ -53,6 +55,7 @@ class App:
             pause = max(0.0, rest - since) if frames_left > 0 or busy else IDLE
             self.surface.wait(min(pause, self.session.reveal.wait(time.monotonic())))  # the next step of an animation
             news = self.session.update()
+            self.each_round()
             if news or self._has_events():
                 frames_left = FRAMES_AFTER_EVENT
                 rest = self._rest(busy, True, took)
@@ -220,6 +223,10 @@ class App:
             self.surface.close_requested()
         elif request is Request.OPEN_DIALOG:
             open_dialog.open_dialog()
+        elif request is Request.COPY_VIEW:
+            copy_view(self.session, self.surface.size)
+        elif request is Request.FULL_SCREEN:
+            self.surface.toggle_full_screen()
         elif request is Request.NEXT_PANEL:
             self.tiles.show_next()
         elif request is Request.MAXIMISE:

@@ -172,7 +172,7 @@ def test_the_picture_of_a_hit_fills_its_panel_and_is_laid_out_once(room: Driver)
     room.session.layout.maximise(hit.PANEL.title)
     room.frames(3)
     assert marks(room) is not first
-    _, _, width, height = room.app.places[hit.PANEL.place]
+    _, _, width, height = room.app.tiles.places[hit.PANEL.place]
     boxes = [mark.box() for mark in marks(room) if hasattr(mark, "box")]  # type: ignore[attr-defined]
     assert max(box[2] for box in boxes) <= width and max(box[3] for box in boxes) <= height
     length = max(math.dist(m.start, m.end) for m in marks(room) if isinstance(m, Line) and m.name == "ray-0")

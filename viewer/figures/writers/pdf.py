@@ -9,6 +9,7 @@ from viewer.figures.font import BASELINE, FAMILY, FONT, boxed, text_width
 from viewer.figures.formula.typeset import Contour
 from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
+from viewer.reopen.places import ATTACHMENT
 
 UNDATED = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)  # so that the same figure is the same file on every day
 ROUND = 0.5522847498  # distance of a quarter circle's control points from its ends, in radii
@@ -29,6 +30,10 @@ def write_pdf(figures: Sequence[Figure]) -> bytes:
     pdf.set_creator("raytree")
     pdf.set_lang("en")
     pdf.add_font(FAMILY, "", FONT)
+    if first.embedded:
+        pdf.embed_file(
+            bytes=first.embedded, basename=ATTACHMENT, mime_type="application/zip", modification_date=UNDATED
+        )
     for figure in figures:
         pdf.add_page(format=(figure.width, figure.height))
         page = _Page(pdf, figure.height)

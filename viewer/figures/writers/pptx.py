@@ -16,10 +16,12 @@ from viewer.base.theme import Arrow, Color, rgb_bytes
 from viewer.figures.font import ANCHORS, FAMILY, text_width
 from viewer.figures.formula.typeset import Contour
 from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Rectangle, Shape, Stroke, Text
+from viewer.reopen.places import PART, as_part
 
 EMU = 12_700  # PowerPoint's units per point
 UNDATED = datetime.datetime(2000, 1, 1)  # so that the same figure is the same file on every day
 OLDEST = (1980, 1, 1, 0, 0, 0)  # the earliest time that a ZIP archive can store
+LONGEST_PROPERTY = 255  # characters
 BLANK = 6  # of the default template's layouts
 HEADS = {Arrow.FILLED: "triangle", Arrow.OPEN: "arrow", Arrow.DOUBLE: "stealth"}
 A = "{http://schemas.openxmlformats.org/drawingml/2006/main}"
@@ -34,9 +36,11 @@ def write_pptx(figures: Sequence[Figure]) -> bytes:
     deck = Presentation()
     deck.slide_width, deck.slide_height = (Emu(_emu(size)) for size in (figures[0].width, figures[0].height))
     about = deck.core_properties
-    about.title, about.subject, about.comments = figures[0].title, figures[0].description, figures[0].command
+    texts = (figures[0].title, figures[0].description, figures[0].command)
+    about.title, about.subject, about.comments = map(_property, texts)
     about.author = about.last_modified_by = "raytree"
     about.created = about.modified = UNDATED
+    _add_part(deck, PART, as_part(figures[0].command, figures[0].embedded))
     for figure in figures:
         slide = deck.slides.add_slide(deck.slide_layouts[BLANK])
         _paint(slide.background.fill, figure.paper)
@@ -44,6 +48,21 @@ def write_pptx(figures: Sequence[Figure]) -> bytes:
     buffer = io.BytesIO()
     deck.save(buffer)
     return _undated(buffer.getvalue())
+
+
+def _property(text: str) -> str:
+    """A text as a property of the document, which has limited room. The custom part has the whole command line."""
+    return text if len(text) <= LONGEST_PROPERTY else text[: LONGEST_PROPERTY - 1] + "…"
+
+
+def _add_part(deck: Any, name: str, content: bytes) -> None:
+    """Add a custom XML part."""
+    from pptx.opc.constants import CONTENT_TYPE, RELATIONSHIP_TYPE
+    from pptx.opc.package import Part
+    from pptx.opc.packuri import PackURI
+
+    part = Part(PackURI(name), CONTENT_TYPE.XML, deck.part.package, content)
+    deck.part.relate_to(part, RELATIONSHIP_TYPE.CUSTOM_XML)
 
 
 class _Slide:

@@ -7,6 +7,7 @@ from viewer.figures.font import BASELINE, FALLBACK, FAMILY
 from viewer.figures.formula.typeset import Contour
 from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
+from viewer.reopen.places import as_xml
 
 
 def write_svg(figure: Figure) -> bytes:
@@ -17,7 +18,7 @@ def write_svg(figure: Figure) -> bytes:
         f" font-family={quoteattr(', '.join((_quoted(FAMILY), *FALLBACK)))}>",
         f"<title>{escape(figure.title)}</title>",
         f"<desc>{escape(figure.description)}</desc>",
-        f"<metadata>{escape(figure.command)}</metadata>",
+        f"<metadata>{escape(figure.command)}{as_xml(figure.embedded) if figure.embedded else ''}</metadata>",
     ]
     if figure.ground:
         lines.append(f'<rect width="{w}" height="{h}"{_fill(figure.paper)}/>')
