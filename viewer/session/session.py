@@ -25,6 +25,7 @@ from viewer.session.figure_export import FigureExport
 from viewer.session.guard import Guard
 from viewer.session.history import History, Place
 from viewer.session.image_renderer import ImageRenderer
+from viewer.session.recursion import Recursion
 from viewer.session.refinement import Refinement
 from viewer.session.reveal import Reveal
 from viewer.session.scene_loader import Opening, SceneLoader
@@ -49,6 +50,7 @@ class Session:
         self.export = FigureExport(self.calls.post)
         self.verification = Verification(self.calls.post)
         self.reveal = Reveal(lambda: self.tree, lambda: "shadow" in self.shown.kinds)
+        self.recursion = Recursion(self.reveal, self.calls.post)
         # How the scene is looked at.
         self.shown = Visibility()
         self.image_view = PanZoom()
@@ -74,8 +76,7 @@ class Session:
         self.selection: str | None = None  # the path of the selected ray, if the tree has it
         self.history = History()
         self._selected: Cached[int | None] = Cached()
-        if NOTE:
-            self.notice.say(NOTE)
+        self.notice.say(NOTE)
 
     # --- the scene ----------------------------------------------------------------------------------------------------
 

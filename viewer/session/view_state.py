@@ -18,6 +18,7 @@ class Request(Enum):
     SHOW_LESSON = auto()  # bring this panel to the front
     SHOW_RAY = auto()
     SHOW_ERROR = auto()
+    SHOW_RECURSION = auto()
     NEXT_PANEL = auto()  # of those at the lower right
     OPEN_DIALOG = auto()
     QUIT = auto()

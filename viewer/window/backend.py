@@ -240,11 +240,13 @@ class Offscreen(Surface):
 
 
 def _load_fonts() -> None:
-    """Roboto, and from DejaVu Sans the arrows and subscripts that it lacks."""
-    main = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "Roboto" / "Roboto-Regular.ttf"
+    """Roboto, and from DejaVu Sans the arrows and subscripts that it lacks. For source text, the second font."""
+    shipped = Path(imgui_bundle.__file__).parent / "assets" / "fonts"
+    main, source = shipped / "Roboto" / "Roboto-Regular.ttf", shipped / "Inconsolata-Medium.ttf"
     symbols = Path(__file__).parent.parent / "fonts" / "DejaVuSans-symbols.ttf"
     fonts = imgui.get_io().fonts
     fonts.add_font_from_file_ttf(str(main), FONT_SIZE)
     config = imgui.ImFontConfig()
     config.merge_mode = True
     fonts.add_font_from_file_ttf(str(symbols), 0.86 * FONT_SIZE, config)
+    fonts.add_font_from_file_ttf(str(source), FONT_SIZE)

@@ -16,6 +16,7 @@ from viewer.session.actions import (
     look_through_camera,
     nudge,
     step,
+    step_line,
     toggle_granularity,
     toggle_loop,
     toggle_model,
@@ -106,6 +107,16 @@ def _scroll(by: int) -> Act:
     return act
 
 
+def _page(by: int) -> Act:
+    def act(session: Session) -> None:
+        if imgui.get_io().key_shift or _just_released(SHIFT):
+            step_line(session, by)
+        else:
+            session.reveal.go(by)
+
+    return act
+
+
 def _speed(by: int) -> Act:
     return lambda session: change_speed(session, by)
 
@@ -136,8 +147,9 @@ BINDINGS = (
     ),
     Binding(
         "Page Down, Page Up", "reveal the tree: next step, the one before",
-        pressed={K.page_down: lambda s: s.reveal.go(1), K.page_up: lambda s: s.reveal.go(-1)},
+        pressed={K.page_down: _page(1), K.page_up: _page(-1)},
     ),
+    Binding("Shift+Page Down, Up", "the recursion: next line of its code, the one before"),
     Binding(
         "Home, End", "first step, last step",
         pressed={K.home: lambda s: s.reveal.first(), K.end: lambda s: s.reveal.last()},
