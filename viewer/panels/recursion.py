@@ -2,15 +2,14 @@
 their values.
 """
 
-from collections.abc import Sequence
+from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
-from tracer.formulas.vector import Vector
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import faded
 from viewer.base.wording import format_number, format_rgb
-from viewer.explain.recursion import Call, Recording, Statement, Values, source
+from viewer.explain.recursion import Recording, Statement, Values, source
 from viewer.figures.catalogue import RECURSION
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
@@ -20,10 +19,10 @@ from viewer.session.session import Session
 from viewer.session.view_state import Request
 
 FONT = 1  # of the fonts that the backend loads: that for source text
-HANG = 8  # characters by which the rest of a long line is indented
-FEWEST = 5  # lines of source text that are in view at least
+HANG = 4  # characters by which the rest of a long line is indented
+FEWEST = 3  # lines of source text that are in view at least
 COLUMNS = ("ray", "depth", "n1", "kr", "kt", "color")  # the variables have their names in the source text
-MOST_CALLS = 6  # that are listed: the last ones
+FEWEST_CALLS, MOST_CALLS = 2, 8  # that are listed, as there is room: the last ones
 
 
 def draw(session: Session, canvas: Canvas) -> None:
@@ -34,17 +33,23 @@ def draw(session: Session, canvas: Canvas) -> None:
     recursion.ask()
     recording, moment = recursion.recording, recursion.moment
     _controls(session)
-    rows = _rows(session.tree, recording, moment)
     said = _said(session, recording, moment)
-    below = _height(rows, said)
-    room = imgui.get_content_region_avail().y - below - imgui.get_style().item_spacing.y
-    _source(session, recording, moment, room)
-    if rows:
-        _calls(session, rows)
+    room, line, gap = imgui.get_content_region_avail(), imgui.get_text_line_height_with_spacing(), _gap()
+    high = room.y - gap - (imgui.calc_text_size(said, wrap_width=room.x).y + gap if said else 0.0)
+    most = int(high / line) - FEWEST - 1
+    table = _table(session.tree, recording, moment, min(max(most, FEWEST_CALLS), MOST_CALLS))
+    _source(session, recording, moment, high - table.lines * line)
+    if table.rows:
+        _calls(session, table)
     if said:
         imgui.push_text_wrap_pos(0.0)
         imgui.text_colored(theme.muted, said)
         imgui.pop_text_wrap_pos()
+
+
+def _gap() -> float:
+    """Between two items."""
+    return imgui.get_style().item_spacing.y
 
 
 def _controls(session: Session) -> None:
@@ -91,7 +96,7 @@ def _source(session: Session, recording: Recording | None, moment: int | None, r
         if is_running:
             pad.add_rect_filled(at, end, d.u32(theme.accent), 3.0 * d.unit())
             if session.recursion.scrolled((recording, moment, room)):
-                imgui.set_scroll_from_pos_y(at.y - imgui.get_window_pos().y + 0.5 * line_height, 0.5)
+                imgui.set_scroll_from_pos_y(0.5 * (at.y + end[1]) - imgui.get_window_pos().y, 0.5)
         elif number in waiting:
             pad.add_rect_filled(at, end, d.u32(faded(theme.accent, 0.25)), 3.0 * d.unit())
         for k, part in enumerate(parts):
@@ -129,69 +134,71 @@ def wrapped_code(line: str, most: int) -> list[str]:
 # --- the calls --------------------------------------------------------------------------------------------------------
 
 
-def _rows(tree: RayTree, recording: Recording | None, moment: int | None) -> list[tuple[Call | None, list[str]]]:
-    """The active calls, the first one on top: (call, values). If there are many, only the last ones."""
+@dataclass(frozen=True)
+class _Table:
+    """The active calls, the first one on top: a line for each, or two lines if the panel is narrow."""
+
+    columns: tuple[str, ...]
+    rows: list[tuple[str, list[str]]]  # the kind of the call's ray, and its cells
+    hidden: int  # calls above these
+
+    @property
+    def widths(self) -> list[float]:
+        cells = [self.columns, *(row for _, row in self.rows)]
+        gap = 0.8 * imgui.get_font_size()
+        return [gap + max(imgui.calc_text_size(row[k]).x for row in cells) for k in range(len(self.columns))]
+
+    @property
+    def fits(self) -> bool:
+        return sum(self.widths) <= imgui.get_content_region_avail().x
+
+    @property
+    def lines(self) -> int:
+        return 1 + (self.hidden > 0) + len(self.rows) * (1 if self.fits else 2) if self.rows else 0
+
+
+def _table(tree: RayTree, recording: Recording | None, moment: int | None, most: int) -> _Table:
+    """The table of the calls at a moment, at most the last `most`: in a narrow panel with fewer decimals, then without
+    the index.
+    """
     if not recording or moment is None:
-        return []
+        return _Table(COLUMNS, [], 0)
     stack = recording.stack(moment)
-    hidden = max(0, len(stack) - MOST_CALLS)
-    found: list[tuple[Call | None, list[str]]] = [(None, [f"… {hidden} more"])] if hidden else []
-    return found + [(call, _values(tree, call, values)) for call, values in stack[hidden:]]
+    shown = stack[-most:]
+    for columns, decimals in ((COLUMNS, 3), (COLUMNS, 2), (tuple(name for name in COLUMNS if name != "n1"), 2)):
+        rows = []
+        for call, values in shown:
+            cells = _cells(tree.label(call.row), values, decimals)
+            rows.append((tree.kind(call.row), [cells[name] for name in columns]))
+        table = _Table(columns, rows, len(stack) - len(shown))
+        if table.fits:
+            break
+    return table
 
 
-def _values(tree: RayTree, call: Call, values: Values) -> list[str]:
-    return [
-        tree.label(call.row),
-        str(values.depth),
-        format_number(values.n1, 4),
-        _number(values.kr),
-        _number(values.kt),
-        _color(values.color),
-    ]
+def _cells(label: str, values: Values, decimals: int) -> dict[str, str]:
+    def number(x: float | None) -> str:
+        return "" if x is None else format_number(x, 3)
+
+    color = "" if values.color is None else format_rgb(values.color, decimals).replace("  ", " ")
+    cells = (label, str(values.depth), format_number(values.n1, 4), number(values.kr), number(values.kt), color)
+    return dict(zip(COLUMNS, cells, strict=True))
 
 
-def _number(x: float | None) -> str:
-    return "" if x is None else format_number(x, 3)
-
-
-def _color(color: Vector | None) -> str:
-    return "" if color is None else format_rgb(color, 3).replace("  ", " ")
-
-
-def _widths(rows: Sequence[tuple[Call | None, list[str]]]) -> list[float]:
-    cells = [COLUMNS, *(row for call, row in rows if call)]
-    gap = 0.8 * imgui.get_font_size()
-    return [gap + max(imgui.calc_text_size(row[k]).x for row in cells) for k in range(len(COLUMNS))]
-
-
-def _fits(rows: Sequence[tuple[Call | None, list[str]]]) -> bool:
-    return sum(_widths(rows)) <= imgui.get_content_region_avail().x
-
-
-def _height(rows: Sequence[tuple[Call | None, list[str]]], said: str) -> float:
-    """The height of all that stands below the source text."""
-    line = imgui.get_text_line_height_with_spacing()
-    per_call = 1 if _fits(rows) else 2
-    calls = line * (1 + per_call * len(rows)) if rows else 0.0
-    wide = imgui.get_content_region_avail().x
-    return calls + (imgui.calc_text_size(said, wrap_width=wide).y + line if said else 0.0)
-
-
-def _calls(session: Session, rows: Sequence[tuple[Call | None, list[str]]]) -> None:
-    """A line for each call, in columns; in a narrow panel two lines, with the colour in the second."""
-    theme, tree, widths, fits = session.appearance.theme, session.tree, _widths(rows), _fits(rows)
-    assert tree
-    names = list(COLUMNS if fits else COLUMNS[:-1])
+def _calls(session: Session, table: _Table) -> None:
+    theme, widths, fits = session.appearance.theme, table.widths, table.fits
     left = imgui.get_cursor_pos_x()
-    for call, cells in [(None, names), *rows]:
+    if table.hidden:
+        imgui.text_colored(theme.muted, f"… {table.hidden} more")
+    for kind, cells in [("", list(table.columns)), *table.rows]:
         x = left
         for k, cell in enumerate(cells):
-            if k == len(COLUMNS) - 1 and not fits:
+            if k == len(cells) - 1 and not fits:
                 imgui.set_cursor_pos_x(left + widths[0])
             elif k:
                 imgui.same_line(x)
-            color = theme.muted if call is None else theme.text
-            imgui.text_colored(theme.ray(tree.kind(call.row)) if call and k == 0 else color, cell)
+            color = theme.text if kind else theme.muted
+            imgui.text_colored(theme.ray(kind) if kind and k == 0 else color, cell)
             x += widths[k]
 
 

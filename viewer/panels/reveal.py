@@ -22,8 +22,7 @@ def draw_controls(session: Session) -> None:
     reveal = session.reveal
     row = _Row()
     for name in GRANULARITIES:
-        label = f"By {name[:-1]}"
-        if row.toggle(session, label, reveal.granularity == name, f"{GRANULARITY_WORDS[name]} (key G)"):
+        if row.toggle(session, name.capitalize(), reveal.granularity == name, f"{GRANULARITY_WORDS[name]} (key G)"):
             reveal.set_granularity(name)
     row.gap()
     for name, label in ORDER_LABELS.items():
@@ -51,7 +50,7 @@ def draw_controls(session: Session) -> None:
         change_speed(session, 1)
     if row.toggle(session, "Loop", reveal.loops, "play endlessly (key E)"):
         reveal.toggle_loop()
-    if reveal.place and row.button("Whole tree", "leave the steps (Esc)"):
+    if reveal.place and row.button("All", "show the whole tree (Esc)"):
         reveal.leave()
 
 
