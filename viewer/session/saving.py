@@ -5,6 +5,7 @@ from pathlib import Path
 from viewer.base.clipboard import copy_to_clipboard
 from viewer.base.files import Unusable
 from viewer.base.pictures import write_picture
+from viewer.figures.catalogue import ORDERS, STEPS
 from viewer.figures.export_options import ExportOptions
 from viewer.session.figure_export import Shown, free_path
 from viewer.session.session import Session
@@ -17,6 +18,7 @@ def export_figure(session: Session, copied: bool = False) -> None:
         session.notice.say("nothing to export yet: pick a pixel")
         return
     figure, lesson = session.export.figure, session.lesson
+    step = session.step if figure != "hit" else None  # a hit has no steps
     options = ExportOptions(
         scene=lesson.name if lesson else str(session.path),
         pixel=session.pixel,
@@ -24,13 +26,16 @@ def export_figure(session: Session, copied: bool = False) -> None:
         view=session.orbit.view(session.frame) if figure in ("both", "scene") else None,
         node=tree.path(session.selected or 0) if figure == "hit" else None,
         depth=range(session.depth, session.depth + 1),
+        step=session.reveal.granularity if step else STEPS[0],
+        order=session.reveal.order if step else ORDERS[0],
+        page=session.reveal.position if step else None,
         model=session.model,
         no_lights="shadow" not in session.shown.kinds,
         up=session.up,
         output=".",
     )
     name, angles = (lesson.name, lesson.view) if lesson else (session.path.stem, None)
-    shown = Shown(options, session.appearance.theme.name, session.world, name, angles)
+    shown = Shown(options, session.appearance.theme.name, session.world, name, angles, step.name if step else "")
     session.export.start(shown, copied, session.notice.say, session.show_faults)
 
 
