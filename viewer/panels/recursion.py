@@ -14,6 +14,7 @@ from viewer.figures.catalogue import RECURSION
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.panel import Corner, Panel
+from viewer.panels.reveal import draw_controls
 from viewer.session.actions import step_line
 from viewer.session.session import Session
 from viewer.session.view_state import Request
@@ -21,6 +22,7 @@ from viewer.session.view_state import Request
 FONT = 1  # of the fonts that the backend loads: that for source text
 HANG = 4  # characters by which the rest of a long line is indented
 FEWEST = 3  # lines of source text that are in view at least
+ROOMY = 18  # lines of text: in a panel of this height there is room for the controls of the steps
 COLUMNS = ("ray", "depth", "n1", "kr", "kt", "color")  # the variables have their names in the source text
 FEWEST_CALLS, MOST_CALLS = 2, 8  # that are listed, as there is room: the last ones
 
@@ -30,9 +32,12 @@ def draw(session: Session, canvas: Canvas) -> None:
     if not session.tree:
         imgui.text_colored(theme.muted, "No pixel is picked.")
         return
-    recursion.ask()
+    if session.reveal.step and session.reveal.order == RECURSION:
+        recursion.ask()
     recording, moment = recursion.recording, recursion.moment
-    _controls(session)
+    if imgui.get_content_region_avail().y >= ROOMY * imgui.get_text_line_height_with_spacing():
+        draw_controls(session)
+    _lines(session)
     said = _said(session, recording, moment)
     room, line, gap = imgui.get_content_region_avail(), imgui.get_text_line_height_with_spacing(), _gap()
     high = room.y - gap - (imgui.calc_text_size(said, wrap_width=room.x).y + gap if said else 0.0)
@@ -52,8 +57,8 @@ def _gap() -> float:
     return imgui.get_style().item_spacing.y
 
 
-def _controls(session: Session) -> None:
-    """Buttons for lines, and the file."""
+def _lines(session: Session) -> None:
+    """Buttons to go from line to line, and the name of the file."""
     for label, by, hint in (("< line", -1, "back (Shift+Page Up)"), ("line >", 1, "on (Shift+Page Down)")):
         if imgui.button(label):
             step_line(session, by)

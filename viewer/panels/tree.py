@@ -19,7 +19,6 @@ from viewer.figures.ray_lines import relatives
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.panel import Corner, Panel
-from viewer.panels.reveal import draw_controls
 from viewer.session.session import Session
 
 MOST_ROWS = 160  # the heaviest rays, if a tree has more
@@ -32,7 +31,6 @@ RADIUS = 11.0
 
 
 def draw(session: Session, canvas: Canvas) -> None:
-    draw_controls(session)
     corner = imgui.get_cursor_screen_pos()
     room = imgui.get_content_region_avail()
     if room.x < 8 or room.y < 8:
@@ -175,7 +173,9 @@ class _Diagram:
         if self.tree.nodes["kind"][i] == SHADOW:
             self._light_end(i)
             return
-        (x, y), opacity, r = self.at[i], self.opacity(i), self.radius
+        x, y = self.at[i]
+        opacity = self.opacity(i)
+        r = self.radius
         fill = faded(display_color(self.tree.nodes["radiance"][i]), opacity)
         self.pad.add_circle_filled((x, y), r + 2.0 * d.unit(), d.u32(self.theme.panel))
         self.pad.add_circle_filled((x, y), r, d.u32(fill))

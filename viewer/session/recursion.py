@@ -30,6 +30,7 @@ class Recursion:
         self.reveal, self.post = reveal, post
         self.tree: RayTree | None = None  # the one asked for last
         self.found: Recording | None = None  # the last one that was recorded
+        self._begun = False  # whether the run for `tree` has been started, or waits for the end of another
         self._running: Thread | None = None
         self._line: Line | None = None
         self.scrolled = Changed()  # whether the source text has to scroll to another line
@@ -42,14 +43,16 @@ class Recursion:
         return self.found if self.found and self.found.tree is self.reveal.tree else None
 
     def ask(self) -> None:
-        """Record the run for the tree on show, unless that has been asked for. A run for another tree ends."""
-        if self.reveal.tree is not self.tree:
-            self.tree = self.reveal.tree
-            self._start()
+        """Record the run for the tree on show. A run for another tree ends.
 
-    def forget(self) -> None:
-        """End a run."""
-        self.tree = None
+        Called in each frame that shows the recursion. It begins in the second frame of a tree, so that a pick is shown
+        before, and while the mouse is dragged from pixel to pixel there is none.
+        """
+        if self.reveal.tree is not self.tree:
+            self.tree, self._begun = self.reveal.tree, False
+        elif not self._begun:
+            self._begun = True
+            self._start()
 
     def wait(self) -> None:
         """Wait until the run is recorded; the result comes with the next posted call."""
@@ -62,20 +65,21 @@ class Recursion:
             return
 
         def work() -> None:
-            found: Recording | None = None
             try:
                 found = record(tree, lambda: self.tree is tree)
-            finally:
-                self.post(lambda: self._finish(tree, found))
+            except Exception as error:  # by the page's plain formulas, in a degenerate scene
+                found = Recording(tree, [], [], f"The run failed: {error!r}.")
+            self.post(lambda: self._finish(tree, found))
 
         self._running = Thread(target=work, daemon=True, name="recursion")
         self._running.start()
 
-    def _finish(self, tree: RayTree, found: Recording | None) -> None:
+    def _finish(self, tree: RayTree, found: Recording) -> None:
         self._running = None
         if tree is not self.tree:
-            self._start()
-        elif found:
+            if self._begun:
+                self._start()
+        else:
             self.found = found
 
     # --- the current line ---------------------------------------------------------------------------------------------

@@ -28,9 +28,10 @@ def begin(driver: Driver) -> None:
     """Bring the panel to the front, and go to the first depth-first step."""
     driver.session.requests.append(Request.SHOW_RECURSION)
     driver.frames(4)
-    driver.session.recursion.wait()
     driver.type("o")
     driver.press(Key.page_down)
+    driver.session.recursion.wait()
+    driver.frames()
 
 
 def window(title: str) -> internal.Window:
@@ -39,14 +40,15 @@ def window(title: str) -> internal.Window:
     return found
 
 
-def test_nothing_is_recorded_while_the_panel_is_hidden(glass: Driver) -> None:
+def test_nothing_is_recorded_while_the_panel_is_hidden_or_the_order_is_another(glass: Driver) -> None:
     session = glass.session
-    session.requests.append(Request.SHOW_RAY)
-    glass.frames(4)
-    asked = session.recursion.tree
-    session.pick(300, 200)
-    glass.frames(4)
-    assert session.recursion.tree is asked is not session.tree
+    for hidden, order in ((Request.SHOW_RAY, "recursion"), (Request.SHOW_RECURSION, "breadth")):
+        session.requests.append(hidden)
+        session.reveal.set_order(order)
+        session.reveal.first()
+        glass.frames(4)
+        assert session.recursion.tree is None
+    session.reveal.leave()
     begin(glass)
     assert session.recursion.recording and session.recursion.recording.tree is session.tree
 
@@ -143,3 +145,41 @@ def test_a_long_line_is_wrapped() -> None:
             assert all(len(part) <= most for part in parts)
             assert "".join("".join(parts).split()) == "".join(line.split())
     assert all(len(line) <= 64 for line in source().lines[1:])  # at the usual size, in a panel of 460 pixels
+
+
+def test_the_controls_of_the_steps(glass: Driver) -> None:
+    """Each button does what its key does. They are found by pressing along the rows of the panel."""
+    glass.resize((1280, 1200))
+    begin(glass)
+    session = glass.session
+    reveal = session.reveal
+
+    def state() -> tuple[object, ...]:
+        return (reveal.granularity, reveal.order, reveal.position, reveal.is_playing, reveal.loops, reveal.speed)
+
+    def reset() -> None:
+        reveal.set_order(RECURSION)
+        reveal.go_to(5)
+        reveal.pause()
+        reveal.loops, reveal.speed = False, 1.0
+        glass.frames(1)
+
+    reset()
+    start, found = state(), set()
+    place = window(recursion.PANEL.title).inner_rect
+    for y in (place.min.y + 18, place.min.y + 48):
+        for x in range(int(place.min.x) + 12, int(place.max.x), 14):
+            reset()
+            glass.move(x, y)
+            glass.button(True)
+            glass.button(False)
+            if state() != start:
+                found.add(state())
+    play, levels = ("rays", RECURSION, 5, True, False, 1.0), ("levels", "breadth")
+    assert found >= {
+        play,
+        *(("rays", RECURSION, k, False, False, 1.0) for k in (0, 4, 6, len(reveal.steps or ()) - 1, None)),
+        ("rays", RECURSION, 5, False, True, 1.0),
+        *(("rays", RECURSION, 5, False, False, speed) for speed in (0.5, 2.0)),
+    }
+    assert {one[:2] for one in found} == {("rays", RECURSION), ("rays", "breadth"), levels}
