@@ -159,12 +159,12 @@ BINDINGS = (
     ),
     Binding("<  >  E", "play slower, faster; endlessly", {"<": _speed(-1), ">": _speed(1), "e": toggle_loop}),
     Binding(
-        "G  O", "steps by level or by ray; breadth-first as the kernel, or depth-first as the recursive procedure",
+        "G  O", "steps: levels or rays; breadth-first as the kernel, or depth-first as the recursion",
         {"g": toggle_granularity, "o": toggle_order},
     ),
     Binding("J  K", "scroll the text or the numbers: down, up", {"j": _scroll(LINES), "k": _scroll(-LINES)}),
     Binding(
-        "P", "next panel at the lower right: lesson, numbers, error",
+        "P", "next panel at the lower right: lesson, numbers, error, recursion",
         {"p": lambda session: session.requests.append(Request.NEXT_PANEL)},
     ),
     Binding(
