@@ -76,12 +76,16 @@ def make(
     """
     depth = world.scene.tracing.depth
     depths = options.depth or range(depth, depth + 1)
-    steps = steps_of(world, options, depths)
+    every = steps_of(world, options, depths)
+    steps = chosen(every, options.page)
     check_pages(target, steps)
-    subject = Subject(steps, world, orbit_of(options.view, world, view))
+    # One page is laid out with the last one, the fullest, so that it is the same as among all pages.
+    laid_out = steps if options.page is None else [*steps, every[-1]]
+    subject = Subject(laid_out, world, orbit_of(options.view, world, view))
     style = style_of(options, steps)
     stem = stem_of(scene, options.pixel)
     drawn = pages(options.figure, subject, style) if any(FORMATS[name].figures for name in target.formats) else []
+    drawn = drawn[: len(steps)]
     notes = ray_notes(drawn, options.figure, subject) + fold_notes(drawn, options.figure, subject, style)
     notes += size_notes(drawn, options.figure, style) + sum_notes(drawn, options.figure, subject, style)
     carried, left_out = pack(embedded) if embedded and carries(target) else (b"", [])
@@ -94,13 +98,22 @@ def make(
         for k, group in enumerate(grouped(kind, steps, options.step)):
             progress(len(files) / (len(target.formats) * len(steps)))
             if kind.figures:
-                mark = mark_of(group, steps, options.step, depths)
+                mark = mark_of(group, every, options.step, depths)
                 content = kind.write(figures if kind.many_pages else figures[k : k + 1], options.width or PIXELS)
                 files.append((target.file(f"{stem}_{options.figure}_{mark}", kind.suffix), content))
             else:
                 one = group[-1].tree
                 files.append((target.file(f"{stem}_d{one.depth}", kind.suffix), kind.text(one).encode("utf-8")))
     return Made(files, notes)
+
+
+def chosen(steps: Sequence[Step], page: int | None) -> Sequence[Step]:
+    """All pages, or the one that is asked for. Unusable if there is no such page."""
+    if page is None:
+        return list(steps)
+    if page >= len(steps):
+        raise Unusable(f"raytree export: --page must be within 0 .. {len(steps) - 1}, got {page}")
+    return [steps[page]]
 
 
 def command_line(options: ExportOptions, format_name: str) -> str:
@@ -115,7 +128,7 @@ def carries(target: Target) -> bool:
     return any(FORMATS[name].suffix in CARRYING for name in target.formats)
 
 
-def steps_of(world: World, options: ExportOptions, depths: range) -> list[Step]:
+def steps_of(world: World, options: ExportOptions, depths: range) -> Sequence[Step]:
     """Trace the trees, and divide them into pages."""
     ray = (options.ray[:3], options.ray[3:]) if options.ray else None
     how = {
@@ -128,11 +141,11 @@ def steps_of(world: World, options: ExportOptions, depths: range) -> list[Step]:
     lights = not options.no_lights
     match options.step:
         case "levels":
-            return list(by_level(trees[-1], lights))
+            return by_level(trees[-1], lights)
         case "rays":
-            return list(by_ray(trees[-1], options.order, lights))
+            return by_ray(trees[-1], options.order, lights)
         case "colour":
-            return list(by_color(trees[-1], options.order, lights))
+            return by_color(trees[-1], options.order, lights)
     return by_depth(trees, lights)
 
 
@@ -197,7 +210,7 @@ def sum_notes(drawn: Sequence[Figure], figure: str, subject: Subject, style: Fig
     if not drawn or figure not in ("both", "tree"):
         return []
     sizes = []
-    for step, page in zip(subject.steps, drawn, strict=True):
+    for step, page in zip(subject.steps, drawn, strict=False):
         if any(mark.name == f"hit-{step.sum}" for mark in page.marks):  # not in a folded branch
             texts = [mark.size for mark in page.marks if mark.name == f"sum-{step.sum}" and isinstance(mark, Text)]
             sizes.append(min(texts, default=0.0))

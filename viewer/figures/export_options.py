@@ -59,6 +59,7 @@ class ExportOptions:
         "rays, colour: breadth-first as the kernel does it, or depth-first as a recursion does",
         ORDERS[0],
     )
+    page: int | None = option(whole(0), "of the steps, only this page, from 0")
     model: str | None = option(one_of(MODELS), "the scene's own by default")
     min_weight: float = option(WEIGHT, "do not follow rays of a smaller weight", 0.0)
     max_rays: int | None = option(whole(1), MAX_RAYS_HELP)

@@ -10,6 +10,8 @@ from viewer.base.theme import FONT_SIZE, SMALL, Arrow, Color, RayStyle, Theme, f
 
 Point = tuple[float, float]
 
+BOLD, SOURCE = 1, 2  # numbers of fonts, after the usual one
+
 
 def u32(color: Color) -> int:
     return imgui.get_color_u32(color)
@@ -20,10 +22,15 @@ def unit() -> float:
     return imgui.get_font_size() / FONT_SIZE
 
 
+def font(which: int) -> imgui.ImFont:
+    """One of the fonts of the window (`viewer.window.fonts`)."""
+    return imgui.get_io().fonts.fonts[which]
+
+
 @contextmanager
 def bold(size: float = 0.0) -> Iterator[None]:
     """Text of the second weight, at a font size in logical pixels (0: the size on hand)."""
-    imgui.push_font(imgui.get_io().fonts.fonts[1], size)
+    imgui.push_font(font(BOLD), size)
     try:
         yield
     finally:

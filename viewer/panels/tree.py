@@ -28,6 +28,7 @@ from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.panel import Panel
+from viewer.panels.reveal import draw_controls
 from viewer.session.layout import Corner
 from viewer.session.session import Session
 
@@ -115,7 +116,6 @@ def _note(tree: RayTree, marks: Sequence[Mark], style: FigureStyle) -> list[Mark
         return []
     size, (width, height) = SMALL * style.text_size, style.page
     vacant = FreeSpace((EDGE, EDGE, width - EDGE, height - EDGE), marks)
-    vacant.take((0.0, 0.0, 8.0 * style.text_size, 2.5 * style.text_size))  # the panel's title
     weight, most = format_number(tree.residual, 3), tree.bound
     bound = f"at most {format_number(most, 3)} missing" if most < math.inf else "no bound on the missing light"
     for words in (cut_summary(tree), f"cut: {weight} of the weight, {bound}", f"cut: {weight} of the weight"):
@@ -181,4 +181,14 @@ def _handle_mouse(session: Session, marks: list[Mark], origin: Point, scale: flo
         session.select(row)
 
 
-PANEL = Panel("Ray tree", draw, Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT, fills=True, shows_ray=True)
+def _head(session: Session, room: float) -> None:
+    """The controls of the steps, while the tree is revealed step by step."""
+    if session.step:
+        draw_controls(session)
+    else:
+        imgui.new_line()
+
+
+PANEL = Panel(
+    "Ray tree", draw, Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT, fills=True, head=_head, is_covered=False, shows_ray=True
+)

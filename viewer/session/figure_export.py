@@ -32,6 +32,7 @@ class Shown:
     scene: str  # its name in file names
     view: ViewAngles | None
     files: SceneFiles | None  # carried by the figure
+    step: str = ""  # the name of the step in file names
 
     @property
     def size(self) -> tuple[int, int]:
@@ -78,7 +79,8 @@ class FigureExport:
         self.command = shell_line(["raytree", "export", *words(options, leave_out=("output",))])
         self._keep()
         depth = options.depth[-1] if options.depth else 0
-        stem = f"{stem_of(shown.scene, options.pixel)}_{self.figure}_d{depth}"
+        step = f"_{shown.step}" if shown.step else ""
+        stem = f"{stem_of(shown.scene, options.pixel)}_{self.figure}_d{depth}{step}"
         target = Target(free_path(Path.cwd() / (stem + FORMATS[name].suffix)), is_folder=False, formats=(name,))
         say("copying the figure ..." if copied else f"exporting {target.path.name} ...")
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from viewer.base.clipboard import copy_to_clipboard
 from viewer.base.files import Unusable, free_path
 from viewer.base.pictures import write_picture
+from viewer.figures.catalogue import ORDERS, STEPS
 from viewer.figures.export_options import ExportOptions
 from viewer.reopen.view_state import UNCHANGED, differing
 from viewer.session.figure_export import Shown
@@ -22,6 +23,7 @@ def export_figure(session: Session, copied: bool = False) -> None:
         session.notice.say("nothing to export yet: pick a pixel")
         return
     figure, lesson, opening = session.export.figure, session.lesson, session.opening
+    step = session.step if figure != "hit" else None  # a hit has no steps
     options = ExportOptions(
         scene=scene_word(opening.path, lesson, opening.figure),
         pixel=session.pixel,
@@ -29,6 +31,9 @@ def export_figure(session: Session, copied: bool = False) -> None:
         view=session.orbit.view(session.frame) if figure in ("both", "scene") else None,
         node=tree.path(session.selected) if figure == "hit" and session.selected is not None else None,
         depth=range(session.depth, session.depth + 1),
+        step=session.reveal.granularity if step else STEPS[0],
+        order=session.reveal.order if step else ORDERS[0],
+        page=session.reveal.position if step else None,
         model=session.model,
         no_lights="shadow" not in session.shown.kinds,
         up=session.up,
@@ -39,7 +44,8 @@ def export_figure(session: Session, copied: bool = False) -> None:
     more = differing(state, options.state(session.size))
     options = replace(options, reopen=more if more != UNCHANGED else None)
     name, angles = (lesson.name, lesson.view) if lesson else (opening.path.stem, None)
-    shown = Shown(options, session.appearance.theme.name, session.world, name, angles, opening.files)
+    part = step.name if step else ""
+    shown = Shown(options, session.appearance.theme.name, session.world, name, angles, opening.files, part)
     session.export.start(shown, copied, session.notice.say, session.show_faults)
 
 
