@@ -1,5 +1,6 @@
 // Arrow heads by their distance to the outline: 1 filled, 2 a chevron, 3 two chevrons.
 #version 330
+#include "front.glsl"
 uniform float opacity;
 uniform vec4 seam;     // w = 1: this colour for all, for the halo
 uniform float extra;   // logical pixels added on every side: the halo
@@ -27,6 +28,7 @@ float head(vec2 p) {
 }
 
 void main() {
+    if (is_left_out()) discard;
     float d = shape == 1 ? head(spot)
             : shape == 2 ? chevron(spot, 0.0, 0.8 * reach)
             : min(chevron(spot, -0.1 * reach, 0.7 * reach), chevron(spot, 0.4 * reach, 0.7 * reach));

@@ -1,5 +1,6 @@
 // A ray's strip: round ends, smooth edges, dashes in pixels; `opacity` fades it as a whole (behind objects, not selected).
 #version 330
+#include "front.glsl"
 uniform float opacity;
 uniform vec4 seam;     // w = 1: this colour for all, for the halo
 in vec4 ink;
@@ -11,6 +12,7 @@ flat in float fades;
 out vec4 color;
 
 void main() {
+    if (is_left_out()) discard;
     float along = clamp(beside.x, 0.0, span);
     float away = length(vec2(beside.x - along, beside.y));
     float cover = clamp(half_width + 0.5 - away, 0.0, 1.0);

@@ -68,12 +68,14 @@ NOTHING_DASH = (1.6, 5.0)
 HALO = 1.6  # pixels of background colour on either side of a ray, so that it is visible on any image
 HIDDEN = 0.30  # opacity of what is behind or inside an opaque object
 DIMMED = 0.4  # opacity of rays that are not on the path of the selected one
+QUIET, QUIET_WIDTH = 0.45, 0.6  # opacity of shadow rays whose hit is not selected, and the share of their width
+GLOW, GLOW_WIDTH = 0.55, 7.0  # opacity of what lies under the ray that is pointed at, and its additional width
 ARROW = 11.0  # pixels
 ARROW_AT = 0.58  # of the ray's length: at the end, an arrow would be hidden by the surface
 ESCAPE = 0.9  # of the scene's radius: length of a ray that leaves the scene
 NORMAL = 0.16  # of the scene's radius: length of a normal
 NORMAL_WIDTH = 1.5
-FRAME_WIDTH = 1.2  # the camera's frustum
+FRAME_WIDTH, FRAME_OPACITY = 1.2, 0.75  # the camera's frustum
 EDGE_WIDTH = 1.0  # edges of cut glass: thinner than any ray
 EDGE_OPACITY = 0.5
 

@@ -7,16 +7,26 @@ import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
+from tracer.tree.raytree import RayTree
 from viewer.base.cached import Cached, Changed
 from viewer.base.colormap import colorize
 from viewer.explain.interfaces import Interface
 from viewer.explain.sections import Part
 from viewer.figures.layout.tidy_tree import Place as TreePlace
-from viewer.figures.ray_lines import RayLine, drawn_rows, ray_lines, relatives
+from viewer.figures.ray_lines import NO_LINES, RayLines, drawn_rows, ray_lines, relatives
 from viewer.gl.magnified import NEAR, Place, magnify
 from viewer.gl.picture_texture import PictureTexture
 from viewer.gl.stage import ImagePlane, Stage
-from viewer.gl.stage_lines import StageLines, frustum_lines, glass_edges, image_plane, normal_lines, style_rays
+from viewer.gl.lines import NO_ROWS
+from viewer.gl.stage_lines import (
+    StageLines,
+    frustum_lines,
+    glass_edges,
+    glow_lines,
+    image_plane,
+    normal_lines,
+    style_rays,
+)
 from viewer.session.image_renderer import Picture
 from viewer.session.session import Session
 
@@ -40,7 +50,8 @@ class Canvas:
         self.session = session
         self.stage = Stage(ctx)
         self.image = PictureTexture(ctx)
-        self.lines: list[RayLine] = []  # rays in the 3D view
+        self.tree: RayTree | None = None  # whose rays are in the 3D view
+        self.lines: RayLines = NO_LINES  # these rays
         self.kept: set[int] | None = None  # rows of these rays that stay bright beside the selected one; None: all
         self.drawn = 0  # rows of the tree that the 3D view draws, of all kinds
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
@@ -54,6 +65,7 @@ class Canvas:
         self._map: Cached[moderngl.Texture | None] = Cached(_release)
         self._near: Cached[Seen | None] = Cached(lambda seen: _release(seen and seen.texture))
         self._view_changed = Changed()
+        self._lines_changed = Changed()
         self._world_changed = Changed()
         self._edges_changed = Changed()
         self._plane: np.ndarray | None = None
@@ -103,13 +115,16 @@ class Canvas:
 
     def view3d(self, size: tuple[int, int], scale: float) -> moderngl.Texture:
         """The 3D view, `size` in pixels, `scale` pixels per logical pixel; bottom row first, as OpenGL has it."""
-        session = self.session
+        session, theme = self.session, self.session.appearance.theme
         image = self.picture() if session.shown.camera else None
-        if self._view_changed(self._view_key(size, scale)):
+        lines = self._lines_key()
+        if self._view_changed((size, scale, lines, session.hovered, self._eye(), self._image_state())):
             self._set_world()
-            self._set_lines()
+            if self._lines_changed(lines):
+                self._set_lines()
+            self.stage.set_glow(glow_lines(self.lines, session.hovered, theme))
             plane = ImagePlane(self._plane, image) if image is not None and self._plane is not None else None
-            self.stage.draw(session.orbit, session.appearance.theme, size, scale, plane)
+            self.stage.draw(session.orbit, theme, size, scale, plane)
             self._throttle.drawn = True
         return self.stage.target.texture
 
@@ -117,24 +132,19 @@ class Canvas:
         """Called after each frame of the window."""
         self._throttle.frame_took(seconds)
 
-    def _view_key(self, size: tuple[int, int], scale: float) -> tuple:
-        """All that the 3D view depends on."""
+    def _eye(self) -> tuple:
+        orbit = self.session.orbit
+        return (orbit.azimuth, orbit.elevation, orbit.distance, *orbit.target)
+
+    def _image_state(self) -> object:
         session = self.session
-        orbit, shown = session.orbit, session.shown
-        eye = (orbit.azimuth, orbit.elevation, orbit.distance, *orbit.target)
-        image = self._throttle.state(session.image.picture, self.image.state) if shown.camera else None
+        return self._throttle.state(session.image.picture, self.image.state) if session.shown.camera else None
+
+    def _lines_key(self) -> tuple:
+        """All that the lines of the 3D view depend on."""
+        session, shown = self.session, self.session.shown
         switches = (frozenset(shown.kinds), shown.camera, shown.normals)
-        return (
-            size,
-            scale,
-            eye,
-            image,
-            switches,
-            session.world,
-            session.tree,
-            session.selected,
-            session.appearance.theme.name,
-        )
+        return (switches, session.world, session.tree, session.selected, session.appearance.theme)
 
     def _set_world(self) -> None:
         session = self.session
@@ -146,25 +156,23 @@ class Canvas:
             self.stage.set_edges(glass_edges(session.world, session.frame, session.appearance.theme))
 
     def _set_lines(self) -> None:
-        session = self.session
-        marks = []
-        self.lines, self.kept = [], None
-        rays = []
-        self._plane = None
+        session, theme = self.session, self.session.appearance.theme
+        marks, rays = [NO_ROWS], NO_ROWS
+        self.tree, self.lines, self.kept, self._plane = session.tree, NO_LINES, None, None
         if session.world and session.shown.camera:
             view = session.world.view()
             self._plane = image_plane(view, session.frame, np.zeros(3))
-            marks += frustum_lines(view, session.frame, self._plane, session.appearance.theme)
+            marks.append(frustum_lines(view, session.frame, self._plane, theme))
         if session.tree:
-            tree, selected, theme = session.tree, session.selected, session.appearance.theme
+            tree, selected = session.tree, session.selected
             rows = drawn_rows(tree, selected)
             self.drawn = len(rows)
             self.kept = kept = relatives(tree, selected, rows) if selected is not None else None
             self.lines = ray_lines(tree, rows, session.frame, session.shown.kinds)
-            rays = style_rays(self.lines, kept, selected, theme)
+            rays = style_rays(tree, self.lines, kept, selected, theme)
             if session.shown.normals:
-                marks += normal_lines(tree, rows, session.frame, kept, theme)
-        self.stage.set_lines(StageLines(marks, rays))
+                marks.append(normal_lines(tree, rows, session.frame, kept, theme))
+        self.stage.set_lines(StageLines(np.concatenate(marks), rays))
 
     def release(self) -> None:
         self.stage.release()

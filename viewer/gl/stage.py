@@ -1,7 +1,14 @@
 """The 3D view: background, surfaces, the camera with its image, rays, glass, and hidden lines more faintly.
 
-The order matters. Rays are drawn before glass, so that they are seen inside it, and then once more, faintly, where
-an opaque surface hides them.
+Surfaces take nearly all of the time, and only another view or another scene changes them. So they are drawn into
+layers, which are kept (`target`). A pick, a selection or another depth draws only the image and the lines between
+copies of these layers:
+
+1. the opaque surfaces;
+2. what is behind the frontmost glass: the image, and rays;
+3. the transparent surfaces;
+4. what is before the frontmost glass: the image, and rays. So glass veils no ray that is before it;
+5. what an opaque surface or the image hides, more faintly.
 """
 
 from dataclasses import dataclass
@@ -10,17 +17,22 @@ import moderngl
 import numpy as np
 
 from tracer.kernel.world import World
+from viewer.base.cached import Changed
 from viewer.base.orbit import Frame, Orbit
 from viewer.base.theme import EDGE_OPACITY, HIDDEN, Theme, faded
 from viewer.gl.features import Features, features_of
 from viewer.gl.float32 import float32
-from viewer.gl.lines import Line, Lines
+from viewer.gl.lines import Lines, Side
 from viewer.gl.program import make_program, put
 from viewer.gl.stage_lines import StageLines
 from viewer.gl.surfaces import Surfaces, make_surface_program
 from viewer.gl.target import Target
 
 IMAGE_OPACITY = 0.78  # of the image on the image plane: both the image and what is behind it are seen
+# Surfaces are pushed back a little, so that lines that end on a surface stay in front of it.
+PUSHED = (1.0, 2.0)
+# The target stays opaque whatever is blended into it, and an empty layer becomes colour times opacity, and opacity.
+BLENDED = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 
 
 @dataclass(frozen=True)
@@ -31,6 +43,16 @@ class ImagePlane:
     texture: moderngl.Texture
 
 
+@dataclass(frozen=True)
+class _Look:
+    """How one picture is drawn: `size` in pixels, `scale` in pixels per logical pixel."""
+
+    matrix: np.ndarray
+    size: tuple[int, int]
+    scale: float
+    theme: Theme
+
+
 class Stage:
     """Draws one world into one target."""
 
@@ -39,13 +61,17 @@ class Stage:
         self.target = Target(ctx)
         self.programs: dict[Features, moderngl.Program] = {}  # of surfaces, by the features that scenes have asked for
         self.ground = make_program(ctx, "ground")
+        self.layer = make_program(ctx, "layer")
         self.picture = make_program(ctx, "picture")
         self.empty = ctx.vertex_array(self.ground, [])
+        self.layer_array = ctx.vertex_array(self.layer, [])
         self.picture_array = ctx.vertex_array(self.picture, [])
         self.marks = Lines(ctx)  # frustum, normals
         self.rays = Lines(ctx)
+        self.glow = Lines(ctx)  # under the ray that is pointed at
         self.edges = Lines(ctx)  # of cut glass
         self.surfaces: Surfaces | None = None
+        self._layers_changed = Changed()
 
     def set_world(self, world: World, frame: Frame, features: Features | None = None) -> None:
         """Show this world, with the features that it needs, or with these."""
@@ -55,72 +81,127 @@ class Stage:
         if features not in self.programs:
             self.programs[features] = make_surface_program(self.ctx, features)
         self.surfaces = Surfaces(self.ctx, self.programs[features], world, frame, features)
+        self.forget()
 
-    def set_edges(self, lines: list[Line]) -> None:
-        self.edges.set(lines)
+    def set_edges(self, rows: np.ndarray) -> None:
+        self.edges.set(rows)
+        self.forget()
 
     def set_lines(self, lines: StageLines) -> None:
         self.marks.set(lines.marks)
         self.rays.set(lines.rays)
+
+    def set_glow(self, rows: np.ndarray) -> None:
+        self.glow.set(rows)
+
+    def forget(self) -> None:
+        """Draw the surfaces again for the next picture."""
+        self._layers_changed = Changed()
 
     def draw(self, orbit: Orbit, theme: Theme, size: tuple[int, int], scale: float, plane: ImagePlane | None) -> None:
         """Draw into the target. `size` in pixels, `scale` pixels per logical pixel."""
         ctx = self.ctx
         self.target.resize(size)
         size = self.target.size
-        matrix = orbit.matrix(size[0] / size[1])
-        edge = faded(theme.text, EDGE_OPACITY)
-        self.target.use()
+        look = _Look(orbit.matrix(size[0] / size[1]), size, scale, theme)
         ctx.enable_only(moderngl.BLEND)
-        # The target stays opaque, whatever is blended into it.
-        ctx.blend_func = (  # type: ignore[assignment]  # the type stub lacks the form with four factors
-            moderngl.SRC_ALPHA,
-            moderngl.ONE_MINUS_SRC_ALPHA,
-            moderngl.ONE,
-            moderngl.ONE_MINUS_SRC_ALPHA,
+        ctx.blend_func = BLENDED  # type: ignore[assignment]  # the type stub lacks the form with four factors
+        ctx.depth_func = "<="
+        self._layers_changed.run(
+            (size, scale, theme, look.matrix.tobytes()), lambda: self._draw_layers(orbit, look)
         )
-        put(self.ground, top=theme.sky[:3], bottom=theme.haze[:3])
-        self.target.drawn.depth_mask = False
+        self._compose(look, plane)
+
+    # --- the layers that are kept -------------------------------------------------------------------------------------
+
+    def _draw_layers(self, orbit: Orbit, look: _Look) -> None:
+        ctx, target, surfaces = self.ctx, self.target, self.surfaces
+        sampled = target.sampled
+        sampled.use()
+        sampled.depth_mask = True
+        sampled.clear(0.0, 0.0, 0.0, 1.0, depth=1.0)
+        put(self.ground, top=look.theme.sky[:3], bottom=look.theme.haze[:3])
         self.empty.render(moderngl.TRIANGLES, vertices=3)
-        self.target.drawn.depth_mask = True
         ctx.enable(moderngl.DEPTH_TEST)
-        ctx.depth_func = "<="
-        if self.surfaces:
-            # Surfaces are pushed back a little, so that lines that end on a surface stay in front of it.
-            ctx.polygon_offset = 1.0, 2.0
-            self.surfaces.draw_opaque(orbit, matrix, edge)
+        if surfaces:
+            ctx.polygon_offset = PUSHED
+            surfaces.draw_opaque(orbit, look.matrix, faded(look.theme.text, EDGE_OPACITY))
             ctx.polygon_offset = 0.0, 0.0
-        self.target.drawn.depth_mask = False
-        self.edges.draw(matrix, size, scale)
-        self._draw_lines(matrix, theme, size, scale, 1.0)
-        if plane:
-            self._draw_picture(matrix, plane)
-        if self.surfaces:
-            self.surfaces.draw_clear(orbit)
-        ctx.depth_func = ">"
-        self._draw_lines(matrix, theme, size, scale, HIDDEN)
-        ctx.depth_func = "<="
-        self.target.drawn.depth_mask = True
+        ctx.copy_framebuffer(target.opaque, sampled)
+        if surfaces and surfaces.has_clear:
+            sampled.depth_mask = False
+            sampled.clear(0.0, 0.0, 0.0, 0.0)
+            self.edges.draw(look.matrix, look.size, look.scale)
+            surfaces.draw_clear(orbit)
+            ctx.copy_framebuffer(target.clear, sampled)
+        if surfaces and surfaces.has_glass:
+            target.front.use()
+            target.front.clear(depth=1.0)
+            ctx.polygon_offset = PUSHED
+            surfaces.draw_front(orbit)
+            ctx.polygon_offset = 0.0, 0.0
         ctx.disable(moderngl.DEPTH_TEST)
-        self.target.finish()
 
-    def _draw_lines(
-        self, matrix: np.ndarray, theme: Theme, size: tuple[int, int], scale: float, opacity: float
-    ) -> None:
-        self.marks.draw(matrix, size, scale, opacity)
-        self.rays.draw(matrix, size, scale, opacity, halo=theme.ground)
-        self.rays.draw(matrix, size, scale, opacity)
+    # --- one picture --------------------------------------------------------------------------------------------------
 
-    def _draw_picture(self, matrix: np.ndarray, plane: ImagePlane) -> None:
-        plane.texture.use(0)
-        put(self.picture, world_to_clip=tuple(float32(matrix.T).ravel()), picture=0, opacity=IMAGE_OPACITY)
+    def _compose(self, look: _Look, plane: ImagePlane | None) -> None:
+        ctx, target, surfaces = self.ctx, self.target, self.surfaces
+        shown = target.shown
+        ctx.copy_framebuffer(shown, target.opaque)
+        shown.use()
+        ctx.enable(moderngl.DEPTH_TEST)
+        if surfaces and surfaces.has_glass:
+            self._draw_side(look, plane, Side.BEHIND)
+        if surfaces and surfaces.has_clear:
+            ctx.disable(moderngl.DEPTH_TEST)
+            ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+            target.clear_texture.use(0)
+            self.layer_array.render(moderngl.TRIANGLES, vertices=3)
+            ctx.blend_func = BLENDED  # type: ignore[assignment]
+            ctx.enable(moderngl.DEPTH_TEST)
+        self._draw_side(look, plane, Side.BEFORE if surfaces and surfaces.has_glass else Side.BOTH)
+        ctx.depth_func = ">"
+        self._draw_lines(look, HIDDEN, Side.BOTH)
+        ctx.depth_func = "<="
+        ctx.disable(moderngl.DEPTH_TEST)
+
+    def _draw_side(self, look: _Look, plane: ImagePlane | None, side: Side) -> None:
+        """Draw the image and the rays behind, or before, the frontmost glass."""
+        if plane:
+            self.target.shown.depth_mask = True  # it hides rays, as a surface does
+            self.ctx.polygon_offset = PUSHED
+            self._draw_picture(look.matrix, plane, side)
+            self.ctx.polygon_offset = 0.0, 0.0
+        self.target.shown.depth_mask = False
+        self._draw_lines(look, 1.0, side)
+
+    def _draw_lines(self, look: _Look, opacity: float, side: Side) -> None:
+        self.target.front_texture.use(0)
+        shared = (look.matrix, look.size, look.scale, opacity)
+        self.marks.draw(*shared, side=side)
+        self.glow.draw(*shared, side=side)
+        self.rays.draw(*shared, halo=look.theme.ground, side=side)
+        self.rays.draw(*shared, side=side)
+
+    def _draw_picture(self, matrix: np.ndarray, plane: ImagePlane, side: Side) -> None:
+        self.target.front_texture.use(0)
+        plane.texture.use(1)
+        put(
+            self.picture,
+            world_to_clip=tuple(float32(matrix.T).ravel()),
+            front=0,
+            side=side.value,
+            picture=1,
+            opacity=IMAGE_OPACITY,
+        )
         self.picture["corners"].write(float32(plane.corners).tobytes())  # type: ignore[union-attr]
         self.picture_array.render(moderngl.TRIANGLE_STRIP, vertices=4)
 
     def release(self) -> None:
         if self.surfaces:
             self.surfaces.release()
-        for thing in (self.marks, self.rays, self.edges, self.empty, self.picture_array, self.target):
+        lines = (self.marks, self.rays, self.glow, self.edges)
+        for thing in (*lines, self.empty, self.layer_array, self.picture_array, self.target):
             thing.release()
-        for program in (*self.programs.values(), self.ground, self.picture):
+        for program in (*self.programs.values(), self.ground, self.layer, self.picture):
             program.release()

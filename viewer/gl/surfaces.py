@@ -69,25 +69,35 @@ class Surfaces:
         for group in sorted(chosen, key=lambda group: group.infinite):
             self._draw_group(group, culled="back" if group.wall else None)
 
-    def draw_clear(self, orbit: Orbit) -> None:
-        """Draw transparent surfaces, after the opaque ones: glass, the farthest first, and walls from behind."""
-        walls = [group for group in self.groups if group.wall and not group.glass]
-        if not walls and "GLASS" not in self.features:
-            return
-        self._use_textures()  # other textures have been in use meanwhile
-        self.ctx.fbo.depth_mask = False
-        if "GLASS" in self.features:
-            self._draw_glass(orbit)
-        for group in walls:
-            self._draw_group(group, culled="front", ghost=GHOST)
-        self.ctx.fbo.depth_mask = True
+    @property
+    def has_glass(self) -> bool:
+        return "GLASS" in self.features
 
-    def _draw_glass(self, orbit: Orbit) -> None:
-        chosen = [group for group in self.groups if group.glass]
-        for group in sorted(chosen, key=lambda group: -float(np.linalg.norm(group.middle - orbit.eye))):
+    @property
+    def has_clear(self) -> bool:
+        """Whether there are transparent surfaces: glass, or walls seen from behind."""
+        return self.has_glass or any(group.wall for group in self.groups)
+
+    def draw_clear(self, orbit: Orbit) -> None:
+        """Draw the transparent surfaces, after the opaque ones: glass, the farthest first, and walls from behind."""
+        self._use_textures()  # other textures have been in use meanwhile
+        for group in self._glass(orbit):
             if not group.wall:
                 self._draw_group(group, culled="front")  # the far side first
                 self._draw_group(group, culled="back")
+        for group in self.groups:
+            if group.wall and not group.glass:
+                self._draw_group(group, culled="front", ghost=GHOST)
+
+    def draw_front(self, orbit: Orbit) -> None:
+        """Draw the glass once, for its depth. The uniforms are those of the last `draw_opaque`."""
+        for group in self._glass(orbit):
+            self._draw_group(group, culled=None)
+
+    def _glass(self, orbit: Orbit) -> list[Group]:
+        """The glass, the farthest first."""
+        chosen = [group for group in self.groups if group.glass] if self.has_glass else []
+        return sorted(chosen, key=lambda group: -float(np.linalg.norm(group.middle - orbit.eye)))
 
     def _draw_group(self, group: Group, culled: str | None, ghost: float = 0.0) -> None:
         if culled:

@@ -65,14 +65,13 @@ def _handle_mouse(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: 
 
 
 def _row_at(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImVec2) -> int | None:
-    if not canvas.lines:
-        return None
-    ends = np.array([(line.start, line.end) for line in canvas.lines])
+    lines = canvas.lines
+    ends = np.stack([lines.starts, lines.ends], axis=1)
     matrix = session.orbit.matrix(room.x / room.y)
     places, depths = project(ends.reshape(-1, 3), matrix, (room.x, room.y))
     mouse = imgui.get_mouse_pos()
     at = (mouse.x - corner.x, mouse.y - corner.y)
-    return nearest_row(canvas.lines, places.reshape(-1, 2, 2), depths.reshape(-1, 2), at, REACH * d.unit())
+    return nearest_row(lines, places.reshape(-1, 2, 2), depths.reshape(-1, 2), at, REACH * d.unit())
 
 
 class _Overlay:

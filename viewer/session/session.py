@@ -50,8 +50,7 @@ class Session:
         self.image_view = PanZoom()
         self.tree_view = PanZoom(home=(0.0, 0.0))  # moved by logical pixels
         self.appearance = Appearance()
-        self.notice = Notice()
-        self.dialog = OpenDialog()
+        self.notice, self.dialog = Notice(), OpenDialog()
         self.shows_help = self.is_blank = False  # is_blank: the window is black
         self.scroll = 0  # lines by which the texts are to be scrolled
         # The scene on show.
@@ -68,6 +67,7 @@ class Session:
         self.tree: RayTree | None = None  # of the picked pixel
         self.full_tree: RayTree | None = None  # the same at least LAYOUT_DEPTH deep; `tree` is its first rows
         self.selection: str | None = None  # the path of the selected ray, if the tree has it
+        self.hovered: int | None = None  # the row of the tree under the mouse, in any view
         self.history = History()
         self._selected: Cached[int | None] = Cached()
         if NOTE:
