@@ -15,13 +15,18 @@ import sys
 import time
 from collections.abc import Callable
 
+# isort: off
+import imgui_bundle  # before glfw: see `viewer.window.backend`
+import glfw
+
+# isort: on
 import moderngl
 from imgui_bundle import imgui
 from imgui_bundle.imgui import backends
 
 from benchmarks.results.figure import Figure, Spread
 from benchmarks.results.task import Options, Task
-from tests.viewer.screen import missing, screen
+from tests.viewer.screen import hand, missing, screen
 from tracer.processes import python_command
 from viewer.lessons import lesson
 from viewer.session.session import Session
@@ -85,8 +90,11 @@ class Picker(App):
     """The viewer at rest, in which pixels are picked."""
 
     def __init__(self, size: tuple[int, int]) -> None:
-        super().__init__(Window("raytree", size), Session())
+        surface = Window("raytree", size)
+        super().__init__(surface, Session())
+        self.window = surface.window
         self.clock = GLClock()
+        imgui.get_io().mouse_double_click_time = 0.0  # picks follow each other fast
         found = lesson.read(LESSON)
         self.session.loader.open(found.scene, found)
         self.settle()
@@ -97,7 +105,10 @@ class Picker(App):
         """Click a pixel of the image: (seconds to the picture, seconds of them without OpenGL)."""
         left, top, scale = self.canvas.image_place
         io = imgui.get_io()
-        io.add_mouse_pos_event(left + (x + 0.5) * scale, top + (y + 0.5) * scale)
+        place = (round(left + (x + 0.5) * scale), round(top + (y + 0.5) * scale))
+        hand("mousemove", *map(sum, zip(glfw.get_window_pos(self.window), place, strict=True)))
+        while tuple(io.mouse_pos) != place:
+            self.step()
         self.rest()
         before, in_gl = self.session.tree, self.clock.seconds
         began = time.perf_counter()
@@ -111,6 +122,7 @@ class Picker(App):
         return ended - began, ended - began - in_gl
 
     def step(self) -> None:
+        self.surface.wait(0.0)
         self.session.update()
         self.frame()
         self.surface.ctx.finish()

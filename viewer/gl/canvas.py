@@ -117,13 +117,13 @@ class Canvas:
         """The 3D view, `size` in pixels, `scale` pixels per logical pixel; bottom row first, as OpenGL has it."""
         session, theme = self.session, self.session.appearance.theme
         image = self.picture() if session.shown.camera else None
-        lines = self._lines_key()
-        if self._view_changed((size, scale, lines, session.hovered, self._eye(), self._image_state())):
+        lines, state = self._lines_key(), self._image_state()
+        if self._view_changed((size, scale, lines, session.hovered, self._eye(), state)):
             self._set_world()
             if self._lines_changed(lines):
                 self._set_lines()
             self.stage.set_glow(glow_lines(self.lines, session.hovered, theme))
-            plane = ImagePlane(self._plane, image) if image is not None and self._plane is not None else None
+            plane = ImagePlane(self._plane, image, state) if image is not None and self._plane is not None else None
             self.stage.draw(session.orbit, theme, size, scale, plane)
             self._throttle.drawn = True
         return self.stage.target.texture

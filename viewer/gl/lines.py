@@ -1,7 +1,5 @@
 """Lines of constant width with arrow heads, drawn as triangles, since not every driver draws wide lines."""
 
-from enum import IntEnum
-
 import moderngl
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,14 +21,7 @@ LINE = np.dtype(
     ]
 )
 NO_ROWS = np.zeros(0, LINE)
-
-
-class Side(IntEnum):
-    """The part of a line, or of another thing, that is drawn: relative to the frontmost glass (`shaders/front.glsl`)."""
-
-    BOTH = 0
-    BEHIND = 1
-    BEFORE = 2
+NO_COLOR = (0.0, 0.0, 0.0, 0.0)
 
 
 def line_rows(
@@ -85,12 +76,13 @@ class Lines:
         matrix: np.ndarray,
         size: tuple[int, int],
         scale: float,
-        opacity: float = 1.0,
-        halo: Color | None = None,
-        side: Side = Side.BOTH,
+        hidden: float = 1.0,
+        seam: Color = NO_COLOR,
     ) -> None:
-        """Draw all lines. `size` in pixels, `scale` pixels per logical pixel. With `halo`, only their border in that
-        colour. For a `side`, the depth of the frontmost glass is texture 0.
+        """Draw all lines. `size` in pixels, `scale` pixels per logical pixel. `seam` is the colour of their border.
+
+        `hidden` is their opacity behind opaque things. Unless it is 1, textures 0, 1 and 2 are those of
+        `shaders/veil.glsl`, and the depth test must be off.
         """
         if not self.count:
             return
@@ -98,11 +90,12 @@ class Lines:
             "world_to_clip": tuple(float32(matrix.T).ravel()),
             "size": size,
             "scale": scale,
-            "opacity": opacity,
-            "extra": HALO if halo else 0.0,
-            "seam": (*halo[:3], 1.0) if halo else (0.0, 0.0, 0.0, 0.0),
-            "front": 0,
-            "side": side.value,
+            "extra": HALO if seam[3] else 0.0,
+            "seam": seam,
+            "hidden": hidden,
+            "solid": 0,
+            "front": 1,
+            "glass": 2,
         }
         put(self.line, **shared)
         put(self.arrow, **shared, length_px=ARROW)

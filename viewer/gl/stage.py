@@ -1,14 +1,15 @@
-"""The 3D view: background, surfaces, the camera with its image, rays, glass, and hidden lines more faintly.
+"""The 3D view: background, surfaces, the camera with its image, glass, and rays over them.
 
 Surfaces take nearly all of the time, and only another view or another scene changes them. So they are drawn into
-layers, which are kept (`target`). A pick, a selection or another depth draws only the image and the lines between
-copies of these layers:
+layers, which are kept (`target`). From these the scene is composed, again only if the image has changed:
 
 1. the opaque surfaces;
-2. what is behind the frontmost glass: the image, and rays;
+2. the image plane where it is behind the frontmost glass;
 3. the transparent surfaces;
-4. what is before the frontmost glass: the image, and rays. So glass veils no ray that is before it;
-5. what an opaque surface or the image hides, more faintly.
+4. the image plane where it is before the frontmost glass.
+
+A pick, a selection or another depth draws only lines over a copy of the scene. They are seen through glass, and more
+faintly behind opaque things (`shaders/veil.glsl`).
 """
 
 from dataclasses import dataclass
@@ -22,7 +23,7 @@ from viewer.base.orbit import Frame, Orbit
 from viewer.base.theme import EDGE_OPACITY, HIDDEN, Theme, faded
 from viewer.gl.features import Features, features_of
 from viewer.gl.float32 import float32
-from viewer.gl.lines import Lines, Side
+from viewer.gl.lines import Lines
 from viewer.gl.program import make_program, put
 from viewer.gl.stage_lines import StageLines
 from viewer.gl.surfaces import Surfaces, make_surface_program
@@ -41,6 +42,7 @@ class ImagePlane:
 
     corners: np.ndarray
     texture: moderngl.Texture
+    state: object  # of the image: the texture's content changes with it
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,7 @@ class Stage:
         self.glow = Lines(ctx)  # under the ray that is pointed at
         self.edges = Lines(ctx)  # of cut glass
         self.surfaces: Surfaces | None = None
-        self._layers_changed = Changed()
+        self._layers_changed, self._scene_changed = Changed(), Changed()
 
     def set_world(self, world: World, frame: Frame, features: Features | None = None) -> None:
         """Show this world, with the features that it needs, or with these."""
@@ -96,21 +98,22 @@ class Stage:
 
     def forget(self) -> None:
         """Draw the surfaces again for the next picture."""
-        self._layers_changed = Changed()
+        self._layers_changed, self._scene_changed = Changed(), Changed()
 
     def draw(self, orbit: Orbit, theme: Theme, size: tuple[int, int], scale: float, plane: ImagePlane | None) -> None:
         """Draw into the target. `size` in pixels, `scale` pixels per logical pixel."""
-        ctx = self.ctx
-        self.target.resize(size)
-        size = self.target.size
-        look = _Look(orbit.matrix(size[0] / size[1]), size, scale, theme)
+        ctx, target = self.ctx, self.target
+        target.resize(size)
+        look = _Look(orbit.matrix(target.size[0] / target.size[1]), target.size, scale, theme)
         ctx.enable_only(moderngl.BLEND)
         ctx.blend_func = BLENDED  # type: ignore[assignment]  # the type stub lacks the form with four factors
         ctx.depth_func = "<="
-        self._layers_changed.run(
-            (size, scale, theme, look.matrix.tobytes()), lambda: self._draw_layers(orbit, look)
-        )
-        self._compose(look, plane)
+        view = (look.size, scale, theme, look.matrix.tobytes())
+        self._layers_changed.run(view, lambda: self._draw_layers(orbit, look))
+        image = plane and (plane.corners.tobytes(), plane.texture, plane.state)
+        self._scene_changed.run((view, image), lambda: self._compose(look, plane))
+        ctx.copy_framebuffer(target.shown, target.scene)
+        self._draw_lines(look)
 
     # --- the layers that are kept -------------------------------------------------------------------------------------
 
@@ -134,68 +137,60 @@ class Stage:
             self.edges.draw(look.matrix, look.size, look.scale)
             surfaces.draw_clear(orbit)
             ctx.copy_framebuffer(target.clear, sampled)
+        target.front.use()
+        target.front.clear(depth=1.0)
         if surfaces and surfaces.has_glass:
-            target.front.use()
-            target.front.clear(depth=1.0)
             ctx.polygon_offset = PUSHED
             surfaces.draw_front(orbit)
             ctx.polygon_offset = 0.0, 0.0
         ctx.disable(moderngl.DEPTH_TEST)
 
-    # --- one picture --------------------------------------------------------------------------------------------------
+    # --- the scene and the lines --------------------------------------------------------------------------------------
 
     def _compose(self, look: _Look, plane: ImagePlane | None) -> None:
+        """Put the layers and the image plane together."""
         ctx, target, surfaces = self.ctx, self.target, self.surfaces
-        shown = target.shown
-        ctx.copy_framebuffer(shown, target.opaque)
-        shown.use()
-        ctx.enable(moderngl.DEPTH_TEST)
-        if surfaces and surfaces.has_glass:
-            self._draw_side(look, plane, Side.BEHIND)
+        ctx.copy_framebuffer(target.scene, target.opaque)
+        target.scene.use()
+        if plane:
+            self._draw_picture(look.matrix, plane, before=False)
         if surfaces and surfaces.has_clear:
-            ctx.disable(moderngl.DEPTH_TEST)
             ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             target.clear_texture.use(0)
             self.layer_array.render(moderngl.TRIANGLES, vertices=3)
             ctx.blend_func = BLENDED  # type: ignore[assignment]
-            ctx.enable(moderngl.DEPTH_TEST)
-        self._draw_side(look, plane, Side.BEFORE if surfaces and surfaces.has_glass else Side.BOTH)
-        ctx.depth_func = ">"
-        self._draw_lines(look, HIDDEN, Side.BOTH)
-        ctx.depth_func = "<="
-        ctx.disable(moderngl.DEPTH_TEST)
-
-    def _draw_side(self, look: _Look, plane: ImagePlane | None, side: Side) -> None:
-        """Draw the image and the rays behind, or before, the frontmost glass."""
         if plane:
-            self.target.shown.depth_mask = True  # it hides rays, as a surface does
-            self.ctx.polygon_offset = PUSHED
-            self._draw_picture(look.matrix, plane, side)
-            self.ctx.polygon_offset = 0.0, 0.0
-        self.target.shown.depth_mask = False
-        self._draw_lines(look, 1.0, side)
+            self._draw_picture(look.matrix, plane, before=True)
 
-    def _draw_lines(self, look: _Look, opacity: float, side: Side) -> None:
-        self.target.front_texture.use(0)
-        shared = (look.matrix, look.size, look.scale, opacity)
-        self.marks.draw(*shared, side=side)
-        self.glow.draw(*shared, side=side)
-        self.rays.draw(*shared, halo=look.theme.ground, side=side)
-        self.rays.draw(*shared, side=side)
+    def _draw_lines(self, look: _Look) -> None:
+        target = self.target
+        target.shown.use()
+        for k, texture in enumerate((target.solid_texture, target.front_texture, target.clear_texture)):
+            texture.use(k)
+        shared = (look.matrix, look.size, look.scale, HIDDEN)
+        self.marks.draw(*shared)
+        self.glow.draw(*shared)
+        self.rays.draw(*shared, seam=look.theme.ground)
 
-    def _draw_picture(self, matrix: np.ndarray, plane: ImagePlane, side: Side) -> None:
+    def _draw_picture(self, matrix: np.ndarray, plane: ImagePlane, before: bool) -> None:
+        """Draw the image plane before or behind the frontmost glass. It hides rays, as a surface does."""
+        ctx = self.ctx
         self.target.front_texture.use(0)
         plane.texture.use(1)
         put(
             self.picture,
             world_to_clip=tuple(float32(matrix.T).ravel()),
             front=0,
-            side=side.value,
+            before=before,
             picture=1,
             opacity=IMAGE_OPACITY,
         )
         self.picture["corners"].write(float32(plane.corners).tobytes())  # type: ignore[union-attr]
+        ctx.enable(moderngl.DEPTH_TEST)
+        ctx.polygon_offset = PUSHED
         self.picture_array.render(moderngl.TRIANGLE_STRIP, vertices=4)
+        ctx.polygon_offset = 0.0, 0.0
+        ctx.disable(moderngl.DEPTH_TEST)
 
     def release(self) -> None:
         if self.surfaces:

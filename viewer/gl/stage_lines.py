@@ -56,9 +56,9 @@ def style_rays(tree: RayTree, lines: RayLines, kept: Set[int] | None, selected: 
     if kept is not None:
         tints[:, 3] *= brightness(lines.rows, kept)
         widths[is_selected] += 2.0
-    return line_rows(
-        lines.starts, lines.ends, tints, widths, dash=lines.dashes, fading=lines.escapes, arrow=arrows
-    )
+    styled = line_rows(lines.starts, lines.ends, tints, widths, dash=lines.dashes, fading=lines.escapes, arrow=arrows)
+    # The last line lies over the others: first quiet rays, then the later ones, and the selected one at the end.
+    return styled[np.lexsort((-lines.rows, is_selected, tints[:, 3], ~quiet))]
 
 
 def brightness(rows: np.ndarray, kept: Set[int] | None) -> np.ndarray:

@@ -1,9 +1,9 @@
 """The framebuffers of the 3D view, and the textures that they fill.
 
 Surfaces are drawn with several samples per pixel and then resolved into layers, which are kept until they change: the
-opaque surfaces with their depth, the transparent surfaces, and the depth of the frontmost glass. Each picture is
-composed from copies of these layers, with the rays between them. Lines need only one sample per pixel, since their
-shader computes how much of a pixel they cover.
+opaque surfaces with their depth, the transparent surfaces, and the depth of the frontmost glass. Put together with the
+image they make the scene, which is kept, too. Lines are drawn over a copy of it. They need only one sample per pixel,
+since their shader computes how much of a pixel they cover.
 """
 
 from typing import Any
@@ -38,12 +38,12 @@ class Target:
         self.opaque = self._framebuffer([ctx.texture(size, 4)], ctx.depth_renderbuffer(size))
         self.clear_texture = ctx.texture(size, 4)
         self.clear = self._framebuffer([self.clear_texture], None)
-        self.front_texture = ctx.depth_texture(size)
-        self.front_texture.compare_func = ""  # it is read as numbers
-        self.front_texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self.front_texture = self._depth_texture(size)
         self.front = self._framebuffer([], self.front_texture)
+        self.solid_texture = self._depth_texture(size)
+        self.scene = self._framebuffer([ctx.texture(size, 4)], self.solid_texture)
         self.texture = ctx.texture(size, 4)
-        self.shown = self._framebuffer([self.texture], ctx.depth_renderbuffer(size))
+        self.shown = self._framebuffer([self.texture], None)
         self.shown.use()  # before the old ones are released: OpenGL must not lose the framebuffer in use
         _release(old)
         self.size = size
@@ -52,6 +52,12 @@ class Target:
         framebuffer = self.ctx.framebuffer(colors, depth)
         self.owned += [*colors, *([depth] if depth else []), framebuffer]
         return framebuffer
+
+    def _depth_texture(self, size: tuple[int, int]) -> moderngl.Texture:
+        texture = self.ctx.depth_texture(size)
+        texture.compare_func = ""  # shaders read it as numbers
+        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        return texture
 
     def pixels(self) -> np.ndarray:
         """The picture: 8-bit RGB (height, width, 3), top row first."""
