@@ -13,10 +13,12 @@ from viewer.base.colormap import colorize
 from viewer.explain.interfaces import Interface
 from viewer.explain.sections import Part
 from viewer.figures.layout.tidy_tree import Place as TreePlace
+from viewer.figures.marks import Mark
 from viewer.figures.ray_lines import NO_LINES, RayLines, drawn_rows, ray_lines, relatives
 from viewer.gl.magnified import NEAR, Place, magnify
 from viewer.gl.picture_texture import PictureTexture
 from viewer.gl.stage import ImagePlane, Stage
+from viewer.gl.interface import LENGTH, Name, hit_of, interface_lines, interface_names
 from viewer.gl.lines import NO_ROWS
 from viewer.gl.stage_lines import (
     StageLines,
@@ -52,8 +54,11 @@ class Canvas:
         self.image = PictureTexture(ctx)
         self.tree: RayTree | None = None  # whose rays are in the 3D view
         self.lines: RayLines = NO_LINES  # these rays
+        self.names: list[Name] = []  # at the selected hit
         self.kept: set[int] | None = None  # rows of these rays that stay bright beside the selected one; None: all
         self.drawn = 0  # rows of the tree that the 3D view draws, of all kinds
+        self.scene_marks: Cached[list[Mark]] = Cached()  # over the 3D view
+        self.is_hovered = False  # whether the mouse is over the 3D view
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
         self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)  # left, top, size of a pixel
         self.nodes: dict[int, tuple[float, float]] = {}  # of the tree
@@ -123,6 +128,7 @@ class Canvas:
             if self._lines_changed(lines):
                 self._set_lines()
             self.stage.set_glow(glow_lines(self.lines, session.hovered, theme))
+            self._set_interface(size[1] / scale)
             plane = ImagePlane(self._plane, image, state) if image is not None and self._plane is not None else None
             self.stage.draw(session.orbit, theme, size, scale, plane)
             self._throttle.drawn = True
@@ -173,6 +179,18 @@ class Canvas:
             if session.shown.normals:
                 marks.append(normal_lines(tree, rows, session.frame, kept, theme))
         self.stage.set_lines(StageLines(np.concatenate(marks), rays))
+
+    def _set_interface(self, height: float) -> None:
+        """What decides at the end of the selected ray, in a picture of this height in logical pixels."""
+        session, self.names = self.session, []
+        rows = NO_ROWS
+        if session.tree and session.selected is not None:
+            hit = hit_of(session.tree, session.selected, session.frame)
+            length = LENGTH * session.orbit.pixel_at(hit.foot, height) if hit else 0.0
+            if hit and length > 0.0:
+                rows = interface_lines(hit, length, session.appearance.theme)
+                self.names = interface_names(hit, length)
+        self.stage.set_interface(rows)
 
     def release(self) -> None:
         self.stage.release()

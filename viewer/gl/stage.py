@@ -18,7 +18,7 @@ import moderngl
 import numpy as np
 
 from tracer.kernel.world import World
-from viewer.base.cached import Changed
+from viewer.base.cached import Cached, Changed
 from viewer.base.orbit import Frame, Orbit
 from viewer.base.theme import EDGE_OPACITY, HIDDEN, Theme, faded
 from viewer.gl.features import Features, features_of
@@ -71,9 +71,13 @@ class Stage:
         self.marks = Lines(ctx)  # frustum, normals
         self.rays = Lines(ctx)
         self.glow = Lines(ctx)  # under the ray that is pointed at
+        self.interface = Lines(ctx)  # normal, angles and critical cone at the selected hit
         self.edges = Lines(ctx)  # of cut glass
         self.surfaces: Surfaces | None = None
+        self.pictures = self.layers = 0  # how often a picture, and its surfaces, have been drawn
         self._layers_changed, self._scene_changed = Changed(), Changed()
+        self._depths: Cached[np.ndarray] = Cached()
+        self._scenes = 0  # how often the scene has been composed
 
     def set_world(self, world: World, frame: Frame, features: Features | None = None) -> None:
         """Show this world, with the features that it needs, or with these."""
@@ -96,6 +100,19 @@ class Stage:
     def set_glow(self, rows: np.ndarray) -> None:
         self.glow.set(rows)
 
+    def set_interface(self, rows: np.ndarray) -> None:
+        self.interface.set(rows)
+
+    def depths(self) -> np.ndarray:
+        """Depth (height, width) of the frontmost opaque thing in each pixel, 0 to 1, top row first."""
+
+        def read() -> np.ndarray:
+            width, height = self.target.size
+            content = self.target.solid_texture.read(alignment=1)
+            return np.frombuffer(content, np.float32).reshape(height, width)[::-1]
+
+        return self._depths.get(self._scenes, read)
+
     def forget(self) -> None:
         """Draw the surfaces again for the next picture."""
         self._layers_changed, self._scene_changed = Changed(), Changed()
@@ -114,11 +131,13 @@ class Stage:
         self._scene_changed.run((view, image), lambda: self._compose(look, plane))
         ctx.copy_framebuffer(target.shown, target.scene)
         self._draw_lines(look)
+        self.pictures += 1
 
     # --- the layers that are kept -------------------------------------------------------------------------------------
 
     def _draw_layers(self, orbit: Orbit, look: _Look) -> None:
         ctx, target, surfaces = self.ctx, self.target, self.surfaces
+        self.layers += 1
         sampled = target.sampled
         sampled.use()
         sampled.depth_mask = True
@@ -150,6 +169,7 @@ class Stage:
     def _compose(self, look: _Look, plane: ImagePlane | None) -> None:
         """Put the layers and the image plane together."""
         ctx, target, surfaces = self.ctx, self.target, self.surfaces
+        self._scenes += 1
         ctx.copy_framebuffer(target.scene, target.opaque)
         target.scene.use()
         if plane:
@@ -171,6 +191,7 @@ class Stage:
         self.marks.draw(*shared)
         self.glow.draw(*shared)
         self.rays.draw(*shared, seam=look.theme.ground)
+        self.interface.draw(*shared, seam=look.theme.ground)
 
     def _draw_picture(self, matrix: np.ndarray, plane: ImagePlane, before: bool) -> None:
         """Draw the image plane before or behind the frontmost glass. It hides rays, as a surface does."""
@@ -195,7 +216,7 @@ class Stage:
     def release(self) -> None:
         if self.surfaces:
             self.surfaces.release()
-        lines = (self.marks, self.rays, self.glow, self.edges)
+        lines = (self.marks, self.rays, self.glow, self.interface, self.edges)
         for thing in (*lines, self.empty, self.layer_array, self.picture_array, self.target):
             thing.release()
         for program in (*self.programs.values(), self.ground, self.layer, self.picture):
