@@ -4,14 +4,16 @@ uniform sampler2D front;  // depth of the frontmost glass; 1 where there is none
 uniform sampler2D glass;  // colour times opacity of all glass together, and its opacity
 uniform float hidden;     // opacity behind opaque things; 1: the line is drawn while the depth buffer is in use
 
-// The colour of a line that is blended over the picture with the glass. Blended so, it is the same as a line that was
-// drawn before the glass.
+const float VEIL = 0.5;   // share of the glass's opacity over lines: their colours stay legible
+
+// The colour of a line that is blended over the picture with the glass. With VEIL = 1 the result would be the same as if
+// the line had been drawn before the glass.
 vec4 seen(vec4 line) {
     if (hidden == 1.0) return line;
     ivec2 at = ivec2(gl_FragCoord.xy);
     if (gl_FragCoord.z > texelFetch(solid, at, 0).r) line.a *= hidden;
     if (gl_FragCoord.z > texelFetch(front, at, 0).r) {
-        vec4 veil = texelFetch(glass, at, 0);
+        vec4 veil = VEIL * texelFetch(glass, at, 0);
         line.rgb = veil.rgb + (1.0 - veil.a) * line.rgb;
     }
     return line;

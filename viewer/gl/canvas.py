@@ -18,7 +18,7 @@ from viewer.figures.ray_lines import NO_LINES, RayLines, drawn_rows, ray_lines, 
 from viewer.gl.magnified import NEAR, Place, magnify
 from viewer.gl.picture_texture import PictureTexture
 from viewer.gl.stage import ImagePlane, Stage
-from viewer.gl.interface import LENGTH, Name, hit_of, interface_lines, interface_names
+from viewer.gl.interface import Name, hit_of, interface_lines, interface_names
 from viewer.gl.lines import NO_ROWS
 from viewer.gl.stage_lines import (
     StageLines,
@@ -163,7 +163,7 @@ class Canvas:
 
     def _set_lines(self) -> None:
         session, theme = self.session, self.session.appearance.theme
-        marks, rays = [NO_ROWS], NO_ROWS
+        marks, rays = [NO_ROWS], (NO_ROWS, NO_ROWS)
         self.tree, self.lines, self.kept, self._plane = session.tree, NO_LINES, None, None
         if session.world and session.shown.camera:
             view = session.world.view()
@@ -178,7 +178,7 @@ class Canvas:
             rays = style_rays(tree, self.lines, kept, selected, theme)
             if session.shown.normals:
                 marks.append(normal_lines(tree, rows, session.frame, kept, theme))
-        self.stage.set_lines(StageLines(np.concatenate(marks), rays))
+        self.stage.set_lines(StageLines(np.concatenate(marks), *rays))
 
     def _set_interface(self, height: float) -> None:
         """What decides at the end of the selected ray, in a picture of this height in logical pixels."""
@@ -186,7 +186,7 @@ class Canvas:
         rows = NO_ROWS
         if session.tree and session.selected is not None:
             hit = hit_of(session.tree, session.selected, session.frame)
-            length = LENGTH * session.orbit.pixel_at(hit.foot, height) if hit else 0.0
+            length = hit.length(session.orbit.pixel_at(hit.foot, height)) if hit else 0.0
             if hit and length > 0.0:
                 rows = interface_lines(hit, length, session.appearance.theme)
                 self.names = interface_names(hit, length)

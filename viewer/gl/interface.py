@@ -12,12 +12,13 @@ from tracer.formulas.optics import critical_angle
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.orbit import Frame
-from viewer.base.theme import NORMAL_WIDTH, Arrow, Theme, faded
+from viewer.base.theme import HALO, NORMAL_WIDTH, Arrow, Theme, faded
 from viewer.base.wording import format_angle, format_number
 from viewer.explain.scattering import direction_error
 from viewer.gl.lines import line_rows
 
 LENGTH = 96.0  # logical pixels: of the normal, if it is seen from the side
+SHARE, SHORTEST = 0.7, 0.45  # at most this share of the ray's own length, but at least this share of LENGTH
 # Of this length:
 BACK = 0.8  # the normal continued into the second medium
 RADIUS, RADIUS_2 = 0.46, 0.6  # of the arcs of theta 1 and theta 2
@@ -43,6 +44,11 @@ class Hit:
     n2: float | None  # None: the surface is opaque
     critical: float | None  # None: no angle of incidence is reflected totally
     error: float  # bound on the rounding error of the angles
+    reach: float  # length of the ray, in the frame
+
+    def length(self, pixel: float) -> float:
+        """The length of the normal in the frame, where a logical pixel has this size. It fits to the ray's length."""
+        return max(SHORTEST * LENGTH * pixel, min(LENGTH * pixel, SHARE * self.reach))
 
     def towards(self, angle: float) -> np.ndarray:
         """The unit vector at this angle from the normal, away from the side of the incoming ray."""
@@ -79,6 +85,7 @@ def hit_of(tree: RayTree, row: int, frame: Frame) -> Hit | None:
         n2 if clear else None,
         critical_angle(n1, n2) if clear else None,
         direction_error(tree, row),
+        float(node["t"]) / frame.radius,
     )
 
 
@@ -99,7 +106,13 @@ def interface_lines(hit: Hit, length: float, theme: Theme) -> np.ndarray:
         found.append(_curve(rim, ink, CONE_WIDTH))
         sides = rim[:-1][:: (len(rim) - 1) // SIDES]
         found.append(line_rows(np.tile(foot, (len(sides), 1)), sides, ink, CONE_WIDTH, dash=CONE_DASH))
-    return np.concatenate(found)
+    lines = np.concatenate(found)
+    # Borders first: that of one corner of a curve must not cover the line before it.
+    borders = lines.copy()
+    borders["tint"][:, :3] = theme.ground[:3]
+    borders["width"] += 2.0 * HALO
+    borders["arrow"] = Arrow.NONE.value
+    return np.concatenate([borders, lines])
 
 
 def cone_rim(hit: Hit, length: float) -> np.ndarray:

@@ -20,7 +20,7 @@ import numpy as np
 from tracer.kernel.world import World
 from viewer.base.cached import Cached, Changed
 from viewer.base.orbit import Frame, Orbit
-from viewer.base.theme import EDGE_OPACITY, HIDDEN, Theme, faded
+from viewer.base.theme import HIDDEN, Theme
 from viewer.gl.features import Features, features_of
 from viewer.gl.float32 import float32
 from viewer.gl.lines import Lines
@@ -70,6 +70,7 @@ class Stage:
         self.picture_array = ctx.vertex_array(self.picture, [])
         self.marks = Lines(ctx)  # frustum, normals
         self.rays = Lines(ctx)
+        self.quiet = Lines(ctx)  # rays that are not to be noticed first
         self.glow = Lines(ctx)  # under the ray that is pointed at
         self.interface = Lines(ctx)  # normal, angles and critical cone at the selected hit
         self.edges = Lines(ctx)  # of cut glass
@@ -96,6 +97,7 @@ class Stage:
     def set_lines(self, lines: StageLines) -> None:
         self.marks.set(lines.marks)
         self.rays.set(lines.rays)
+        self.quiet.set(lines.quiet)
 
     def set_glow(self, rows: np.ndarray) -> None:
         self.glow.set(rows)
@@ -147,7 +149,7 @@ class Stage:
         ctx.enable(moderngl.DEPTH_TEST)
         if surfaces:
             ctx.polygon_offset = PUSHED
-            surfaces.draw_opaque(orbit, look.matrix, faded(look.theme.text, EDGE_OPACITY))
+            surfaces.draw_opaque(orbit, look.matrix, look.theme)
             ctx.polygon_offset = 0.0, 0.0
         ctx.copy_framebuffer(target.opaque, sampled)
         if surfaces and surfaces.has_clear:
@@ -190,8 +192,9 @@ class Stage:
         shared = (look.matrix, look.size, look.scale, HIDDEN)
         self.marks.draw(*shared)
         self.glow.draw(*shared)
+        self.quiet.draw(*shared)
         self.rays.draw(*shared, seam=look.theme.ground)
-        self.interface.draw(*shared, seam=look.theme.ground)
+        self.interface.draw(*shared)
 
     def _draw_picture(self, matrix: np.ndarray, plane: ImagePlane, before: bool) -> None:
         """Draw the image plane before or behind the frontmost glass. It hides rays, as a surface does."""
@@ -216,7 +219,7 @@ class Stage:
     def release(self) -> None:
         if self.surfaces:
             self.surfaces.release()
-        lines = (self.marks, self.rays, self.glow, self.interface, self.edges)
+        lines = (self.marks, self.rays, self.quiet, self.glow, self.interface, self.edges)
         for thing in (*lines, self.empty, self.layer_array, self.picture_array, self.target):
             thing.release()
         for program in (*self.programs.values(), self.ground, self.layer, self.picture):

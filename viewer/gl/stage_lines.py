@@ -39,11 +39,14 @@ class StageLines:
 
     marks: np.ndarray
     rays: np.ndarray
+    quiet: np.ndarray  # shadow rays, without a border
 
 
-def style_rays(tree: RayTree, lines: RayLines, kept: Set[int] | None, selected: int | None, theme: Theme) -> np.ndarray:
-    """Rays in the styles of their kinds. If rows are to be `kept` bright, the others are dimmed. Shadow rays are thin and
-    faint, except for the selected one, and those of the selected hit.
+def style_rays(
+    tree: RayTree, lines: RayLines, kept: Set[int] | None, selected: int | None, theme: Theme
+) -> tuple[np.ndarray, np.ndarray]:
+    """(rays, quiet rays) in the styles of their kinds. If rows are to be `kept` bright, the others are dimmed. Shadow
+    rays are quiet: thin and faint, except for the selected one, and those of the selected hit.
     """
     tints = np.array([theme.ray(kind) for kind in KINDS])[lines.kinds]
     widths = np.array([STYLES[kind].width for kind in KINDS])[lines.kinds]
@@ -57,8 +60,9 @@ def style_rays(tree: RayTree, lines: RayLines, kept: Set[int] | None, selected: 
         tints[:, 3] *= brightness(lines.rows, kept)
         widths[is_selected] += 2.0
     styled = line_rows(lines.starts, lines.ends, tints, widths, dash=lines.dashes, fading=lines.escapes, arrow=arrows)
-    # The last line lies over the others: first quiet rays, then the later ones, and the selected one at the end.
-    return styled[np.lexsort((-lines.rows, is_selected, tints[:, 3], ~quiet))]
+    # The last line lies over the others: first the dimmed rays, then the later ones, and the selected one at the end.
+    order = np.lexsort((-lines.rows, is_selected, tints[:, 3]))
+    return styled[order[~quiet[order]]], styled[order[quiet[order]]]
 
 
 def brightness(rows: np.ndarray, kept: Set[int] | None) -> np.ndarray:

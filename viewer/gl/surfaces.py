@@ -15,7 +15,7 @@ from tracer.kernel.world import World
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.tessellation import SEGMENTS, unit_ball
 from viewer.base.orbit import Frame, Orbit
-from viewer.base.theme import Color
+from viewer.base.theme import OUTLINE_OPACITY, Theme, faded
 from viewer.gl.features import Features
 from viewer.gl.float32 import float32
 from viewer.gl.program import make_program, put
@@ -63,8 +63,8 @@ class Surfaces:
             thing.release()
         self.owned.clear()
 
-    def draw_opaque(self, orbit: Orbit, matrix: np.ndarray, edge: Color) -> None:
-        self._set_uniforms(orbit, matrix, edge)
+    def draw_opaque(self, orbit: Orbit, matrix: np.ndarray, theme: Theme) -> None:
+        self._set_uniforms(orbit, matrix, theme)
         chosen = [group for group in self.groups if not group.glass]
         for group in sorted(chosen, key=lambda group: group.infinite):
             self._draw_group(group, culled="back" if group.wall else None)
@@ -110,7 +110,7 @@ class Surfaces:
         if culled:
             self.ctx.disable(moderngl.CULL_FACE)
 
-    def _set_uniforms(self, orbit: Orbit, matrix: np.ndarray, edge: Color) -> None:
+    def _set_uniforms(self, orbit: Orbit, matrix: np.ndarray, theme: Theme) -> None:
         lights = np.zeros((MOST_LIGHTS, 4))
         colors = np.zeros((MOST_LIGHTS, 3))
         rows = self.world.arrays.lights[:MOST_LIGHTS]
@@ -130,7 +130,8 @@ class Surfaces:
             sky_top=tuple(background * 0.9 + 0.12),
             sky_bottom=tuple(background * 0.25 + 0.05),
             fade_center=(0.0, 0.0, 0.0),
-            edge=edge,
+            edge=faded(theme.text, OUTLINE_OPACITY),
+            tint=theme.glass[:3],
             origin=tuple(float32(self.frame.middle / self.frame.radius)),
         )
         self.program["lights"].write(float32(lights).tobytes())  # type: ignore[union-attr]
