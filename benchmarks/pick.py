@@ -16,7 +16,6 @@ import time
 from collections.abc import Callable
 
 # isort: off
-import imgui_bundle  # before glfw: see `viewer.window.backend`
 import glfw
 
 # isort: on

@@ -13,6 +13,7 @@ ray. A test compares the two. This page does not handle overlapping solids, and 
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,62 +30,82 @@ from tracer.shapes.surface_row import SurfaceRow
 EPSILON = 1e-4  # the textbook's smallest distance, which keeps a ray from hitting the surface that it leaves
 
 
-def radiance(world: World, origin: Vector, direction: Vector, depth: int, n1: float = 1.0) -> Vector:
-    """The colour seen along a ray, linear RGB: local light, and the light from the reflected and the refracted ray.
+class Hit(NamedTuple):
+    """The point where a ray meets a surface."""
 
-    `direction` is a unit vector; `n1` the index of refraction of the medium that the ray runs in.
+    point: Vector
+    n: Vector  # the normal, on the side that the ray comes from
+    material: MaterialRow
+    item: ObjectRow
+    leaves: bool  # whether the ray comes from inside the object
+
+
+def radiance(world: World, origin: Vector, v: Vector, depth: int, n1: float = 1.0) -> Vector:
+    """The colour seen along a ray, linear RGB: local light, and the light of the reflected and the refracted ray.
+
+    `v` is the ray's direction, a unit vector; `n1` the index of refraction of the medium that it runs in.
     """
-    surface, t = closest_hit(world, origin, direction)
-    if surface is None:
+    hit = first_hit(world, origin, v)
+    if hit is None:
         return vector(world.arrays.background)
-    point, outward, shading_normal = interaction(world.arrays, surface, ray_of(origin, direction), t)
-    leaves = dot(outward, direction) > 0.0
-    n = scale(-1.0, shading_normal) if leaves else shading_normal
-    item = world.arrays.objects[surface.object]
-    material = world.arrays.materials[item.material]
-    color = local_light(world, item, material, point, n, direction)
+    color = local_light(world, hit, v)
     if depth == 0:
         return color
-    is_sheet = bool(item.sheet)
-    n2 = material.ior if is_sheet or not leaves else 1.0
-    reflected, refracted = shares(world, material, direction, n, n1, n2, is_sheet)
-    if reflected > 0.0:
-        mirror = optics.reflect(direction, n)
-        color = add(color, scale(reflected, radiance(world, point, mirror, depth - 1, n1)))
-    if refracted > 0.0:
-        through = direction if is_sheet or n1 == n2 else optics.refract(direction, n, n1, n2)
-        assert through  # there is no refracted share on total internal reflection
-        color = add(color, scale(refracted, radiance(world, point, through, depth - 1, n1 if is_sheet else n2)))
+    kr, kt, t, n2 = scatter(world, hit, v, n1)
+    if kr > 0.0:
+        r = optics.reflect(v, hit.n)
+        reflected = radiance(world, hit.point, r, depth - 1, n1)
+        color = add(color, scale(kr, reflected))
+    if kt > 0.0:
+        refracted = radiance(world, hit.point, t, depth - 1, n2)
+        color = add(color, scale(kt, refracted))
     return color
 
 
-def shares(
-    world: World, material: MaterialRow, v: Vector, n: Vector, n1: float, n2: float, is_sheet: bool
-) -> tuple[float, float]:
-    """The factors of the reflected and of the refracted ray: Whitted's fixed weights, or Fresnel's equations."""
-    kr, kt = material.reflect, material.transmit
+def first_hit(world: World, origin: Vector, v: Vector) -> Hit | None:
+    """The first hit of a ray, or None."""
+    surface, t = closest_hit(world, origin, v)
+    if surface is None:
+        return None
+    point, outward, n = interaction(world.arrays, surface, ray_of(origin, v), t)
+    item = world.arrays.objects[surface.object]
+    leaves = dot(outward, v) > 0.0
+    return Hit(point, scale(-1.0, n) if leaves else n, world.arrays.materials[item.material], item, leaves)
+
+
+def scatter(world: World, hit: Hit, v: Vector, n1: float) -> tuple[float, float, Vector, float]:
+    """(kr, kt, t, n2): the factors of the reflected and the refracted ray, which are Whitted's fixed weights or follow
+    from Fresnel's equations; the refracted ray's direction, and the index of the medium that it runs in.
+    """
+    kr, kt = hit.material.reflect, hit.material.transmit
     uses_fresnel = world.scene.tracing.model == MODELS[FRESNEL]
+    is_sheet = bool(hit.item.sheet)
+    n2 = 1.0 if hit.leaves and not is_sheet else hit.material.ior
     if kt == 0.0:
-        return kr, 0.0
+        return kr, 0.0, v, n1
     if n1 == n2 and not is_sheet:
-        return 0.0, kr + kt if uses_fresnel else kt
-    reflected, transmitted = optics.fresnel(-dot(v, n), n1, n2)
+        return 0.0, kr + kt if uses_fresnel else kt, v, n2
+    reflected, transmitted = optics.fresnel(-dot(v, hit.n), n1, n2)
     if transmitted == 0.0 and not is_sheet:  # total internal reflection
-        return kr + kt, 0.0
+        return kr + kt, 0.0, v, n1
     if uses_fresnel:
-        return (kr + kt) * reflected, (kr + kt) * transmitted
-    return kr, kt
+        kr, kt = (kr + kt) * reflected, (kr + kt) * transmitted
+    if is_sheet:
+        return kr, kt, v, n1
+    t = optics.refract(v, hit.n, n1, n2)
+    assert t  # it is None on total internal reflection only
+    return kr, kt, t, n2
 
 
-def local_light(world: World, item: ObjectRow, material: MaterialRow, point: Vector, n: Vector, v: Vector) -> Vector:
+def local_light(world: World, hit: Hit, v: Vector) -> Vector:
     """Ambient light, and the light of each lamp that is not in shadow."""
-    color = shading.surface_color(material, item, point)
-    total = shading.ambient(material, color, vector(world.arrays.ambient))
+    color = shading.surface_color(hit.material, hit.item, hit.point)
+    total = shading.ambient(hit.material, color, vector(world.arrays.ambient))
     for light in world.arrays.lights:
-        to_light, distance = light_direction(light, point)
-        if dot(n, to_light) > 0.0:
-            unshadowed = shading.phong(material, color, vector(light.color), n, to_light, v)
-            total = add(total, scale(transmittance(world, point, to_light, distance), unshadowed))
+        to_light, distance = light_direction(light, hit.point)
+        if dot(hit.n, to_light) > 0.0:
+            unshadowed = shading.phong(hit.material, color, vector(light.color), hit.n, to_light, v)
+            total = add(total, scale(transmittance(world, hit.point, to_light, distance), unshadowed))
     return total
 
 

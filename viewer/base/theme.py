@@ -30,6 +30,12 @@ def faded(color: Color, opacity: float) -> Color:
     return (*color[:3], color[3] * opacity)
 
 
+def blend(color: Color, share: float, paper: Color) -> Color:
+    """The colour, of which only a share is left, on the colour of the paper; as opaque as before."""
+    r, g, b = (share * x + (1.0 - share) * y for x, y in zip(color[:3], paper[:3], strict=True))
+    return (r, g, b, color[3])
+
+
 class Arrow(Enum):
     """The arrow on a ray, which shows its direction and kind."""
 
@@ -86,9 +92,10 @@ CURVES = (("#F2C14E", "#B0127B"), ("#56B4E9", "#0072B2"), ("#7FD6A2", "#11723F")
 # The scale of `colormap`. Each stop is lighter than the one before, also in grey.
 MAP = (rgb("#0B1026"), rgb("#2F2A7A"), rgb("#8C2F7F"), rgb("#DD5A4F"), rgb("#F7A93B"), rgb("#FCF3B8"))
 
-FONT_SIZE = 16.0  # pixels at 1280x720: 18 is readable in the back row, 16 leaves room for four panels
+FONT_SIZE = 17.0  # pixels at 1280x720, from ascender to descender: room for four panels
 SMALL = 0.9  # of the font's size, for labels in figures
-LECTURE_ZOOM = 1.35  # factor of all sizes in lecture mode
+TREE_TEXT = 14.5  # points: the em of the window's font, for figures in panels
+LECTURE_ZOOM = 28.0 / FONT_SIZE  # of all sizes in lecture mode: capitals are 17 pixels high, as 18 points on a slide
 
 
 @dataclass(frozen=True)

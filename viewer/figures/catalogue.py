@@ -34,7 +34,10 @@ FIGURES = (
 )
 FIGURE_NAMES = tuple(kind.name for kind in FIGURES)
 
-STEPS = ("depth", "rays", "colour")  # one page per depth, per ray, or per hit as radiance is summed up
+# One page per depth, with whole trees; or one tree, in which rays appear by level or one by one, and then colours are
+# summed up; or only the latter.
+STEPS = ("depth", "levels", "rays", "colour")
+BREADTH, RECURSION = ORDERS = ("breadth", "recursion")  # of rays and sums: the kernel's, or a recursive procedure's
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from viewer.base.files import Unusable, write_atomically
 from viewer.base.options import words
 from viewer.base.orbit import STEEPEST, Frame, Orbit, ViewAngles, initial_orbit, orbit_beside
 from viewer.base.theme import THEMES
-from viewer.figures.catalogue import FIGURES, FORMATS
+from viewer.figures.catalogue import BREADTH, FIGURES, FORMATS
 from viewer.figures.export_options import ExportOptions
 from viewer.figures.figure import both, tree
 from viewer.figures.figure.hit import hit_row
@@ -22,7 +22,7 @@ from viewer.figures.lights import many_lights
 from viewer.figures.marks import Figure, Text
 from viewer.figures.pages import pages
 from viewer.figures.ray_lines import MOST_IN_FIGURE
-from viewer.figures.steps import Step, by_color, by_depth, by_ray, without_lights
+from viewer.figures.steps import Step, by_color, by_depth, by_level, by_ray
 from viewer.figures.subject import FigureStyle, Subject
 from viewer.figures.targets import Target, check_pages, grouped, mark_of, stem_of
 from viewer.figures.writers.png import PIXELS
@@ -50,6 +50,8 @@ def check_options(options: ExportOptions) -> None:
         found.append(f"raytree export: --step {options.step} goes through one tree: give one depth")
     if options.step != "depth" and options.figure == "hit":
         found.append(f"raytree export: a hit has no steps: --step {options.step} is for tree, scene and both")
+    if options.order != BREADTH and options.step in ("depth", "levels"):
+        found.append(f"raytree export: --order {options.order} is for --step rays and colour, got {options.step}")
     for name in dict.fromkeys(name for kind in FIGURES for name in kind.options):
         figures = [kind.name for kind in reversed(FIGURES) if name in kind.options]
         if getattr(options, name) and options.figure not in figures:
@@ -80,7 +82,7 @@ def make(
     stem = stem_of(scene, options.pixel)
     drawn = pages(options.figure, subject, style) if any(FORMATS[name].figures for name in target.formats) else []
     notes = ray_notes(drawn, options.figure, subject) + fold_notes(drawn, options.figure, subject, style)
-    notes += size_notes(drawn, options.figure, style)
+    notes += size_notes(drawn, options.figure, style) + sum_notes(drawn, options.figure, subject, style)
     files: list[tuple[Path, bytes]] = []
     for name in target.formats:
         kind = FORMATS[name]
@@ -115,13 +117,15 @@ def steps_of(world: World, options: ExportOptions, depths: range) -> list[Step]:
         "model": options.model,
     }
     trees = [tracer.trace(world, options.pixel, ray, depth=depth, **how) for depth in depths]
-    if options.step == "rays":
-        steps = by_ray(trees[-1])
-    elif options.step == "colour":
-        steps = by_color(trees[-1])
-    else:
-        steps = by_depth(trees)
-    return without_lights(steps) if options.no_lights else steps
+    lights = not options.no_lights
+    match options.step:
+        case "levels":
+            return list(by_level(trees[-1], lights))
+        case "rays":
+            return list(by_ray(trees[-1], options.order, lights))
+        case "colour":
+            return list(by_color(trees[-1], options.order, lights))
+    return by_depth(trees, lights)
 
 
 def style_of(options: ExportOptions, steps: Sequence[Step]) -> FigureStyle:
@@ -129,12 +133,11 @@ def style_of(options: ExportOptions, steps: Sequence[Step]) -> FigureStyle:
     return FigureStyle(
         THEMES[options.theme],
         options.text_size,
-        swatches=options.swatches or options.step == "colour",  # without them, its pages would all look the same
+        swatches=options.swatches or options.step != "depth",  # the colours that are summed up
         fold=options.fold,
         ground=options.ground,
         node=hit_row(steps[-1].tree, options.node) if options.figure == "hit" else 0,
         eye=options.eye or "top",
-        lights=not options.no_lights,
     )
 
 
@@ -175,15 +178,34 @@ def fold_notes(drawn: Sequence[Figure], figure: str, subject: Subject, style: Fi
     """A note on branches that were folded because they do not fit."""
     if style.fold or not any(mark.name.startswith("fold-") for page in drawn for mark in page.marks):
         return []
-    where = both.TREE if figure == "both" else tree.WHERE
-    size = fitting_size([step.tree for step in subject.steps], tree.tree_style(style, where))
+    where = both.tree_part(style) if figure == "both" else style.canvas
+    size = fitting_size(tree.planned(subject.steps), tree.tree_style(subject.steps, style, where))
     helps = f", and --text-size {size:g} shows all branches" if size else ""
     return [f"{figure}: branches that do not fit are folded; a smaller --depth has fewer branches{helps}"]
 
 
+def sum_notes(drawn: Sequence[Figure], figure: str, subject: Subject, style: FigureStyle) -> list[str]:
+    """Notes on sums for which there is no room, or none for text of the usual size."""
+    if not drawn or figure not in ("both", "tree"):
+        return []
+    sizes = []
+    for step, page in zip(subject.steps, drawn, strict=True):
+        if any(mark.name == f"hit-{step.sum}" for mark in page.marks):  # not in a folded branch
+            texts = [mark.size for mark in page.marks if mark.name == f"sum-{step.sum}" and isinstance(mark, Text)]
+            sizes.append(min(texts, default=0.0))
+    smaller = [size for size in sizes if 0.0 < size < style.text_size]
+    notes = []
+    if smaller:
+        notes.append(f"{figure}: {len(smaller)} of {len(sizes)} sums have smaller text, from {min(smaller):g} points")
+    if 0.0 in sizes:
+        notes.append(f"{figure}: {sizes.count(0.0)} of {len(sizes)} sums have no room, and are left out")
+    return notes
+
+
 def size_notes(drawn: Sequence[Figure], figure: str, style: FigureStyle) -> list[str]:
     """A note on text that is smaller than asked for, because it does not fit."""
-    size = min((mark.size for page in drawn for mark in page.marks if isinstance(mark, Text)), default=style.text_size)
+    texts = [mark for page in drawn for mark in page.marks if isinstance(mark, Text) and mark.name[:4] != "sum-"]
+    size = min((mark.size for mark in texts), default=style.text_size)
     if size >= style.text_size:
         return []
     return [f"{figure}: text of {style.text_size:g} points does not fit: the tree's has {size:g}"]

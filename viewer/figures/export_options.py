@@ -25,7 +25,7 @@ from viewer.base.values import (
     some_of,
     whole,
 )
-from viewer.figures.catalogue import FIGURE_NAMES, FORMATS, STEPS
+from viewer.figures.catalogue import FIGURE_NAMES, FORMATS, ORDERS, STEPS
 
 TEXT_SIZE = 18.0  # points: readable in the last row if the figure fills a slide
 EYES = ("top", "left")  # of a tree
@@ -47,7 +47,14 @@ class ExportOptions:
     )
     depth: range | None = option(DEPTHS, "recursion depth, or one page per depth: 0..3")
     step: str = option(
-        one_of(STEPS), "one page per depth, per ray as they are traced, or per hit as the colour is summed up", STEPS[0]
+        one_of(STEPS),
+        "one page per depth; or per level or per ray, and then per hit as the colour is summed up; or only the latter",
+        STEPS[0],
+    )
+    order: str = option(
+        one_of(ORDERS),
+        "rays, colour: breadth-first as the kernel does it, or depth-first as a recursion does",
+        ORDERS[0],
     )
     model: str | None = option(one_of(MODELS), "the scene's own by default")
     min_weight: float = option(WEIGHT, "do not follow rays of a smaller weight", 0.0)

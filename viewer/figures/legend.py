@@ -13,8 +13,11 @@ from viewer.figures.lights import FATE
 from viewer.figures.marks import Line, Mark, Point, Rectangle, Stroke, Text
 
 LINE = 1.3  # from line to line, in text sizes
-SAMPLE = 2.4  # width of a sample with its gap, in text sizes
+SAMPLE, BARE_SAMPLE = 2.4, 1.4  # width of a sample with its gap, and of one without a stub, in text sizes
 CLEAR = 0.5  # free space around a block, in text sizes
+APART = 1.0  # between two entries in a row
+
+CUT = "cut"  # what an entry about rays that were cut explains
 
 RAYS = ("top left", "bottom left", "top right", "bottom right")
 LIGHTS = ("top right", "bottom right", "top left", "bottom left")
@@ -22,15 +25,17 @@ LIGHTS = ("top right", "bottom right", "top left", "bottom left")
 
 @dataclass(frozen=True)
 class Entry:
-    what: str  # a kind of ray, the end of a shadow ray, or "lights": words only
+    what: str  # a kind of ray, the end of a shadow ray, CUT, or "lights": words only
     words: str
+    stub: bool = True  # the sign of a shadow ray stands at the end of a stub
 
     def width(self, size: float) -> float:
-        return SAMPLE * size * self.has_sample + text_width(self.words, size)
+        return self.indent * size + text_width(self.words, size)
 
     @property
-    def has_sample(self) -> bool:
-        return self.what != "lights"
+    def indent(self) -> float:
+        """The width of the sample before the words, in text sizes."""
+        return 0.0 if self.what == "lights" else SAMPLE if self.what in STYLES or self.stub else BARE_SAMPLE
 
 
 def legend(entries: Sequence[Entry], marks: Sequence[Mark], where: Rectangle, size: float, theme: Theme) -> list[Mark]:
@@ -54,6 +59,19 @@ def legend(entries: Sequence[Entry], marks: Sequence[Mark], where: Rectangle, si
     return found
 
 
+def legend_row(entries: Sequence[Entry], left: float, middle: float, size: float, theme: Theme) -> list[Mark]:
+    """The legend in one line, whose text has its middle at this height."""
+    found: list[Mark] = []
+    for entry in entries:
+        found += _entry(entry, (left, middle), size, theme)
+        left += entry.width(size) + APART * size
+    return found
+
+
+def row_width(entries: Sequence[Entry], size: float) -> float:
+    return sum(entry.width(size) + APART * size for entry in entries)
+
+
 def _take(vacant: FreeSpace, block: Sequence[Entry], corners: Sequence[str], size: float) -> Point | None:
     """The place of a block's first line."""
     wide = max((entry.width(size) for entry in block), default=0.0)
@@ -75,13 +93,17 @@ def _block(block: Sequence[Entry], at: Point, size: float, theme: Theme) -> list
 def _entry(entry: Entry, at: Point, size: float, theme: Theme) -> list[Mark]:
     name = f"legend-{entry.what}"
     x, y = at
-    words = Text(name, (x + SAMPLE * size * entry.has_sample, y), entry.words, size, theme.text, "start")
-    if not entry.has_sample:
+    words = Text(name, (x + entry.indent * size, y), entry.words, size, theme.text, "start")
+    if entry.what == "lights":
         return [words]
     if entry.what in STYLES:
         style = STYLES[entry.what]
         stroke = Stroke(theme.ray(entry.what), style.width, style.dash)
         return [Line(name, (x, y), (x + 2.0 * size, y), stroke, style.arrow, 0.65), words]
+    if entry.what == CUT:
+        return [*signs.cut(name, (x + 0.5 * size, y), size, theme.muted), words]
+    if not entry.stub:
+        return [*signs.light_end(entry.what, name, (x + 0.5 * size, y), size, theme), words]
     stroke = Stroke(theme.ray("shadow"), STYLES["shadow"].width, FATE[entry.what].dash)
     stub = Line(name, (x, y), (x + 1.1 * size, y), stroke)
     return [stub, *signs.light_end(entry.what, name, (x + 1.6 * size, y), size, theme), words]

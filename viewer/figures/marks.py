@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from itertools import groupby
 
 from tracer.printable import printable
-from viewer.base.theme import Arrow, Color
+from viewer.base.theme import Arrow, Color, blend
 from viewer.figures.font import text_box
 
 WIDTH, HEIGHT = 960.0, 540.0
@@ -20,6 +20,8 @@ Rectangle = tuple[float, float, float, float]  # left, top, right, bottom
 
 
 Piece = tuple[Point, Point]
+
+CANVAS: Rectangle = (0.0, 0.0, WIDTH, HEIGHT)
 
 
 def clip_shares(piece: Piece, box: Rectangle) -> tuple[float, float] | None:
@@ -171,6 +173,17 @@ def with_line_width(mark: Mark, share: float) -> Mark:
     """The mark with its lines `share` times as thick."""
     stroke = getattr(mark, "stroke", None)
     return replace(mark, stroke=stroke.times(share)) if stroke else mark  # type: ignore[call-arg]
+
+
+def blended(mark: Mark, share: float, paper: Color) -> Mark:
+    """The mark with its colours blended with the paper's. It is as opaque as before. `share` is that of its own."""
+    changed: dict[str, object] = {
+        name: blend(color, share, paper) for name in ("fill", "color") if (color := getattr(mark, name, None))
+    }
+    stroke = getattr(mark, "stroke", None)
+    if stroke:
+        changed["stroke"] = replace(stroke, color=blend(stroke.color, share, paper))
+    return replace(mark, **changed)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,9 @@ def pages(name: str, subject: Subject, style: FigureStyle, command: str = "") ->
     marks_of = resolve_name(next(kind.function for kind in FIGURES if kind.name == name))
     width = line_share(style.text_size)
     made = [[with_line_width(mark, width) for mark in marks] for marks in marks_of(subject, style)]
+    paper = style.theme.ground
     return [
-        Figure(title(step.tree), description(step.tree), command, tuple(marks), style.theme.ground, style.ground)
+        Figure(title(step.tree), description(step.tree), command, tuple(marks), paper, style.ground, *style.page)
         for step, marks in zip(subject.steps, made, strict=True)
     ]
 

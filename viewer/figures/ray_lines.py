@@ -58,8 +58,8 @@ class RayLines(Sequence[RayLine]):
 
     def find(self, row: int | None) -> int | None:
         """The index of the line of this row; None if it has none."""
-        found = np.flatnonzero(self.rows == row) if row is not None else ()
-        return int(found[0]) if len(found) else None
+        found = [] if row is None else np.flatnonzero(self.rows == row).tolist()
+        return found[0] if found else None
 
 
 def drawn_rows(tree: RayTree, selected: int | None = None) -> list[int]:
@@ -79,7 +79,7 @@ def ray_lines(tree: RayTree, rows: Sequence[int], frame: Frame, kinds: Set[str])
     among = among[wanted[nodes["kind"][among]] & ((nodes["kind"][among] != SHADOW) | (nodes["t"][among] != 0.0))]
     codes, ended = nodes["kind"][among], nodes["end"][among]
     starts, ends = frame.inside(nodes["origin"][among]), frame.inside(nodes["point"][among])
-    escapes = np.isnan(ends).any(axis=1)
+    escapes = np.asarray(np.isnan(ends).any(axis=1))
     ends[escapes] = _escapes(starts[escapes], nodes["direction"][among[escapes]])
     is_shadow = codes == SHADOW
     blocked = is_shadow & (ended == BLOCKED)

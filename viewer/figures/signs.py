@@ -1,6 +1,7 @@
 """Small signs that figures share: the eye, ends of shadow rays, the bar of total internal reflection."""
 
 import math
+from dataclasses import replace
 
 from viewer.base.theme import Color, Theme
 from viewer.figures.marks import Disc, Line, Mark, Point, Shape, Stroke
@@ -53,15 +54,21 @@ def arc(center: Point, radius: float, begin: float, end: float) -> tuple[Point, 
     return tuple((center[0] + radius * math.sin(turn), center[1] - radius * math.cos(turn)) for turn in turns)
 
 
-def light_end(end: str, name: str, at: Point, size: float, theme: Theme) -> list[Mark]:
+def cut(name: str, at: Point, size: float, color: Color, title: str = "") -> list[Mark]:
+    """Rays that were cut: three dots."""
+    return [Disc(name, (at[0] + 0.3 * k * size, at[1]), 0.08 * size, color, None, title=title) for k in (-1, 0, 1)]
+
+
+def light_end(end: str, name: str, at: Point, size: float, theme: Theme, title: str = "") -> list[Mark]:
     """The sign at the end of a shadow ray of this fate."""
     color = theme.ray("shadow")
     match end:
         case "away":
-            return bar(name, at, 0.7 * size, color)
+            marks = bar(name, at, 0.7 * size, color)
         case "blocked":
-            return cross(name, at, size, color)
+            marks = cross(name, at, size, color)
         case "nothing":
-            return [Disc(name, at, 0.26 * size, None, Stroke(color, 1.5))]
+            marks = [Disc(name, at, 0.26 * size, None, Stroke(color, 1.5))]
         case _:
-            return sun(name, at, size, theme.sun, color if end == "filtered" else None)
+            marks = sun(name, at, size, theme.sun, color if end == "filtered" else None)
+    return [replace(marks[0], title=title), *marks[1:]]

@@ -38,7 +38,14 @@ class FigureStyle:
     ground: bool = False  # on the theme's background; otherwise transparent
     node: int = 0  # the row of the hit that the figure is about, if it is about one
     eye: str = "top"  # of a tree: or "left"
-    lights: bool = True  # with the rays to the lights
+    selected: int | None = None  # the row of a ray to emphasise; rays that are neither above nor below it are dimmed
+    levels: bool = False  # a tree from the top: the depths, with their numbers
+    legend: bool = True  # of a tree
+    page: tuple[float, float] = (WIDTH, HEIGHT)  # width and height of the canvas, in points
+
+    @property
+    def canvas(self) -> Rectangle:
+        return (0.0, 0.0, *self.page)
 
 
 @dataclass(frozen=True)

@@ -12,14 +12,15 @@ from viewer.base.cached import Cached, Changed
 from viewer.base.colormap import colorize
 from viewer.explain.interfaces import Interface
 from viewer.explain.sections import Part
-from viewer.figures.layout.tidy_tree import Place as TreePlace
+from viewer.figures.layout.tree_plan import TreePlan
 from viewer.figures.marks import Mark
 from viewer.figures.ray_lines import NO_LINES, RayLines, drawn_rows, ray_lines, relatives
+from viewer.figures.steps import Step
+from viewer.gl.interface import Name, hit_of, interface_lines, interface_names
+from viewer.gl.lines import NO_ROWS
 from viewer.gl.magnified import NEAR, Place, magnify
 from viewer.gl.picture_texture import PictureTexture
 from viewer.gl.stage import ImagePlane, Stage
-from viewer.gl.interface import Name, hit_of, interface_lines, interface_names
-from viewer.gl.lines import NO_ROWS
 from viewer.gl.stage_lines import (
     StageLines,
     frustum_lines,
@@ -58,12 +59,14 @@ class Canvas:
         self.kept: set[int] | None = None  # rows of these rays that stay bright beside the selected one; None: all
         self.drawn = 0  # rows of the tree that the 3D view draws, of all kinds
         self.scene_marks: Cached[list[Mark]] = Cached()  # over the 3D view
-        self.is_hovered = False  # whether the mouse is over the 3D view
+        self._under_mouse = ""  # the view that has set `Session.hovered`
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
         self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)  # left, top, size of a pixel
-        self.nodes: dict[int, tuple[float, float]] = {}  # of the tree
-        self.tree_kept: Cached[set[int]] = Cached()  # rows of the tree that stay bright beside the selected one
-        self.tree_places: Cached[dict[int, TreePlace]] = Cached()  # of the tree, in its own units
+        self.nodes: dict[int, tuple[float, float]] = {}  # of the tree: its boxes, and the signs of its shadow rays
+        self.tree_plan: Cached[TreePlan] = Cached()
+        self.tree_plan_of_ray: Cached[TreePlan] = Cached()  # in which a selected ray is seen that is folded otherwise
+        self.tree_step: Cached[Step] = Cached()
+        self.tree_marks: Cached[list[Mark]] = Cached()
         self.ray_changed = Changed()  # the ray whose numbers are shown
         self.interfaces: Cached[list[Interface]] = Cached()  # at both ends of that ray
         self.explanation: Cached[list[Part]] = Cached()  # of that ray
@@ -75,6 +78,15 @@ class Canvas:
         self._edges_changed = Changed()
         self._plane: np.ndarray | None = None
         self._throttle = _Throttle()
+
+    def hover(self, view: str, row: int | None) -> None:
+        """The mouse is over this view, and there over this row of the tree, which is highlighted in all views."""
+        self._under_mouse, self.session.hovered = view, row
+
+    def leave(self, view: str) -> None:
+        """The mouse is not over this view."""
+        if self._under_mouse == view:
+            self._under_mouse, self.session.hovered = "", None
 
     def picture(self) -> moderngl.Texture | None:
         """The rendered image as far as it is; its first row is the image's top."""
@@ -150,7 +162,7 @@ class Canvas:
         """All that the lines of the 3D view depend on."""
         session, shown = self.session, self.session.shown
         switches = (frozenset(shown.kinds), shown.camera, shown.normals)
-        return (switches, session.world, session.tree, session.selected, session.appearance.theme)
+        return (switches, session.world, session.tree, session.step, session.selected, session.appearance.theme)
 
     def _set_world(self) -> None:
         session = self.session
@@ -173,6 +185,8 @@ class Canvas:
             tree, selected = session.tree, session.selected
             rows = drawn_rows(tree, selected)
             self.drawn = len(rows)
+            if session.step:
+                rows = [i for i in rows if i in session.step.rows]
             self.kept = kept = relatives(tree, selected, rows) if selected is not None else None
             self.lines = ray_lines(tree, rows, session.frame, session.shown.kinds)
             rays = style_rays(tree, self.lines, kept, selected, theme)

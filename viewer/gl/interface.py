@@ -135,11 +135,19 @@ def interface_names(hit: Hit, length: float) -> list[Name]:
     found = [name("n", (0.0, 1.12), (0.15, 1.12), (-0.15, 1.12), of_normal=True)]
     if hit.theta1 > SMALLEST:
         middle = -0.5 * hit.theta1
-        found.append(name(f"θ₁ {format_angle(hit.theta1, hit.error)}", *((middle, RADIUS + away) for away in (0.2, 0.32, 0.45, 0.6))))
+        found.append(
+            name(
+                f"θ₁ {format_angle(hit.theta1, hit.error)}",
+                *((middle, RADIUS + away) for away in (0.2, 0.32, 0.45, 0.6)),
+            )
+        )
     if hit.theta2 is not None and hit.theta2 > SMALLEST:
         middle = math.pi - 0.5 * hit.theta2
         found.append(
-            name(f"θ₂ {format_angle(hit.theta2, hit.error)}", *((middle, RADIUS_2 + away) for away in (0.2, 0.32, 0.45, 0.6)))
+            name(
+                f"θ₂ {format_angle(hit.theta2, hit.error)}",
+                *((middle, RADIUS_2 + away) for away in (0.2, 0.32, 0.45, 0.6)),
+            )
         )
     if hit.n2 is not None:
         found.append(name(f"n₁ = {format_number(hit.n1)}", (1.1, 0.8), (1.1, 1.1), (1.3, 1.1), (-1.3, 1.1)))

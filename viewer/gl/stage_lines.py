@@ -79,9 +79,7 @@ def glow_lines(lines: RayLines, row: int | None, theme: Theme) -> np.ndarray:
     return line_rows(lines.starts[found], lines.ends[found], ink, widths, fading=lines.escapes[found])
 
 
-def normal_lines(
-    tree: RayTree, rows: Sequence[int], frame: Frame, kept: Set[int] | None, theme: Theme
-) -> np.ndarray:
+def normal_lines(tree: RayTree, rows: Sequence[int], frame: Frame, kept: Set[int] | None, theme: Theme) -> np.ndarray:
     """The normal at every hit of these rows, on the side of the incoming ray."""
     nodes = tree.nodes
     among = np.asarray(rows, np.int64)

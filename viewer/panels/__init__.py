@@ -1,9 +1,6 @@
-"""The panels of the window. A new one needs a file with a PANEL and a line here.
-
-They are drawn in this order: a pixel that is picked in the image, and a ray that is selected in the tree, are shown by
-the others in the same frame.
-"""
+"""The panels of the window. A new one needs a file with a PANEL and a line here."""
 
 from viewer.panels import error, image, lesson, ray, scene, tree
 
-PANELS = (image.PANEL, tree.PANEL, scene.PANEL, lesson.PANEL, ray.PANEL, error.PANEL)
+# In the order of the keys F2, F3, ... (`viewer.window.keys`). Of those that share a place, the first is in front.
+PANELS = (scene.PANEL, image.PANEL, tree.PANEL, ray.PANEL, lesson.PANEL, error.PANEL)

@@ -28,15 +28,17 @@ def draw(session: Session, left: float, top: float, width: float) -> None:
     )
     imgui.pop_style_color()
     imgui.pop_style_var()
-    _depth(session)
-    if _has_glass(session):
+    is_lecture = session.appearance.is_lecture_size  # then there is room for what a student needs
+    _depth(session, not is_lecture)
+    if _has_glass(session) and not is_lecture:
         _gap()
         _model(session)
-    content = _status_text(session)
+    content = "" if is_lecture else _status_text(session)
     status_at = width - d.text_size(content, imgui.get_font_size())[0] - 12 * d.unit()
     _gap()
     _legend(session, status_at)
-    _status(session, content, status_at)
+    if content:
+        _status(session, content, status_at)
     imgui.end()
 
 
@@ -44,7 +46,8 @@ def _gap() -> None:
     imgui.same_line(0.0, 18 * d.unit())
 
 
-def _depth(session: Session) -> None:
+def _depth(session: Session, has_signs: bool) -> None:
+    """The depths 0 to 3, with `has_signs` the next and the one before, and a larger depth."""
     imgui.align_text_to_frame_padding()
     imgui.text("Depth")
     for depth in range(4):
@@ -52,14 +55,11 @@ def _depth(session: Session) -> None:
         if d.toggle(session.appearance.theme, str(depth), session.depth == depth):
             session.set_depth(depth)
         d.hint(f"rays that were reflected or refracted at most {depth} times (key {depth})")
-    imgui.same_line(0.0, 3 * d.unit())
-    if imgui.button("−"):
-        session.set_depth(session.depth - 1)
-    d.hint("decrease the depth by one (key -)")
-    imgui.same_line(0.0, 3 * d.unit())
-    if imgui.button("+"):
-        session.set_depth(session.depth + 1)
-    d.hint("increase the depth by one (key +)")
+    for sign, by, does in (("−", -1, "decrease"), ("+", 1, "increase")) if has_signs else ():
+        imgui.same_line(0.0, 3 * d.unit())
+        if imgui.button(sign):
+            session.set_depth(session.depth + by)
+        d.hint(f"{does} the depth by one (key {sign.replace('−', '-')})")
     if session.depth > 3:
         imgui.same_line(0.0, 6 * d.unit())
         imgui.text_colored(session.appearance.theme.accent, str(session.depth))
@@ -116,8 +116,10 @@ def _labels(session: Session, room: float) -> dict[str, str]:
         through = "stopped by glass" if _glass_blocks(session) else "unbent in glass"
         full["shadow"] += f", {through}"
         short["shadow"] += f", {through}"
+    shorter = {"camera": "camera", "reflection": "reflected", "refraction": "refracted", "tir": "total internal",
+               "shadow": "to light"}  # fmt: skip
     letters = {kind: style.letter for kind, style in STYLES.items()}
-    for labels in (full, short):
+    for labels in (full, short, shorter):
         widths = [d.text_size(label, imgui.get_font_size())[0] for label in labels.values()]
         if sum(widths) + len(widths) * (SAMPLE + GAP) * d.unit() <= room:
             return labels

@@ -9,8 +9,9 @@ from imgui_bundle import imgui, implot
 from viewer.base.theme import SMALL, curve_color
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
-from viewer.panels.panel import Corner, Panel
+from viewer.panels.panel import Panel
 from viewer.session.actions import set_strategy, toggle_refinement
+from viewer.session.layout import Corner
 from viewer.session.refinement import DISPLAYS, STRATEGIES, Run, forecast
 from viewer.session.session import Session
 from viewer.session.view_state import Request

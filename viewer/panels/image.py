@@ -4,18 +4,19 @@ pixel.
 
 from imgui_bundle import imgui
 
+from tracer.tree.raytree import RayTree
 from viewer.base.colormap import RANGES, gradient
 from viewer.base.srgb import display_color
 from viewer.base.theme import SMALL
 from viewer.gl.canvas import Canvas, texture_ref
 from viewer.gl.magnified import Place
 from viewer.panels import draw as d
-from viewer.panels.panel import Corner, Panel
+from viewer.panels.panel import Panel
+from viewer.session.layout import Corner
 from viewer.session.session import Session
 
 
 def draw(session: Session, canvas: Canvas) -> None:
-    _head(session)
     corner = imgui.get_cursor_screen_pos()
     room = imgui.get_content_region_avail()
     if room.x < 8 or room.y < 8:
@@ -89,18 +90,19 @@ def _mark_pixel(session: Session, draw: imgui.ImDrawList, place: tuple[float, fl
         draw.add_rect((x - half, y - half), (x + half, y + half), ink, 2.0 * unit, 0.6 * width)
 
 
-def _head(session: Session) -> None:
-    """The picked pixel's coordinates, which can be typed, and its colour."""
+def _head(session: Session, room: float) -> None:
+    """The picked pixel's coordinates, which can be typed, and its colour; or the scale of the map on show."""
     if not session.world:
-        imgui.new_line()
+        imgui.text("Image")
         return
-    unit = d.unit()
-    imgui.align_text_to_frame_padding()
-    imgui.text_colored(session.appearance.theme.muted, "pixel")
+    unit, theme = d.unit(), session.appearance.theme
     x, y = session.pixel or (-1, -1)
+    imgui.push_style_var(imgui.StyleVar_.frame_padding, (4.0 * unit, 1.0 * unit))
+    imgui.align_text_to_frame_padding()
+    imgui.text_colored(theme.muted, "pixel")
     for label, value in (("x", x), ("y", y)):
-        imgui.same_line()
-        imgui.set_next_item_width(56 * unit)
+        imgui.same_line(0.0, 6.0 * unit)
+        imgui.set_next_item_width(d.text_size("0000", imgui.get_font_size())[0] + 8.0 * unit)
         written = "" if value < 0 else str(value)
         flags = imgui.InputTextFlags_
         changed, text = imgui.input_text(
@@ -108,30 +110,34 @@ def _head(session: Session) -> None:
         )
         if changed and text.isdigit():
             session.pick(*((int(text), max(y, 0)) if label == "x" else (max(x, 0), int(text))))
+    imgui.same_line(0.0, 10.0 * unit)
+    left = room - imgui.get_cursor_pos_x()
     if session.refinement.shows_map:
-        _scale(session)
+        _scale(session, left)
     elif session.tree:
-        rgb = session.tree.radiance
-        imgui.same_line()
-        imgui.color_button(
-            "##color",
-            display_color(rgb),
-            imgui.ColorEditFlags_.no_tooltip,
-            (imgui.get_frame_height(), imgui.get_frame_height()),
-        )
-        content = "  ".join(f"{value:.4f}" for value in rgb)
-        room = imgui.get_cursor_screen_pos().x + imgui.get_content_region_avail().x - imgui.get_item_rect_max().x
-        if room >= d.text_size(content, imgui.get_font_size())[0] + 8 * unit:
-            imgui.same_line()
-            imgui.text(content)
-        if imgui.is_item_hovered():
-            meaning = "red, green, blue: linear light, before it is encoded as sRGB for the screen"
-            if session.refinement.current:
-                meaning += f"\nof the ray through the pixel's centre{_refined(session)}"
-            imgui.set_tooltip(f"{content}\n{meaning}")
+        _color(session, session.tree, left)
     else:
-        imgui.same_line()
-        imgui.text_colored(session.appearance.theme.muted, "click the image")
+        imgui.text_colored(theme.muted, "click the image")
+    imgui.pop_style_var()
+
+
+def _color(session: Session, tree: RayTree, room: float) -> None:
+    """The picked pixel's colour, with its numbers if there is room."""
+    rgb = tree.radiance
+    side = imgui.get_frame_height()
+    flags = imgui.ColorEditFlags_
+    imgui.color_button("##color", display_color(rgb), flags.no_tooltip | flags.no_drag_drop, (side, side))
+    content = "  ".join(f"{value:.4f}" for value in rgb)
+    hovered = imgui.is_item_hovered()
+    if room >= side + d.text_size(content, imgui.get_font_size())[0] + 8.0 * d.unit():
+        imgui.same_line(0.0, 8.0 * d.unit())
+        imgui.text(content)
+        hovered = hovered or imgui.is_item_hovered()
+    if hovered:
+        meaning = "red, green, blue: linear light, before it is encoded as sRGB for the screen"
+        if session.refinement.current:
+            meaning += f"\nof the ray through the pixel's centre{_refined(session)}"
+        imgui.set_tooltip(f"{content}\n{meaning}")
 
 
 def _refined(session: Session) -> str:
@@ -146,30 +152,25 @@ def _refined(session: Session) -> str:
     return f"; the mean of {count} samples is {mean}"
 
 
-def _scale(session: Session) -> None:
-    """The scale of the map's colours, at the right end."""
+def _scale(session: Session, room: float) -> None:
+    """The scale of the map's colours."""
     unit, size = d.unit(), imgui.get_font_size()
     low, high = (f"{value:g}" for value in RANGES[session.refinement.shows])
     word = session.refinement.shows
-    imgui.same_line()
-    start, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
-    ends = d.text_size(low, size)[0] + d.text_size(high, size)[0] + 14 * unit
-    named = d.text_size(word, size)[0] + 10 * unit
-    if ends + named + 60 * unit > room:
-        word, named = "", 0.0
-    bar = min(110 * unit, max(20 * unit, room - ends - named))
-    left = start.x + max(0.0, room - ends - named - bar)
-    top = start.y + 0.5 * (imgui.get_frame_height() - size)
-    pad = imgui.get_window_draw_list()
-    d.text(pad, (left, top), session.appearance.theme.muted, word, size)
-    d.text(pad, (left + named, top), session.appearance.theme.text, low, size)
-    left += named + d.text_size(low, size)[0] + 6 * unit
-    colors = gradient(48)
+    gap = 6.0 * unit
+    if d.text_size(word + low + high, size)[0] + 100 * unit <= room:
+        imgui.text_colored(session.appearance.theme.muted, word)
+        imgui.same_line(0.0, gap)
+    imgui.text(low)
+    imgui.same_line(0.0, gap)
+    at, bar = imgui.get_cursor_screen_pos(), 60 * unit
+    pad, colors = imgui.get_window_draw_list(), gradient(48)
     for k, color in enumerate(colors):
-        a, b = left + k * bar / len(colors), left + (k + 1) * bar / len(colors)
-        pad.add_rect_filled((a, top + 0.1 * size), (b + 0.5, top + size), d.u32(color))
-    d.text(pad, (left + bar + 6 * unit, top), session.appearance.theme.text, high, size)
-    imgui.new_line()
+        a, b = at.x + k * bar / len(colors), at.x + (k + 1) * bar / len(colors)
+        pad.add_rect_filled((a, at.y + 0.1 * size), (b + 0.5, at.y + size), d.u32(color))
+    imgui.dummy((bar, size))
+    imgui.same_line(0.0, gap)
+    imgui.text(high)
 
 
 def _limit_reached(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
@@ -226,4 +227,4 @@ def waiting_lines(session: Session) -> list[str]:
     return ["Loading ..."]
 
 
-PANEL = Panel("Image", draw, Corner.TOP_RIGHT, padding=(6, 5))
+PANEL = Panel("Image", draw, Corner.TOP_RIGHT, fills=True, head=_head)

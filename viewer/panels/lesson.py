@@ -4,7 +4,8 @@ from imgui_bundle import imgui
 
 from tracer.printable import printable
 from viewer.gl.canvas import Canvas
-from viewer.panels.panel import Corner, Panel
+from viewer.panels.panel import Panel
+from viewer.session.layout import Corner
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 

@@ -9,24 +9,28 @@ from viewer.base.files import Unusable
 from viewer.base.theme import THEMES
 from viewer.figures.catalogue import FIGURES, FORMATS, PICTURES
 from viewer.lessons import lesson as lessons
-from viewer.panels import draw as d
 from viewer.session.actions import go, look_through_camera, open_lesson
 from viewer.session.saving import copy_command, export_figure, save_image
 from viewer.session.session import Session
-from viewer.session.view_state import Request
+from viewer.session.view_state import Pointer, Request
 
 
-def draw(session: Session) -> bool:
-    """Draw the menu bar. Returns whether the panels are to be put back in place."""
-    reset = False
+def draw(session: Session) -> None:
+    if session.appearance.is_lecture_size and not _is_called():
+        return
     if imgui.begin_main_menu_bar():
         for title, draw_menu in MENUS.items():
             if imgui.begin_menu(title):
-                reset = draw_menu(session) is True or reset
+                draw_menu(session)
                 imgui.end_menu()
-        _title(session)
         imgui.end_main_menu_bar()
-    return reset
+
+
+def _is_called() -> bool:
+    """Whether the mouse is at the top of the window, or a menu is open. Otherwise there is no menu in lecture mode."""
+    room, mouse = imgui.get_main_viewport(), imgui.get_mouse_pos()
+    at_top = imgui.is_mouse_pos_valid() and 0.0 <= mouse.y - room.pos.y < imgui.get_frame_height()
+    return at_top or imgui.is_popup_open("", imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level)
 
 
 def _file_menu(session: Session) -> None:
@@ -80,7 +84,7 @@ def _lesson_item(session: Session, name: str) -> None:
         open_lesson(session, name)
 
 
-def _view_menu(session: Session) -> bool:
+def _view_menu(session: Session) -> None:
     shown = session.shown
     for field, label, key in (
         ("camera", "Camera and its image", "C"),
@@ -106,8 +110,12 @@ def _view_menu(session: Session) -> bool:
         session.appearance.toggle_lecture_size()
     if imgui.menu_item_simple("Black screen", "B"):
         session.is_blank = True
+    if imgui.menu_item_simple("Pointer, spotlight", "X", session.pointer is not Pointer.NONE):
+        session.pointer = session.pointer.next()
     imgui.separator()
-    return imgui.menu_item_simple("Reset the panels")
+    if imgui.menu_item_simple("Reset the panels"):
+        session.layout.reset()
+        session.guard.open_all()
 
 
 def _help_menu(session: Session) -> None:
@@ -115,22 +123,7 @@ def _help_menu(session: Session) -> None:
         session.shows_help = True
 
 
-def _title(session: Session) -> None:
-    """The notice, or the scene's title, at the right end of the bar."""
-    if session.notice.text:
-        content = session.notice.text
-    elif session.world:
-        content = session.world.scene.caption
-    else:
-        return
-    width, _ = d.text_size(content, imgui.get_font_size())
-    place = imgui.get_window_width() - width - 14 * d.unit()
-    if place > imgui.get_cursor_pos_x():
-        imgui.set_cursor_pos_x(place)
-        imgui.text_colored(session.appearance.theme.muted, content)
-
-
-MENUS: dict[str, Callable[[Session], bool | None]] = {
+MENUS: dict[str, Callable[[Session], None]] = {
     "File": _file_menu,
     "Figure": _figure_menu,
     "Lessons": _lessons_menu,

@@ -2,20 +2,11 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import Enum, auto
 
 from viewer.gl.canvas import Canvas
+from viewer.session.layout import Corner
 from viewer.session.session import Session
 from viewer.session.view_state import Request
-
-
-class Corner(Enum):
-    """The corner in which a panel stands at first."""
-
-    TOP_LEFT = auto()
-    TOP_RIGHT = auto()
-    BOTTOM_LEFT = auto()
-    BOTTOM_RIGHT = auto()
 
 
 @dataclass(frozen=True)
@@ -24,7 +15,15 @@ class Panel:
 
     title: str
     draw: Callable[[Session, Canvas], None]
-    place: Corner
-    padding: tuple[float, float] | None = None  # of a panel that fills its room and does not scroll; None: it scrolls
+    place: Corner  # at the desk
+    lecture_place: Corner | None = None  # in lecture mode, if it is another
+    fills: bool = False  # its picture fills the panel, its title lies on it; otherwise it is text, which scrolls
+    head: Callable[[Session, float], None] | None = None  # in the place of the title; it may be so many pixels wide
+    shows_ray: bool = False  # whether it shows what is selected
     request: Request | None = None  # that brings it to the front
     exists: Callable[[Session], bool] = lambda session: True
+
+    def place_in(self, session: Session) -> Corner:
+        if session.appearance.is_lecture_size and self.lecture_place:
+            return self.lecture_place
+        return self.place

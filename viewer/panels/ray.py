@@ -9,7 +9,8 @@ from viewer.explain.ray import explain_ray, headline
 from viewer.explain.sections import Section
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
-from viewer.panels.panel import Corner, Panel
+from viewer.panels.panel import Panel
+from viewer.session.layout import Corner
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 

@@ -10,9 +10,10 @@ from viewer.base.theme import SMALL
 from viewer.figures.ray_lines import nearest_row
 from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas, texture_ref
-from viewer.panels import draw as d
-from viewer.panels.panel import Corner, Panel
-from viewer.panels.scene_marks import SceneMarks
+from viewer.gl.scene_marks import SceneMarks
+from viewer.panels import draw as d, inset
+from viewer.panels.panel import Panel
+from viewer.session.layout import Corner
 from viewer.session.session import Session
 
 REACH = 9.0  # logical pixels: the largest distance of a click from a ray
@@ -47,6 +48,7 @@ def draw(session: Session, canvas: Canvas) -> None:
     draw_marks(stage, marks, (corner.x, corner.y), unit)
     _fewer(session, canvas, stage, corner)
     stage.pop_clip_rect()
+    inset.draw(session, canvas, corner, room)
 
 
 def _handle_mouse(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
@@ -54,10 +56,9 @@ def _handle_mouse(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: 
     orbit = session.orbit
     button = imgui.MouseButton_
     if imgui.is_item_hovered():
-        session.hovered = _row_at(session, canvas, corner, room)
-    elif canvas.is_hovered:
-        session.hovered = None
-    canvas.is_hovered = imgui.is_item_hovered()
+        canvas.hover("scene", _row_at(session, canvas, corner, room))
+    else:
+        canvas.leave("scene")
     if imgui.is_item_active():
         moved = io.mouse_delta
         sideways = io.key_shift or imgui.is_mouse_down(button.right) or imgui.is_mouse_down(button.middle)
@@ -94,4 +95,9 @@ def _fewer(session: Session, canvas: Canvas, stage: imgui.ImDrawList, corner: im
         d.text(stage, place, session.appearance.theme.muted, content, SMALL * imgui.get_font_size())
 
 
-PANEL = Panel("Scene", draw, Corner.TOP_LEFT, padding=(0, 0))
+def _head(session: Session, room: float) -> None:
+    """The scene's title."""
+    imgui.text(session.world.scene.caption if session.world else "Scene")
+
+
+PANEL = Panel("Scene", draw, Corner.TOP_LEFT, fills=True, head=_head)

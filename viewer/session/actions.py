@@ -4,6 +4,7 @@ from tracer.choices import MODELS
 from viewer.base.files import Unusable
 from viewer.base.orbit import Orbit
 from viewer.lessons import lesson as lessons
+from viewer.session.history import Place
 from viewer.session.refinement import Strategy
 from viewer.session.session import Session
 from viewer.session.view_state import Request
@@ -31,9 +32,17 @@ def go(session: Session, by: int) -> None:
     if place is None or not session.opening:
         session.notice.say(f"there is no place {'before' if by < 0 else 'after'} this one")
     elif place.is_in(session.opening):
-        session.return_to(place)
+        _return_to(session, place)
     else:
         session.loader.load(place.opening)
+
+
+def _return_to(session: Session, place: Place) -> None:
+    """Pick the pixel and select the ray of a place in the scene on show."""
+    pixel = place.opening.pixel
+    session.pixel = session.inside(*pixel) if pixel else None
+    session.selection, session.tree, session.full_tree = place.opening.selection, None, None
+    session.update()
 
 
 def toggle_model(session: Session) -> None:
@@ -70,3 +79,27 @@ def open_lesson(session: Session, name: str) -> None:
         session.show_faults(list(unusable.faults))
         return
     session.loader.open(lesson.scene, lesson)
+
+
+def toggle_granularity(session: Session) -> None:
+    """Reveal the tree by level, or by ray."""
+    session.reveal.toggle_granularity()
+    session.notice.say(session.reveal.words)
+
+
+def toggle_order(session: Session) -> None:
+    """Reveal the tree breadth-first, or depth-first."""
+    session.reveal.toggle_order()
+    session.notice.say(session.reveal.words)
+
+
+def change_speed(session: Session, by: int) -> None:
+    """Play faster (1) or slower (-1)."""
+    session.reveal.change_speed(by)
+    session.notice.say(session.reveal.speed_words)
+
+
+def toggle_loop(session: Session) -> None:
+    """Play endlessly, or once."""
+    session.reveal.toggle_loop()
+    session.notice.say("the steps play endlessly" if session.reveal.loops else "the steps play once")

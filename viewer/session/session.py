@@ -3,6 +3,7 @@
 Only the window's thread changes it. Panels read it and call its methods. It imports no panel and no OpenGL.
 """
 
+import time
 from pathlib import Path
 
 import numpy as np
@@ -17,16 +18,19 @@ from tracer.printable import shown_path
 from tracer.tree.raytree import RayTree
 from viewer.base.cached import Cached
 from viewer.base.orbit import Frame, Orbit, initial_orbit
+from viewer.figures.steps import Step
 from viewer.lessons.lesson import Lesson
 from viewer.session.call_queue import CallQueue
 from viewer.session.figure_export import FigureExport
 from viewer.session.guard import Guard
 from viewer.session.history import History, Place
 from viewer.session.image_renderer import ImageRenderer
+from viewer.session.layout import Layout
 from viewer.session.refinement import Refinement
+from viewer.session.reveal import Reveal
 from viewer.session.scene_loader import Opening, SceneLoader
 from viewer.session.verification import Verification
-from viewer.session.view_state import Appearance, Notice, OpenDialog, PanZoom, Request, Visibility
+from viewer.session.view_state import Appearance, Notice, OpenDialog, PanZoom, Pointer, Request, Visibility
 from viewer.session.warmup import Warmup
 
 LAYOUT_DEPTH = 3  # the tree is laid out for at least this depth, so that no node moves when the depth is stepped 0..3
@@ -45,11 +49,12 @@ class Session:
         self.refinement = Refinement(self.image)
         self.export = FigureExport(self.calls.post)
         self.verification = Verification(self.calls.post)
+        self.reveal = Reveal(lambda: self.tree, lambda: "shadow" in self.shown.kinds)
         # How the scene is looked at.
         self.shown = Visibility()
-        self.image_view = PanZoom()
-        self.tree_view = PanZoom(home=(0.0, 0.0))  # moved by logical pixels
+        self.image_view, self.tree_view = PanZoom(), PanZoom(home=(0.0, 0.0))  # the tree is moved by logical pixels
         self.appearance = Appearance()
+        self.layout, self.pointer = Layout(), Pointer.NONE
         self.notice, self.dialog = Notice(), OpenDialog()
         self.shows_help = self.is_blank = False  # is_blank: the window is black
         self.scroll = 0  # lines by which the texts are to be scrolled
@@ -67,8 +72,8 @@ class Session:
         self.tree: RayTree | None = None  # of the picked pixel
         self.full_tree: RayTree | None = None  # the same at least LAYOUT_DEPTH deep; `tree` is its first rows
         self.selection: str | None = None  # the path of the selected ray, if the tree has it
-        self.hovered: int | None = None  # the row of the tree under the mouse, in any view
         self.history = History()
+        self.hovered: int | None = None  # the row of the tree under the mouse, in any view
         self._selected: Cached[int | None] = Cached()
         if NOTE:
             self.notice.say(NOTE)
@@ -104,7 +109,7 @@ class Session:
         if not self.pixel:
             return
         (x, y), (width, height) = self.pixel, self.size
-        inside = self._inside(x, y)
+        inside = self.inside(x, y)
         if inside != self.pixel and not moves:
             said = f"{shown_path(self.lesson.path)}: " if self.lesson and self.lesson.pixel == self.pixel else ""
             self.show_faults([f"{said}pixel must be within 0,0 .. {width - 1},{height - 1}, got {x},{y}"])
@@ -127,7 +132,7 @@ class Session:
 
     def update(self) -> bool:
         """Process the results of background threads since the last frame. Returns whether a redraw is needed."""
-        news = self.notice.expires() | self.calls.run_posted()
+        news = self.notice.expires() | self.calls.run_posted() | self.reveal.advance(time.monotonic())
         self.loader.look()
         if self.world and self.warmup.ready:
             before = (self.tree, self.image.picture)
@@ -150,8 +155,7 @@ class Session:
         self.guard.run("the rays of this pixel", trace, unpick, closes=False)
 
     def _update_image(self) -> None:
-        if not self.world:
-            return
+        assert self.world
         if not self.image.picture:
             self.render()
         if not self.refinement.proceed(self.world, self.limits, self.size, self.model):
@@ -199,14 +203,14 @@ class Session:
         """
         if not self.world:
             return
-        pixel = self._inside(x, y)
+        pixel = self.inside(x, y)
         if pixel != self.pixel:
             self.pixel = pixel
             self.tree = None
             self._note_place(series)
             self.update()
 
-    def _inside(self, x: int, y: int) -> tuple[int, int]:
+    def inside(self, x: int, y: int) -> tuple[int, int]:
         """The nearest pixel of the image."""
         width, height = self.size
         return (min(max(x, 0), width - 1), min(max(y, 0), height - 1))
@@ -225,6 +229,11 @@ class Session:
             if row is not None:
                 self.requests.append(Request.SHOW_RAY)
 
+    @property
+    def step(self) -> Step | None:
+        """The step of the tree that is on show; None if the whole tree is."""
+        return self.reveal.step
+
     def _now(self) -> Opening:
         """An opening that leads back to the place on show."""
         assert self.opening
@@ -235,17 +244,9 @@ class Session:
     def _note_place(self, series: object = None) -> None:
         self.history.add(Place(self._now(), series))
 
-    def return_to(self, place: Place) -> None:
-        """Pick the pixel and select the ray of a place in the scene on show."""
-        pixel = place.opening.pixel
-        self.pixel = self._inside(*pixel) if pixel else None
-        self.selection, self.tree, self.full_tree = place.opening.selection, None, None
-        self.update()
-
     def set_depth(self, depth: int) -> None:
-        depth = max(0, depth)
-        if depth != self.depth:
-            self.depth = depth
+        if max(0, depth) != self.depth:
+            self.depth = max(0, depth)
             self._retrace()
 
     def set_model(self, model: str) -> None:
@@ -290,9 +291,8 @@ class Session:
 
     def reset_orbit(self) -> None:
         """Look at the scene as at first."""
-        if not self.world:
-            return
-        self.orbit = initial_orbit(self.world, self.frame, self.lesson.view if self.lesson else None)
+        if self.world:
+            self.orbit = initial_orbit(self.world, self.frame, self.lesson.view if self.lesson else None)
 
     def close(self) -> None:
         self.warmup.close()

@@ -18,9 +18,22 @@ class Request(Enum):
     SHOW_LESSON = auto()  # bring this panel to the front
     SHOW_RAY = auto()
     SHOW_ERROR = auto()
+    MAXIMISE = auto()  # the panel under the mouse; again: give the room back
     NEXT_PANEL = auto()  # of those at the lower right
     OPEN_DIALOG = auto()
     QUIT = auto()
+
+
+class Pointer(Enum):
+    """What shows the mouse to the room."""
+
+    NONE = auto()
+    DISC = auto()
+    SPOTLIGHT = auto()
+
+    def next(self) -> "Pointer":
+        kinds = list(Pointer)
+        return kinds[(kinds.index(self) + 1) % len(kinds)]
 
 
 @dataclass

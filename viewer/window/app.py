@@ -11,14 +11,13 @@ from tracer.printable import shown_path
 from viewer.base.cached import Changed
 from viewer.base.theme import STYLES
 from viewer.gl.canvas import Canvas
-from viewer.panels import PANELS, bar, blank, help, menu, messages, open_dialog
-from viewer.panels.panel import Corner, Panel
+from viewer.panels import PANELS, bar, blank, draw as d, frame, help, menu, messages, notice, open_dialog, pointer
+from viewer.panels.panel import Panel
+from viewer.session.layout import GAP, Arrangement, Corner, Rectangle, desk, lecture, tile
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 from viewer.window import keys, style
 from viewer.window.backend import Offscreen, Window
-
-DOCK = "dock"
 
 IDLE = 0.3  # seconds of sleep between polls of the scene's file
 FASTEST = 1 / 60  # least seconds between frames
@@ -26,6 +25,7 @@ BUSY = 1 / 30  # the same while an image renders and nothing else happens
 SHARE = 0.1  # largest share of the time for drawing frames while an image renders
 EAGER = 0.6  # the same while the user does something
 SMALLEST = (560, 360)  # room for the panels, in pixels
+SLIDE = (1280, 720)  # size of a window, in logical pixels, for which the sizes of text are chosen
 FRAMES_AFTER_EVENT = 6  # frames drawn after the last event: imgui's tables need some to settle
 
 
@@ -36,8 +36,7 @@ class App:
         self.surface = surface
         self.session = session
         self.canvas = Canvas(surface.ctx, session)
-        self.has_layout = False
-        self.resets_layout = False
+        self.places: dict[Corner, Rectangle] = {}  # of the panels, when they were drawn last
         self.drawn_state: object = None  # of the surface when it was drawn last
         self.style_changed = Changed()
         self.title_changed = Changed()
@@ -52,7 +51,8 @@ class App:
             busy = self._is_busy()
             since = time.perf_counter() - drawn
             rest = self._rest(busy, frames_left > 0, took)
-            self.surface.wait(max(0.0, rest - since) if frames_left > 0 or busy else IDLE)
+            pause = max(0.0, rest - since) if frames_left > 0 or busy else IDLE
+            self.surface.wait(min(pause, self.session.reveal.wait(time.monotonic())))  # the next step of an animation
             news = self.session.update()
             if news or self._has_events():
                 frames_left = FRAMES_AFTER_EVENT
@@ -162,7 +162,12 @@ class App:
             self.session.loader.open(dropped[-1])
 
     def _apply_style(self) -> None:
-        wanted = (self.session.appearance.theme, self.surface.scale, self.session.appearance.text_zoom)
+        appearance = self.session.appearance
+        zoom = appearance.text_zoom
+        if appearance.is_lecture_size:  # as on a slide: the larger the window, the larger the text
+            size = imgui.get_io().display_size
+            zoom *= max(1.0, min(size.x / SLIDE[0], size.y / SLIDE[1]) / self.surface.scale)
+        wanted = (appearance.theme, self.surface.scale, zoom)
         self.style_changed.run(wanted, lambda: style.apply(*wanted))
 
     def _set_title(self) -> None:
@@ -174,22 +179,23 @@ class App:
         session = self.session
         room = imgui.get_main_viewport()
         self._part("the keys", lambda: keys.handle(session), closes=False)
-        self._part("the menu", self._menu)
+        self._part("the menu", lambda: menu.draw(session))
         self._part("the dialog", lambda: open_dialog.draw(session))
         self._part("the messages", lambda: messages.draw(session))
         self._part("the help", lambda: help.draw(session, keys.HELP))
-        left, top = room.work_pos
-        # In a window that is too small the panels are cut off, since imgui would keep reduced panel sizes.
-        width = max(room.work_size.x, SMALLEST[0])
-        height = max(room.work_size.y, SMALLEST[1]) - bar.height()
-        self._part("the layout", lambda: self._dock(left, top, width, height), closes=False)
-        for panel in PANELS:
-            if panel.exists(session):
-                self._panel(panel)
+        # In lecture mode, the menu lies over the panels.
+        is_lecture = session.appearance.is_lecture_size
+        (left, top), size = (room.pos, room.size) if is_lecture else (room.work_pos, room.work_size)
+        # In a window that is too small the panels are cut off.
+        width = max(size.x, SMALLEST[0])
+        height = max(size.y, SMALLEST[1]) - bar.height()
+        self._panels((left, top, width, height))
         session.scroll = 0
         for request in session.take_requests():
             self._part("a request", lambda request=request: self._do(request), closes=False)
         self._part("the bar", lambda: bar.draw(session, left, top + height, width))
+        self._part("the notice", lambda: notice.draw(session, left, top + height, width))
+        self._part("the pointer", lambda: pointer.draw(session))
         if session.is_blank:
             self._part("the black screen", blank.draw)
 
@@ -208,11 +214,6 @@ class App:
 
         return self.session.guard.run(name, draw, recover, closes)
 
-    def _menu(self) -> None:
-        if menu.draw(self.session):
-            self.resets_layout = True
-            self.session.guard.open_all()
-
     def _do(self, request: Request) -> None:
         """Fulfil a request of the session."""
         if request is Request.QUIT:
@@ -221,65 +222,101 @@ class App:
             open_dialog.open_dialog()
         elif request is Request.NEXT_PANEL:
             self._show_next_panel()
+        elif request is Request.MAXIMISE:
+            self._maximise()
         else:
-            panel = next(panel for panel in PANELS if panel.request is request)
-            imgui.set_window_focus(panel.title)
+            self._bring_to_front(next(panel for panel in PANELS if panel.request is request))
+
+    def _front(self, place: Corner) -> tuple[list[Panel], Panel]:
+        """The panels of a place, and the one in front."""
+        panels = self._sharing()[place]
+        chosen = self._arrangement.front.get(place)
+        return panels, next((panel for panel in panels if panel.title == chosen), panels[0])
+
+    @property
+    def _arrangement(self) -> Arrangement:
+        return self.session.layout.current(self.session.appearance.is_lecture_size)
+
+    def _bring_to_front(self, panel: Panel) -> None:
+        """Show a panel. The selected ray does not cover a panel that shows it, too."""
+        place = panel.place_in(self.session)
+        _, front = self._front(place)
+        if panel.request is not Request.SHOW_RAY or not front.shows_ray:
+            self._arrangement.front[place] = panel.title
 
     def _show_next_panel(self) -> None:
         """Of the panels that share a place at the lower right, show the one after that on show."""
-        panels = [p for p in PANELS if p.place is Corner.BOTTOM_RIGHT and p.exists(self.session)]
-        windows = [internal.find_window_by_name(panel.title) for panel in panels]
-        shown = next((k for k, window in enumerate(windows) if window and not window.hidden), 0)
-        imgui.set_window_focus(panels[(shown + 1) % len(panels)].title)
+        panels, front = self._front(Corner.BOTTOM_RIGHT)
+        self._arrangement.front[Corner.BOTTOM_RIGHT] = panels[(panels.index(front) + 1) % len(panels)].title
+
+    def _maximise(self) -> None:
+        """Give the panel under the mouse all of the room, or give it back."""
+        layout, mouse = self.session.layout, imgui.get_mouse_pos()
+        if layout.maximised:
+            layout.maximise(layout.maximised)
+            return
+        for place, (left, top, width, height) in self.places.items():
+            if left <= mouse.x < left + width and top <= mouse.y < top + height:
+                layout.maximise(self._front(place)[1].title)
+
+    def _panels(self, room: Rectangle) -> None:
+        """The panel in front of each place, or the one that has all of the room."""
+        session = self.session
+        layout, sharing = session.layout, self._sharing()
+        arrangement = layout.current(session.appearance.is_lecture_size)
+        alone = next((p for panels in sharing.values() for p in panels if p.title == layout.maximised), None)
+        if alone:
+            self.places, borders = {alone.place_in(session): room}, {}
+        else:
+            self.places, borders = tile(arrangement, set(sharing), room, GAP * d.unit())
+        layout.on_show = set(self.places)
+        self._part("the borders", lambda: self._borders(arrangement, borders, room), closes=False)
+        # The scene comes last: it shows at once what is picked in the image, or selected in the tree.
+        for place, where in sorted(self.places.items(), key=lambda item: item[0] is Corner.TOP_LEFT):
+            panels = [alone] if alone else sharing[place]
+            front = alone or next((p for p in panels if p.title == arrangement.front.get(place)), panels[0])
+            frame.draw(session, panels, front, where, lambda front=front: self._panel(front))
+
+    def _sharing(self) -> dict[Corner, list[Panel]]:
+        """The panels of each place."""
+        found: dict[Corner, list[Panel]] = {}
+        for panel in PANELS:
+            if panel.exists(self.session):
+                found.setdefault(panel.place_in(self.session), []).append(panel)
+        return found
 
     def _panel(self, panel: Panel) -> None:
-        flags = imgui.WindowFlags_
-        still = flags.no_scrollbar | flags.no_scroll_with_mouse if panel.padding else flags.none
-        if panel.padding:
-            imgui.push_style_var(imgui.StyleVar_.window_padding, panel.padding)
-        opened, _ = imgui.begin(panel.title, None, still)
-        if panel.padding:
-            imgui.pop_style_var()
-        if opened and panel.title in self.session.guard.closed:
-            imgui.text_wrapped(self.session.guard.closed[panel.title])
-        elif opened:
+        closed = self.session.guard.closed.get(panel.title)
+        if closed:
+            imgui.text_wrapped(closed)
+        else:
             self._part(panel.title, lambda: panel.draw(self.session, self.canvas))
-            if self.session.scroll and not panel.padding:
-                lines = self.session.scroll * imgui.get_text_line_height_with_spacing()
-                imgui.set_scroll_y(imgui.get_scroll_y() + lines)
-        imgui.end()
 
-    def _dock(self, left: float, top: float, width: float, height: float) -> None:
-        """The room for the panels. At first, or if it is to be reset, each panel is put in its place."""
-        imgui.set_next_window_pos((left, top))
-        imgui.set_next_window_size((width, height))
+    def _borders(self, arrangement: Arrangement, borders: dict[int | None, Rectangle], room: Rectangle) -> None:
+        """The borders between places, which can be dragged. A double click puts one back."""
+        imgui.set_next_window_pos(room[:2])
+        imgui.set_next_window_size(room[2:])
         flags = imgui.WindowFlags_
-        imgui.push_style_var(imgui.StyleVar_.window_padding, (0, 0))
+        imgui.push_style_color(imgui.Col_.window_bg, self.session.appearance.theme.ground)
         imgui.begin(
-            "##room", None, flags.no_decoration | flags.no_move | flags.no_docking | flags.no_bring_to_front_on_focus
-            | flags.no_nav_focus | flags.no_background,
+            "##room", None, flags.no_decoration | flags.no_move | flags.no_docking | flags.no_saved_settings
+            | flags.no_bring_to_front_on_focus | flags.no_nav,
         )  # fmt: skip
-        imgui.pop_style_var()
-        dock = imgui.get_id(DOCK)
-        if self.resets_layout or (not self.has_layout and internal.dock_builder_get_node(dock) is None):
-            self._lay_out(dock, width, height)
-        self.has_layout, self.resets_layout = True, False
-        imgui.dock_space(dock)
+        imgui.pop_style_color()
+        internal.bring_window_to_display_back(internal.get_current_window())
+        for which, (left, top, width, height) in borders.items():
+            imgui.set_cursor_screen_pos((left, top))
+            imgui.invisible_button(f"border {which}", (width, height))
+            if imgui.is_item_hovered() or imgui.is_item_active():
+                shapes = imgui.MouseCursor_
+                imgui.set_mouse_cursor(shapes.resize_ew if which is None else shapes.resize_ns)
+                ink = imgui.get_color_u32(self.session.appearance.theme.accent)
+                imgui.get_window_draw_list().add_rect_filled((left, top), (left + width, top + height), ink)
+            if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+                at_first = lecture() if self.session.appearance.is_lecture_size else desk()
+                arrangement.reset_split(which, at_first)
+            elif imgui.is_item_active():
+                mouse = imgui.get_mouse_pos()
+                share = (mouse.x - room[0]) / room[2] if which is None else (mouse.y - room[1]) / room[3]
+                arrangement.split(which, share)
         imgui.end()
-
-    def _lay_out(self, dock: int, width: float, height: float) -> None:
-        internal.dock_builder_remove_node(dock)
-        internal.dock_builder_add_node(dock)  # without a central node, so that all panels share a larger window
-        internal.dock_builder_set_node_size(dock, (width, height))
-        _, below, above = internal.dock_builder_split_node_py(dock, imgui.Dir.down, 0.42)
-        _, top_right, top_left = internal.dock_builder_split_node_py(above, imgui.Dir.right, 0.44)
-        _, bottom_right, bottom_left = internal.dock_builder_split_node_py(below, imgui.Dir.right, 0.36)
-        nodes = {
-            Corner.TOP_LEFT: top_left,
-            Corner.TOP_RIGHT: top_right,
-            Corner.BOTTOM_LEFT: bottom_left,
-            Corner.BOTTOM_RIGHT: bottom_right,
-        }
-        for panel in PANELS:
-            internal.dock_builder_dock_window(panel.title, nodes[panel.place])
-        internal.dock_builder_finish(dock)

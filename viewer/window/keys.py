@@ -10,7 +10,19 @@ from dataclasses import dataclass, field
 from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
-from viewer.session.actions import go, look_through_camera, nudge, step, toggle_model, toggle_refinement
+from viewer.panels import PANELS
+from viewer.session.actions import (
+    change_speed,
+    go,
+    look_through_camera,
+    nudge,
+    step,
+    toggle_granularity,
+    toggle_loop,
+    toggle_model,
+    toggle_order,
+    toggle_refinement,
+)
 from viewer.session.saving import copy_command, export_figure
 from viewer.session.session import Session
 from viewer.session.view_state import Request
@@ -20,13 +32,21 @@ K = imgui.Key
 CTRL = (K.left_ctrl, K.right_ctrl, K.left_super, K.right_super)
 SHIFT = (K.left_shift, K.right_shift)
 ALT = (K.left_alt, K.right_alt)
-LEAVING = (K.page_down, K.page_up, K.up_arrow, K.down_arrow, K.tab)  # keys that a field for numbers has no use for
+LEAVING = (
+    K.page_down,
+    K.page_up,
+    K.up_arrow,
+    K.down_arrow,
+    K.tab,
+    K.f5,
+)  # keys that a field for numbers has no use for
 EDITING = (K.a, K.c, K.v, K.x, K.z, K.y)  # with Ctrl, they edit the text in a field
 US_KEYS = {getattr(K, letter): letter for letter in "abcdefghijklmnopqrstuvwxyz"} | {
     **{getattr(K, f"_{digit}"): str(digit) for digit in range(10)},
     K.minus: "-", K.equal: "=", K.period: ".", K.slash: "/",
 }  # fmt: skip
 LINES = 3  # by which a key scrolls
+PANEL_KEYS = (K.f2, K.f3, K.f4, K.f6, K.f7, K.f8, K.f9, K.f10)  # F5 is a key of remotes, F11 is full screen
 
 
 @dataclass(frozen=True)
@@ -66,14 +86,14 @@ def _copy(session: Session) -> None:
 
 
 def _escape(session: Session) -> None:
-    """Close what is open; if nothing is, unselect the ray."""
+    """Close what is open; if nothing is, show the whole tree; if it is on show, unselect the ray."""
     if session.shows_help:
         session.shows_help = False
     elif session.faults:
         session.show_faults([])
     elif session.notes:
         session.notes = []
-    else:
+    elif not session.reveal.leave():
         session.select(None)
 
 
@@ -81,11 +101,23 @@ def _blank(session: Session) -> None:
     session.is_blank = True
 
 
+def _maximise(title: str) -> Act:
+    return lambda session: session.layout.maximise(title)
+
+
+def _point(session: Session) -> None:
+    session.pointer = session.pointer.next()
+
+
 def _scroll(by: int) -> Act:
     def act(session: Session) -> None:
         session.scroll += by
 
     return act
+
+
+def _speed(by: int) -> Act:
+    return lambda session: change_speed(session, by)
 
 
 def _help(session: Session) -> None:
@@ -109,8 +141,24 @@ BINDINGS = (
     Binding("+  -", "increase, decrease the depth by one", typed={"+": _deeper(1), "=": _deeper(1), "-": _deeper(-1)}),
     Binding("click", "on a ray, in 3D or in the tree: select it"),
     Binding(
-        "Page Down, Page Up", "select the next ray, the one before",
-        repeated={K.page_down: lambda session: step(session, 1), K.page_up: lambda session: step(session, -1)},
+        "Alt+Down, Alt+Up", "select the next ray, the one before",
+        alt={K.down_arrow: lambda session: step(session, 1), K.up_arrow: lambda session: step(session, -1)},
+    ),
+    Binding(
+        "Page Down, Page Up", "reveal the tree: next step, the one before",
+        pressed={K.page_down: lambda s: s.reveal.go(1), K.page_up: lambda s: s.reveal.go(-1)},
+    ),
+    Binding(
+        "Home, End", "first step, last step",
+        pressed={K.home: lambda s: s.reveal.first(), K.end: lambda s: s.reveal.last()},
+    ),
+    Binding(
+        "F5 or Space", "play the steps, pause", pressed=dict.fromkeys((K.f5, K.space), lambda s: s.reveal.toggle_play())
+    ),
+    Binding("<  >  E", "play slower, faster; endlessly", {"<": _speed(-1), ">": _speed(1), "e": toggle_loop}),
+    Binding(
+        "G  O", "steps by level or by ray; breadth-first as the kernel, or depth-first as the recursive procedure",
+        {"g": toggle_granularity, "o": toggle_order},
     ),
     Binding("J  K", "scroll the text or the numbers: down, up", {"j": _scroll(LINES), "k": _scroll(-LINES)}),
     Binding(
@@ -128,12 +176,18 @@ BINDINGS = (
         "C  L  N  A", "camera, lights, normals, names: show or hide",
         {"c": _toggle("camera"), "l": _toggle("lights"), "n": _toggle("normals"), "a": _toggle("labels")},
     ),
+    Binding(
+        "Z, F2 F3 F4, F6 ... F9", "all of the room for the panel under the mouse; for scene, image, tree, numbers, ...",
+        {"z": lambda session: session.requests.append(Request.MAXIMISE)},
+        {key: _maximise(panel.title) for key, panel in zip(PANEL_KEYS, PANELS, strict=False)},
+    ),
+    Binding("X", "pointer, spotlight", {"x": _point}),
     Binding("M", "Whitted's model or Fresnel's", {"m": toggle_model}),
     Binding("R", "refine the image, pause", {"r": toggle_refinement}),
     Binding("T", "light or dark theme", {"t": lambda s: s.appearance.toggle_theme()}),
     Binding("Tab", "lecture size: everything larger", pressed={K.tab: lambda s: s.appearance.toggle_lecture_size()}),
     Binding("B or .", "black screen; any key or click brings the window back", {"b": _blank, ".": _blank}),
-    Binding("Esc", "close a message or the help; unselect the ray", pressed={K.escape: _escape}),
+    Binding("Esc", "close a message or the help; leave the steps; unselect the ray", pressed={K.escape: _escape}),
     Binding(
         "Ctrl+S", "export a figure of the current view (the menu Figure selects it)", ctrl={K.s: export_figure}
     ),

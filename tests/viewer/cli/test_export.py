@@ -24,12 +24,12 @@ def test_names_in_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
 
 
 def test_names_of_steps(tmp_path: Path) -> None:
-    for step, count in (("rays", 6), ("colour", 3)):
+    for step, count in (("levels", 4), ("rays", 6), ("colour", 3)):
         folder = tmp_path / step
         arguments = ["--depth", "1", "--step", step, "--format", "svg,pptx,text", "-o", f"{folder}/"]
         assert main.main(["export", "mirror-balls", "--pixel", "370,272", *arguments]) == 0
         stem = "mirror-balls_370_272"
-        first = {"rays": "r", "colour": "c"}[step]
+        first = step[0]
         assert names(folder) == {
             *(f"{stem}_tree_d1_{first}{k}.svg" for k in range(count)),
             f"{stem}_tree_d1_{step}.pptx",
@@ -87,6 +87,14 @@ def test_a_ray_by_hand(tmp_path: Path) -> None:
         (
             ["-o", "{}/a.pdf", "--step", "rays", "--figure", "hit"],
             "raytree export: a hit has no steps: --step rays is for tree, scene and both",
+        ),
+        (
+            ["-o", "{}/a.pdf", "--step", "levels", "--order", "recursion"],
+            "raytree export: --order recursion is for --step rays and colour, got levels",
+        ),
+        (
+            ["-o", "{}/a.svg", "--order", "recursion"],
+            "raytree export: --order recursion is for --step rays and colour, got depth",
         ),
         (
             ["-o", "{}/a.svg", "--figure", "hit", "--text-size", "28"],
@@ -161,7 +169,7 @@ def test_rays_to_lights_are_left_out_on_wish(tmp_path: Path) -> None:
         assert 'id="ray-1"' not in text
     folder = tmp_path / "steps"
     assert main.main(["export", "glass-ball", "--step", "rays", "--no-lights", "-o", f"{folder}/"]) == 0
-    assert {name[-7:-4] for name in names(folder)} == {"r00", "r03", "r04", "r07", "r08", "r13", "r14"}
+    assert {name[-7:-4] for name in names(folder)} == {f"r{k:02}" for k in range(14)}  # 7 rays appear and are summed up
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,7 @@ from viewer.figures.figure.hit import BOTTOM, LARGEST, LEFT, RIGHT, TOP, WORDS
 from viewer.figures.layout.placing import EYES
 from viewer.figures.marks import HEIGHT, WIDTH, Box, Disc, Line, Mark, Rectangle, Shape, Text
 from viewer.figures.pages import pages
-from viewer.figures.steps import by_depth, by_ray, without_lights
+from viewer.figures.steps import by_depth, by_ray
 from viewer.figures.subject import FigureStyle, Subject
 from viewer.figures.writers.arrows import heads
 
@@ -128,11 +128,11 @@ def test_trees_lie_inside_their_panel(seed: int, lights: int, depth: int) -> Non
             for page in pages("tree", one, style):
                 check_inside(list(page.marks), PAGE)
                 check_texts(list(page.marks))
-            for marks in tree.pages(one, style, both.TREE):
-                check_inside(marks, (both.TREE[0], 0.0, both.TREE[1], HEIGHT))
+            for marks in tree.pages(one, style, both.tree_part(FigureStyle())):
+                check_inside(marks, both.tree_part(FigureStyle()))
                 check_texts(marks)
-    bare = Subject(without_lights(subject.steps))
-    for page in pages("tree", bare, FigureStyle(lights=False)):
+    bare = Subject(by_depth([step.tree for step in subject.steps], lights=False))
+    for page in pages("tree", bare, FigureStyle()):
         check_inside(list(page.marks), PAGE)
 
 
@@ -158,8 +158,8 @@ def test_scenes_lie_inside_their_panel(seed: int, lights: int, depth: int) -> No
         check_inside(list(page.marks), PAGE)
         check_texts(list(page.marks))
     if seed % 2 == 0:
-        left = scene.pages(subject, style, (0.0, 0.0, both.DIVIDE - both.GAP, HEIGHT))
+        left = scene.pages(subject, style, (0.0, 0.0, both.DIVIDE * WIDTH - both.GAP, HEIGHT))
         for page, marks in zip(pages("both", subject, style), left, strict=True):
-            check_inside(list(page.marks[: len(marks)]), (0.0, 0.0, both.DIVIDE - both.GAP, HEIGHT))
-            check_inside(list(page.marks[len(marks) :]), (both.TREE[0], 0.0, both.TREE[1], HEIGHT))
+            check_inside(list(page.marks[: len(marks)]), (0.0, 0.0, both.DIVIDE * WIDTH - both.GAP, HEIGHT))
+            check_inside(list(page.marks[len(marks) :]), both.tree_part(FigureStyle()))
             check_texts(list(page.marks))

@@ -5,21 +5,25 @@ import re
 from collections import Counter
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
 import tracer
 from tests.conftest import LESSONS
 from tests.scenes import MATTE, ball, world_of
-from tests.viewer.figures.geometry import check
+from tests.viewer.figures.geometry import check, check_texts
 from tests.viewer.figures.random_tree import random_tree
-from tests.viewer.panels.test_layout import plates
+from tests.viewer.figures.test_tidy_tree import plates
 from tracer.kernel.nodes import SHADOW
 from tracer.scene import Light, Material
 from tracer.tree.raytree import RayTree
 from viewer.base.orbit import Frame, initial_orbit
+from viewer.base.srgb import LUMINANCE
 from viewer.base.theme import DARK, LIGHT, MONO, Theme
 from viewer.explain.ray import headline
+from viewer.figures.catalogue import RECURSION
+from viewer.figures.figure.tree import planned
 from viewer.figures.labels import ray_label
 from viewer.figures.layout.folds import percent
 from viewer.figures.layout.placing import EYES
@@ -28,7 +32,7 @@ from viewer.figures.layout.tree_plan import plan_tree
 from viewer.figures.lights import FATE, fate_of, many_lights, shadow_rays
 from viewer.figures.marks import Box, Disc, Figure, Line, Text
 from viewer.figures.pages import pages
-from viewer.figures.steps import by_color, by_depth, by_ray
+from viewer.figures.steps import by_color, by_depth, by_level, by_ray
 from viewer.figures.subject import FigureStyle, Subject
 from viewer.lessons import lesson
 
@@ -52,7 +56,6 @@ def in_lines(figure: Figure, tree: RayTree) -> int:
     for hit in hits(figure):
         words = [m.content for m in figure.marks if isinstance(m, Text) and m.name == f"lights-{hit}"]
         if words:
-            assert words[0].startswith("L:")
             assert sum(int(n) for n in re.findall(r"\d+", " ".join(words))) == len(shadow_rays(tree, hit))
             found += len(shadow_rays(tree, hit))
     return found
@@ -63,14 +66,16 @@ def check_whole(figure: Figure, tree: RayTree, size: float = 18.0) -> None:
     there is no room for these lines, all are left out.
     """
     check(figure, size)
-    drawn = {int(m.name[4:]) for m in figure.marks if isinstance(m, Line) and m.name.startswith("ray-")}
+    drawn = {int(m.name[4:]) for m in figure.marks if m.name.startswith("ray-")}
     lines = in_lines(figure, tree)
     left_out = sum(len(shadow_rays(tree, hit)) for hit in hits(figure)) if not lines and many_lights(tree) else 0
     assert len(drawn) + folded(figure) + lines + left_out == len(tree)
     words = [m.content for m in figure.marks if isinstance(m, Text)]
     shadows = {i for i in drawn if tree.nodes["kind"][i] == SHADOW}
     named = "L" not in words  # otherwise their lights stand in the order of the legend
-    labels = Counter(ray_label(tree, i) if named or i not in shadows else "L" for i in drawn)
+    compact = not any(isinstance(m, Text) and m.name == f"ray-{i}" for m in figure.marks for i in shadows)
+    labelled = drawn - shadows if compact else drawn  # in the boxes of a compact tree, there are only signs
+    labels = Counter(ray_label(tree, i) if named or i not in shadows else "L" for i in labelled)
     for label, count in labels.items():  # rays to one light have the same
         assert sum(text == label or text.startswith(f"{label} ") for text in words) == count, label
     assert set(hits(figure)) == {i for i in drawn if tree.nodes["kind"][i] != SHADOW}
@@ -140,35 +145,71 @@ def places(figure: Figure) -> dict[tuple, tuple]:
 def test_steps_by_ray_and_by_colour_keep_all_places(worlds: dict[str, tracer.World]) -> None:
     tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=3)
     (whole,) = pages("tree", Subject(by_depth([tree])), FigureStyle(swatches=True))
-    for stages in (by_ray(tree), by_color(tree)):
+    for stages in (by_level(tree), by_ray(tree), by_ray(tree, RECURSION), by_color(tree)):
         figures = pages("tree", Subject(stages), FigureStyle(swatches=True))
         for figure in figures:
             check(figure)
             assert places(figure).items() <= places(whole).items()
         assert places(figures[-1]) == places(whole)
-    grown = pages("tree", Subject(by_ray(tree)), FigureStyle())
-    shown = [len({m.name for m in figure.marks if m.name.startswith("ray-")}) for figure in grown]
-    assert shown == list(range(1, len(tree) + 1))
+        for stage, figure in zip(stages, figures, strict=True):
+            marks = figure.marks
+            assert {m.name for m in marks if m.name.startswith("ray-")} == {f"ray-{i}" for i in stage.rows}
+            known = {m.name for m in marks if isinstance(m, Disc) and m.name.startswith("hit-")}
+            assert known == {f"hit-{i}" for i in stage.summed}
+            strong = {m.name for m in marks if isinstance(m, Line) and m.stroke.width > 1.7 * width_of(m, whole)}
+            assert strong == {f"ray-{i}" for i in stage.current}
 
 
-def test_colour_flows_back_from_the_leaves(worlds: dict[str, tracer.World]) -> None:
-    """A hit shows its colour on the page on which it is summed, after those of the hits below it."""
-    tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=3)
-    stages = by_color(tree)
-    known: set[int] = set()
-    for stage in stages:
-        for i in stage.summed - known:
-            below = {c for c in tree.children[i] if tree.nodes["kind"][c] != SHADOW}
-            assert below <= known
-        known |= stage.summed
-    assert known == {i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW}
+def width_of(line: Line, figure: Figure) -> float:
+    """The width of this ray in another figure."""
+    return next(m.stroke.width for m in figure.marks if isinstance(m, Line) and m.name == line.name)
+
+
+@pytest.mark.parametrize("figure", ("tree", "both"))
+def test_the_sum_at_a_hit_has_the_numbers_of_the_table(figure: str, worlds: dict[str, tracer.World]) -> None:
+    """Each page that sums up a hit says how: local light, factors, colours of the children, colour."""
+    for name in LESSONS:
+        found = lesson.read(name)
+        tree = tracer.trace(worlds[name], found.pixel, depth=3)
+        orbit = initial_orbit(worlds[name], Frame.of(worlds[name]), None)
+        steps = by_color(tree)
+        plain = pages(figure, Subject([steps[-1]], worlds[name], orbit), FigureStyle())[0]
+        drawn = hits(plain)
+        for step, page in zip(steps, pages(figure, Subject(steps, worlds[name], orbit), FigureStyle()), strict=True):
+            texts = [m for m in page.marks if isinstance(m, Text) and m.name.startswith("sum-")]
+            least = min((m.size for m in texts), default=18.0)
+            check(page, least) if figure == "tree" else check_texts(page, least)
+            assert bool(texts) == (step.sum in drawn)
+            if step.sum in drawn:
+                assert {m.name for m in texts} == {f"sum-{step.sum}"}
+                check_sum(tree, step.sum, [m.content for m in texts])
+
+
+def check_sum(tree: RayTree, i: int, words: list[str]) -> None:
+    """Compare a sum's numbers with the table's."""
+    colors = words[0] != "luminance"
+    words = words[0 if colors else 1 :]
+    names, values = words[::2], [np.array(word.strip("()").split(), float) for word in words[1::2]]
+
+    def same(shown: np.ndarray, rgb: np.ndarray) -> bool:
+        return bool(np.abs(shown - (rgb if colors else rgb @ LUMINANCE)).max() <= 0.5e-3 + 1e-12)
+
+    row, rays = tree.nodes[i], [c for c in tree.children[i] if tree.nodes["kind"][c] != SHADOW]
+    assert names[-1].startswith(f"{tree.label(i)} = ") if len(names) == 1 else names[-1] == f"= {tree.label(i)}"
+    assert same(values[-1], row["radiance"])
+    if rays:
+        assert len(names) == 2 + len(rays) and names[0] == "local" and same(values[0], row["local"])
+        for child, term, value in zip(rays, names[1:-1], values[1:-1], strict=True):
+            factor, label = re.fullmatch(r"\+ (\S+) × (\S+)", term).groups()  # type: ignore[union-attr]
+            assert label == tree.label(child) and same(value, tree.nodes["radiance"][child])
+            assert float(factor) == pytest.approx(tree.nodes["factor"][child][0], rel=0.5e-2)
 
 
 @pytest.mark.parametrize("eye", EYES)
 def test_same_subtree_looks_the_same(eye: str) -> None:
     """The subtrees in a pile of plates repeat: boxes and edges of equal ones differ by a translation only."""
     tree = plates(1, 3, 0)
-    plan = plan_tree([tree], TreeStyle(18.0, eye=eye))
+    plan = plan_tree(planned(by_depth([tree])), TreeStyle(18.0, eye=eye))
     kinds = tree.nodes["kind"]
 
     def form(i: int) -> tuple:
@@ -196,7 +237,7 @@ def test_light_branches_are_folded_on_wish() -> None:
     check_whole(figure, tree)
     weights = tree.nodes["weight"].max(axis=1)
     assert all(weights[i] >= 0.1 for i in hits(figure))
-    plan = plan_tree([tree], TreeStyle(18.0, fold=0.1))
+    plan = plan_tree(planned(by_depth([tree])), TreeStyle(18.0, fold=0.1))
     for fold in plan.folds.values():
         assert fold.weight == pytest.approx(sum(weights[i] for i in fold.roots), rel=1e-12)
 
@@ -206,7 +247,7 @@ def test_where_rays_go() -> None:
     tree = random_tree(5, 12, 1, 3)
     nodes = tree.nodes
     for eye, along, across in (("top", 1, 0), ("left", 0, 1)):
-        plan = plan_tree([tree], TreeStyle(9.0, eye=eye))
+        plan = plan_tree(planned(by_depth([tree])), TreeStyle(9.0, eye=eye))
         steps = set()
         for i in plan.rows - {0}:
             if nodes["kind"][i] != SHADOW:
@@ -325,9 +366,10 @@ def test_no_ray_is_folded_for_lights(lights: int, eye: str) -> None:
     """The rays that are drawn are those of the figure without rays to lights."""
     for seed, size in itertools.product(range(12), (12.0, 18.0)):
         tree = random_tree(seed, 40, lights, 3)
+        steps = by_depth([tree])
         drawn = [
-            set(hits(pages("tree", Subject(by_depth([tree])), FigureStyle(text_size=size, eye=eye, lights=on))[0]))
-            for on in (True, False)
+            set(hits(pages("tree", Subject(shown), FigureStyle(text_size=size, eye=eye))[0]))
+            for shown in (steps, by_depth([tree], lights=False))
         ]
         assert len(drawn[0]) >= len(drawn[1])
 

@@ -69,12 +69,12 @@ def test_lesson_texts_stay_inside_their_panel(room: Driver, size: tuple[int, int
 def test_selected_ray_comes_to_the_front_and_begins_at_its_top(room: Driver) -> None:
     actions.open_lesson(room.session, "glass-ball")
     room.app.settle()
-    room.press(Key.page_down)
+    room.press(Key.mod_alt, Key.down_arrow)
     assert not window(ray.PANEL.title).hidden
     place = window(ray.PANEL.title).rect().get_center()
     room.wheel(place.x, place.y, -20)
     assert window(ray.PANEL.title).scroll.y > 0
-    room.press(Key.page_down)
+    room.press(Key.mod_alt, Key.down_arrow)
     assert window(ray.PANEL.title).scroll.y == 0
 
 

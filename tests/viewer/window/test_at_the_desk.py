@@ -1,6 +1,7 @@
 """A lecture at the desk: keys that are hit by accident, a remote, another keyboard. A real window, real keys."""
 
 import subprocess
+import time
 from collections.abc import Iterator
 
 import pytest
@@ -10,7 +11,11 @@ from imgui_bundle.imgui import internal
 from tests.viewer.desk import LINUX_ONLY, Desk
 from tests.viewer.driver import Driver, viewer
 from tests.viewer.screen import hand
+from viewer.figures.catalogue import BREADTH, RECURSION
+from viewer.figures.steps import by_level
 from viewer.panels import bar, ray, tree
+from viewer.session.reveal import LEVELS, RAYS
+from viewer.window.app import FASTEST
 
 pytestmark = LINUX_ONLY
 
@@ -59,7 +64,7 @@ def test_a_coordinate_is_typed_over_the_old_one_and_other_keys_leave_the_field(d
     for name, acted in (
         ("b", lambda: session.is_blank),
         ("period", lambda: session.is_blank),
-        ("Next", lambda: session.selection == "E"),
+        ("Next", lambda: session.reveal.position == 0),
         ("Tab", lambda: session.appearance.is_lecture_size),
         ("alt+Left", lambda: session.pixel != (305, row)),
         ("t", lambda: not session.appearance.theme.dark),
@@ -148,6 +153,73 @@ def test_keys_of_a_remote_do_no_harm(desk: Desk) -> None:
     key(desk, "F5", "space", "shift+F5", "space")
     assert (session.world, session.pixel, session.loader.loading, session.selection, session.notice.text) == before
     assert session.refinement.runs == runs
+
+
+def test_a_remote_reveals_the_tree(desk: Desk) -> None:
+    """Page Down and Page Up go step by step, F5 plays, Esc shows the whole tree, and only then unselects the ray."""
+    session, reveal = desk.session, desk.session.reveal
+    session.select(4)
+    shown = (session.pixel, session.selection, session.depth)
+    assert session.tree
+    expected = list(by_level(session.tree))
+    for k, step in enumerate(expected):
+        hand("key", "Next")
+        desk.until(lambda k=k: reveal.position == k, "the next step")
+        assert session.step == step
+    for k in range(len(expected) - 2, -1, -1):
+        hand("key", "Prior")
+        desk.until(lambda k=k: reveal.position == k, "the step before")
+        assert session.step == expected[k]
+    hand("key", "End")
+    desk.until(lambda: session.step == expected[-1], "the last step")
+    hand("key", "Home")
+    desk.until(lambda: session.step == expected[0], "the first step")
+    for start in ("F5", "space"):
+        hand("key", start)
+        desk.until(lambda: reveal.is_playing and reveal.position == 2, f"the animation after {start}")
+        hand("key", start)
+        desk.until(lambda: not reveal.is_playing, f"the pause after {start}")
+        hand("key", "Home")
+        desk.until(lambda: reveal.position == 0, "the first step")
+    assert (session.pixel, session.selection, session.depth) == shown
+    hand("key", "Escape")
+    desk.until(lambda: session.step is None, "the whole tree")
+    assert session.selection == shown[1]
+    hand("key", "Escape")
+    desk.until(lambda: session.selection is None, "no selected ray")
+
+
+def test_order_granularity_speed_and_loop_by_keys(desk: Desk) -> None:
+    reveal = desk.session.reveal
+    key(desk, "o")
+    assert (reveal.granularity, reveal.order) == (RAYS, RECURSION) and reveal.words in desk.session.notice.text
+    key(desk, "o")
+    assert (reveal.granularity, reveal.order) == (RAYS, BREADTH)
+    key(desk, "g")
+    assert (reveal.granularity, reveal.order) == (LEVELS, BREADTH)
+    key(desk, "greater", "greater", "less", "e")
+    assert reveal.speed == 2.0 and reveal.loops
+    key(desk, "e")
+    assert not reveal.loops and not desk.session.is_blank
+
+
+def test_the_loop_never_sleeps_beyond_the_next_step(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An animation plays in the window's own loop, in which nothing else happens."""
+    reveal, wait = desk.session.reveal, desk.window.wait
+    desk.until(desk.is_quiet, "the image")
+    slept: list[tuple[float, float]] = []
+
+    def watched(seconds: float) -> None:
+        slept.append((seconds, reveal.wait(time.monotonic())))
+        wait(seconds)
+
+    monkeypatch.setattr(desk.window, "wait", watched)
+    monkeypatch.setattr(desk.app, "is_over", lambda: reveal.position == 3)
+    reveal.change_speed(1)
+    reveal.toggle_play()
+    desk.app.run()
+    assert all(seconds <= left + 1e-3 for seconds, left in slept)
+    assert any(seconds > FASTEST for seconds, _ in slept)  # it does sleep
 
 
 def test_back_and_forward(desk: Desk) -> None:

@@ -186,13 +186,14 @@ def test_escape_closes_what_is_open_then_unselects_and_nothing_else(glass: Drive
     assert not glass.app.surface.closing
 
 
-def test_page_keys_step_through_the_rays(glass: Driver) -> None:
-    glass.press(Key.page_down)
+def test_alt_and_arrows_step_through_the_rays(glass: Driver) -> None:
+    pixel = glass.session.pixel
+    glass.press(Key.mod_alt, Key.down_arrow)
     assert glass.session.selected == 0
-    glass.press(Key.page_down)
+    glass.press(Key.mod_alt, Key.down_arrow)
     assert glass.session.selected == 1
-    glass.press(Key.page_up)
-    assert glass.session.selected == 0
+    glass.press(Key.mod_alt, Key.up_arrow)
+    assert glass.session.selected == 0 and glass.session.pixel == pixel and glass.session.step is None
 
 
 def test_model_and_theme_and_size_by_key(glass: Driver, worlds: dict[str, tracer.World]) -> None:

@@ -22,8 +22,6 @@ from viewer.figures.labels import ray_label, ray_title
 from viewer.figures.layout.label_placement import LabelPlacer, Spot
 from viewer.figures.lights import many_lights
 from viewer.figures.marks import (
-    HEIGHT,
-    WIDTH,
     Line,
     Mark,
     Piece,
@@ -60,9 +58,9 @@ FIRST = 12  # of these, rays whose names may cross other rays
 Named = tuple[frozenset[int], list[Mark]]  # the rays with which a label is drawn (empty: always), and its marks
 
 
-def pages(subject: Subject, style: FigureStyle, where: Rectangle = (0.0, 0.0, WIDTH, HEIGHT)) -> Pages:
+def pages(subject: Subject, style: FigureStyle, where: Rectangle | None = None) -> Pages:
     """The scene with the rays of each step."""
-    return view_pages(subject.view(where), subject.steps, style.text_size, style.theme)
+    return view_pages(subject.view(where or style.canvas), subject.steps, style.text_size, style.theme)
 
 
 def view_pages(view: SceneView, steps: Sequence[Step], size: float, theme: Theme) -> Pages:
@@ -87,8 +85,10 @@ class _Drawing:
             self._thing(part, 1.0)
         for part in view.seen.glass:
             self._thing(part, GLASS)
-        # Dashes to many lights would hide all other rays: the figure has only the one that the step adds.
-        left_out = many_lights(self.tree) - {step.current}
+        # Dashes to many lights would hide all other rays: the figure has only those that the step adds to a hit.
+        left_out = many_lights(self.tree)
+        if step.current <= left_out:
+            left_out = left_out - step.current
         self.has_many = bool(left_out)
         rows = sorted(step.rows & heaviest_rows(self.tree, MOST_IN_FIGURE, set(range(len(self.tree))) - left_out))
         self.lines = ray_lines(self.tree, rows, view.frame, frozenset(KINDS))
@@ -137,7 +137,7 @@ class _Drawing:
         name, title = f"ray-{line.row}", ray_title(self.tree, line.row)
         slim = SLIM if line.kind == "shadow" else 1.0
         halo = 2.0 * HALO if line.kind != "shadow" else 0.0
-        stroke = Stroke(color, (STRONG if line.row == self.step.current else 1.0) * slim * style.width, line.dash)
+        stroke = Stroke(color, (STRONG if line.row in self.step.current else 1.0) * slim * style.width, line.dash)
         faint = Stroke(faded(color, FAINT), style.width, line.dash)
         strong = self.share * STRONG * style.width
         arrow = self.view.arrow_at(line, 0.0 if style.arrow is Arrow.NONE else HEAD_ROOM * strong)

@@ -7,92 +7,123 @@ ones down.
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
-from viewer.base.srgb import LUMINANCE, display_color
-from viewer.base.theme import STYLES, Color, Theme
+from viewer.base.theme import DIMMED, STYLES, Color, faded
 from viewer.figures import signs
+from viewer.figures.figure.tree_box import fold_box, hit_box
+from viewer.figures.figure.tree_outline import outline_edge, outline_ray
 from viewer.figures.font import text_width
-from viewer.figures.labels import end_label, hit_label, ray_label, ray_title
-from viewer.figures.layout.folds import Fold
+from viewer.figures.labels import ray_title
 from viewer.figures.layout.light_line import NO_LINE, SIGN, WORDS, LightLine
-from viewer.figures.layout.sizes import (
-    BARE_NOTE,
-    LINE,
-    MARGIN,
-    NO_RAY,
-    NOTE,
-    PADDING,
-    SWATCH,
-    TreeStyle,
-    edge_label,
-    stub_label,
-)
+from viewer.figures.layout.sizes import MARGIN, NO_RAY, OUTLINE, PlannedRays, TreeStyle, edge_label, stub_label
+from viewer.figures.layout.sum_block import SumBlock, with_sum
 from viewer.figures.layout.tree_legend import tree_entries
 from viewer.figures.layout.tree_plan import TreePlan, plan_tree
 from viewer.figures.legend import legend
-from viewer.figures.lights import (
-    MOST_LIGHTS,
-    fate_of,
-    light_title,
-    ray_dash,
-    shadow_rays,
-)
-from viewer.figures.marks import HEIGHT, WIDTH, Box, Disc, Line, Mark, Point, Rectangle, Stroke, Text
+from viewer.figures.lights import MOST_LIGHTS, fate_of, light_title, ray_dash, shadow_rays
+from viewer.figures.marks import Line, Mark, Point, Rectangle, Stroke, Text, blended
+from viewer.figures.ray_lines import ancestors, relatives
 from viewer.figures.steps import Step
 from viewer.figures.subject import FigureStyle, Pages, Subject
 
-WHERE = (0.0, WIDTH)  # left and right of the tree on the canvas
+LEVEL = "depth {}"  # the name of a level
+LEVEL_OPACITY = 0.35  # of its line
+STRONG = 1.6  # factor of the width of the ray that is selected, or that a step adds
+COMPACT_ARROW = 0.3  # of an edge's length, so that it is clear of the label
+OF_A_ROW = ("ray", "hit", "lights", "bar", "fold")  # in names of marks, before the number of a row
 
 
-def pages(subject: Subject, style: FigureStyle, where: tuple[float, float] = WHERE) -> Pages:
-    """The ray tree. No box moves from step to step."""
-    plan = plan_tree([step.tree for step in subject.steps], tree_style(style, where))
-    return plan_pages(plan, subject.steps, style.theme)
+def pages(subject: Subject, style: FigureStyle, where: Rectangle | None = None, beside: Pages | None = None) -> Pages:
+    """The ray tree. No box moves from step to step. `beside` are the marks of each page on the rest of the canvas."""
+    return plan_pages(plan_steps(subject.steps, style, where or style.canvas), subject.steps, style, beside)
 
 
-def tree_style(style: FigureStyle, where: tuple[float, float] = WHERE) -> TreeStyle:
+def plan_steps(steps: Sequence[Step], style: FigureStyle, where: Rectangle) -> TreePlan:
+    """The layout for these steps, the fullest last."""
+    asked = tree_style(steps, style, where)
+    plan = plan_tree(planned(steps), asked)
+    if style.selected in (None, *plan.rows):
+        return plan
+    return plan_tree(planned(steps, style.selected), asked)
+
+
+def planned(steps: Sequence[Step], first: int | None = None) -> PlannedRays:
+    """The rays of these steps. That of row `first` is not folded, if it can be avoided."""
+    tree = steps[-1].tree
+    return PlannedRays(
+        [step.tree for step in steps],
+        steps[-1].rows,
+        frozenset() if first is None else frozenset(ancestors(tree, first)) & steps[-1].rows,
+    )
+
+
+def tree_style(steps: Sequence[Step], style: FigureStyle, where: Rectangle) -> TreeStyle:
     """The part of a figure's style that decides on the tree's layout."""
-    lights, line = (MOST_LIGHTS, WORDS) if style.lights else (0, NO_LINE)
-    return TreeStyle(style.text_size, style.swatches, style.fold, where, style.eye, lights, line)
+    tree, rows = steps[-1].tree, steps[-1].rows
+    lit = any(tree.nodes["kind"][i] == SHADOW for i in rows)
+    lights, line = (MOST_LIGHTS, WORDS) if lit else (0, NO_LINE)
+    aside = _levels_wide(style.text_size) if style.levels else 0.0
+    return TreeStyle(style.text_size, style.swatches, style.fold, where, aside, style.eye, lights, line)
 
 
-def plan_pages(plan: TreePlan, steps: Sequence[Step], theme: Theme) -> Pages:
+def _levels_wide(size: float) -> float:
+    """The width of the names of levels, at the left."""
+    return text_width(LEVEL.format(0), size) + MARGIN * size
+
+
+def plan_pages(plan: TreePlan, steps: Sequence[Step], style: FigureStyle, beside: Pages | None = None) -> Pages:
     """One page for each step, with those rows of the plan that the step has. The legend stands where there are no
-    marks.
+    marks. `beside` are the marks of each page on the rest of the canvas.
     """
-    drawn = [_Drawing(plan, step, theme).marks for step in steps]
-    left, right = plan.style.where
+    drawings = [_Drawing(plan, step, style) for step in steps]
+    drawn = [mark for drawing in drawings for mark in drawing.marks]
+    left, top, right, bottom = plan.style.where
     margin = MARGIN * plan.size
-    where: Rectangle = (left + margin, margin, right - margin, HEIGHT - margin)
-    signs_meant = legend(tree_entries(plan), [mark for marks in drawn for mark in marks], where, plan.size, theme)
-    return [[*signs_meant, *marks] for marks in drawn]
+    where: Rectangle = (left + margin, top + margin, right - margin, bottom - margin)
+    signs_meant = legend(tree_entries(plan), drawn, where, plan.size, style.theme) if style.legend else []
+    return [drawing.page(signs_meant, where, beside[k] if beside else None) for k, drawing in enumerate(drawings)]
 
 
 class _Drawing:
-    def __init__(self, plan: TreePlan, step: Step, theme: Theme) -> None:
-        self.plan, self.step, self.theme = plan, step, theme
+    def __init__(self, plan: TreePlan, step: Step, style: FigureStyle) -> None:
+        self.plan, self.step, self.style, self.theme = plan, step, style, style.theme
         self.tree: RayTree = step.tree
         self.size = plan.size
         self.sideways = plan.style.eye == "left"
+        self.strong = {*step.current, style.selected}
         self.marks: list[Mark] = []
         rows = sorted(plan.rows & step.rows)
         hits = [i for i in rows if self.tree.nodes["kind"][i] != SHADOW]
         folds = [fold for row, fold in sorted(plan.folds.items()) if row in step.rows]
-        self.marks += signs.eye(plan.places.eye, self.size, theme)
+        if style.levels and plan.style.eye == "top":
+            self._levels(hits)
+        self.marks += signs.eye(plan.places.eye, self.size, self.theme)
         for i in rows:
-            self._stub(i) if self.tree.nodes["kind"][i] == SHADOW else self._edge(i)
+            if self.tree.nodes["kind"][i] != SHADOW:
+                self._ray(i)
+            elif not plan.style.compact:
+                self._stub(i)
         for fold in folds:
             if fold.under is None:
                 self._fold_edge(fold.row)
         for i in hits:
             self._bar(i)
             self._light_line(i)
-            self._box(i)
+            self.marks += hit_box(plan, step, i, style)
         for fold in folds:
-            self._fold(fold)
+            self.marks += fold_box(plan, step, fold, self.theme)
+        if style.selected in step.rows:
+            self._dim(rows)
+
+    def page(self, signs_meant: list[Mark], where: Rectangle, beside: Sequence[Mark] | None) -> list[Mark]:
+        """The marks with the legend, and with the sum of the hit that the step sums up."""
+        hit = self.step.sum
+        if hit is None or hit not in self.plan.rows:
+            return [*signs_meant, *self.marks]
+        (x, y), (w, h) = self.plan.at[hit], self.plan.box
+        box = (x - 0.5 * w, y - 0.5 * h, x + 0.5 * w, y + 0.5 * h)
+        return with_sum(SumBlock(self.tree, hit, box, self.size, self.theme), self.marks, signs_meant, where, beside)
 
     # --- rays ---------------------------------------------------------------------------------------------------------
 
@@ -112,20 +143,30 @@ class _Drawing:
         x, y = self.plan.at[i]
         return (x - 0.5 * self.plan.box[0], y) if self.sideways else (x, y - 0.5 * height)
 
-    def _edge(self, i: int) -> None:
+    def _ray(self, i: int) -> None:
+        if self.plan.style.eye == OUTLINE:
+            self.marks += outline_ray(self.plan, self.tree, i, self._stroke(i))
+        else:
+            self._edge(i)
+
+    def _stroke(self, i: int) -> Stroke:
+        """The line of ray i."""
         kind = self.tree.kind(i)
-        style, color = STYLES[kind], self.theme.ray(kind)
+        width = STYLES[kind].width * (STRONG if i in self.strong else 1.0)
+        return Stroke(self.theme.ray(kind), width, ray_dash(self.tree, i))
+
+    def _edge(self, i: int) -> None:
+        stroke, style = self._stroke(i), STYLES[self.tree.kind(i)]
         start, leaves = self._leave(i)
         end = self._reach(i, self.plan.box[1])
-        strong = 1.8 if i == self.step.current else 1.0
-        label = self._edge_label(i, start, end, color)
+        label = self._edge_label(i, start, end, stroke.color)
         line = Line(
             f"ray-{i}",
             start,
             end,
-            Stroke(color, strong * style.width, ray_dash(self.tree, i)),
+            stroke,
             style.arrow,
-            0.5,
+            COMPACT_ARROW if self.plan.style.compact else 0.5,
             leaves,
             f"hit-{i}",
             label.box() if label.on_line else None,
@@ -159,7 +200,7 @@ class _Drawing:
         sign, text = self._side_by_side(at, label)
         start = (x + 0.6 * (sign[0] - x), y + 0.5 * self.plan.box[1])
         stop = (sign[0], at[1] - 0.5 * self.size)
-        strong = 1.8 if i == self.step.current else 1.0
+        strong = STRONG if i in self.strong else 1.0
         self.marks.append(
             Line(
                 name,
@@ -186,7 +227,7 @@ class _Drawing:
             return
         name, (x, y), size = f"lights-{i}", middle, self.size
         top = self.plan.at[i][1] + 0.5 * self.plan.box[1]
-        strong = 1.8 if self.step.current in shadows else 1.0
+        strong = STRONG if self.step.current & set(shadows) else 1.0
         stroke = Stroke(self.theme.ray("shadow"), strong * STYLES["shadow"].width, STYLES["shadow"].dash)
         title = light_title(self.tree, shadows)
         self.marks.append(Line(name, (x, top), (x, y - 0.5 * size), stroke, leaves=f"hit-{i}", title=title))
@@ -214,74 +255,37 @@ class _Drawing:
         self.marks += signs.bar(name, stop, self.size, color)
         self.marks.append(Text(name, text, NO_RAY, self.size, color, "start"))
 
-    # --- hits ---------------------------------------------------------------------------------------------------------
-
-    def _box(self, i: int) -> None:
-        name, at = f"hit-{i}", self.plan.at[i]
-        background = self.tree.end(i) == "background"
-        stroke = Stroke(self.theme.text, 2.6 if i == self.step.current else 1.4)
-        if background:
-            stroke = Stroke(self.theme.muted, 1.4, (3.0, 3.0))
-        color = self.theme.text
-        words = hit_label(self.tree, i)
-        title = f"{words}, met by {ray_label(self.tree, i)}"
-        self.marks.append(Box(name, at, self.plan.box, 0.28 * self.size, self.theme.panel, stroke, title=title))
-        middle = at
-        if self.plan.style.swatches:
-            left = at[0] - 0.5 * self.plan.box[0] + (PADDING + 0.5 * SWATCH) * self.size
-            if i in self.step.summed:
-                fill = swatch(self.tree, i, self.theme)
-                radius = 0.5 * self.size
-                self.marks.append(Disc(name, (left, at[1]), radius, fill, Stroke(self.theme.text, 1.0)))
-            middle = (at[0] + 0.5 * SWATCH * self.size, at[1])
-        self.marks.append(Text(name, middle, self.plan.name(i), self.size, color, inside=name))
-        self._note(i)
-
-    def _note(self, i: int) -> None:
-        """Write under a leaf the reason why no ray follows."""
-        words = end_label(self.tree, i)
-        if words and all(self.tree.nodes["kind"][c] == SHADOW for c in self.tree.children[i]):
-            self.marks.append(Text(f"hit-{i}", self._under(i), words, self.size, self.theme.muted))
-
-    def _under(self, i: int) -> Point:
-        """The middle of the first line under a box and its stubs."""
-        x, y = self.plan.at[i]
-        hanging = (*shadow_rays(self.tree, i), i)
-        stubs = (
-            i in self.plan.places.lines or i in self.plan.places.bars or any(c in self.plan.rows for c in hanging[:-1])
-        )
-        bare = 0.5 * self.plan.box[1] + BARE_NOTE * self.size
-        return (x, y + (self.plan.hang + NOTE * self.size if stubs else bare))
-
-    # --- folded branches ----------------------------------------------------------------------------------------------
-
     def _fold_edge(self, row: int) -> None:
+        stroke = Stroke(self.theme.muted, 1.6, (2.0, 4.0))
+        if self.plan.style.eye == OUTLINE:
+            self.marks += outline_edge(self.plan, self.tree, row, f"fold-{row}", stroke)
+            return
         start, leaves = self._leave(row)
         reach = self._reach(row, self.plan.fold_height)
-        stroke = Stroke(self.theme.muted, 1.6, (2.0, 4.0))
         self.marks.append(Line(f"fold-{row}", start, reach, stroke, leaves=leaves, reaches=f"fold-{row}"))
 
-    def _fold(self, fold: Fold) -> None:
-        """Draw a folded branch: its number of rays and its weight, in its own box or under the hit."""
-        name = f"fold-{fold.row}"
-        many, share = fold.words(self.step.rows, self.plan.inside)
-        if fold.under is not None:
-            x, y = self._under(fold.under)
-            for k, words in enumerate((many, share)):
-                self.marks.append(Text(name, (x, y + k * LINE * self.size), words, self.size, self.theme.muted))
-            return
-        x, y = self.plan.at[fold.row]
-        size = (self.plan.box[0], self.plan.fold_height)
-        stroke = Stroke(self.theme.muted, 1.4, (3.0, 3.0))
-        title = f"{many} not drawn, {share} of the weight"
-        self.marks.append(Box(name, (x, y), size, 0.28 * self.size, None, stroke, title=title))
-        for words, dy in ((many, -0.6), (share, 0.6)):
-            self.marks.append(Text(name, (x, y + dy * self.size), words, self.size, self.theme.muted, inside=name))
+    # --- all of it ----------------------------------------------------------------------------------------------------
 
+    def _levels(self, hits: Sequence[int]) -> None:
+        """The depths of the rays on show, as faint lines with their numbers, behind everything."""
+        left, _, right, _ = self.plan.style.where
+        left += _levels_wide(self.size)
+        deepest = max(int(self.tree.nodes["depth"][i]) for i in hits)
+        rows = {int(self.tree.nodes["depth"][i]): self.plan.at[i][1] for i in hits}
+        ink = faded(self.theme.muted, LEVEL_OPACITY)
+        for depth in range(deepest + 1):
+            name, y = f"level-{depth}", rows[depth]
+            at = (left - _levels_wide(self.size) + MARGIN * self.size, y)
+            self.marks.append(Line(name, (left + MARGIN * self.size, y), (right, y), Stroke(ink, 0.8)))
+            self.marks.append(Text(name, at, LEVEL.format(depth), self.size, self.theme.muted, "start"))
 
-def swatch(tree: RayTree, i: int, theme: Theme) -> Color:
-    """The radiance of ray i as a colour; in black and white, a grey of the same luminance."""
-    light = tree.nodes["radiance"][i]
-    if theme.mono:
-        light = np.full(3, light @ LUMINANCE)
-    return display_color(light)
+    def _dim(self, rows: Sequence[int]) -> None:
+        """Dim the rays that are neither above nor below the selected one, and their hits."""
+        assert self.style.selected is not None
+        kept = relatives(self.tree, self.style.selected, rows)
+        bright = {f"{what}-{i}" for what in OF_A_ROW for i in kept}
+        dims = tuple(f"{what}-" for what in OF_A_ROW)
+        self.marks = [
+            blended(mark, DIMMED, self.theme.panel) if mark.name.startswith(dims) and mark.name not in bright else mark
+            for mark in self.marks
+        ]

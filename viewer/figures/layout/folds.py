@@ -1,6 +1,6 @@
 """Folded branches of a tree: one label gives their number of rays and their weight."""
 
-from collections.abc import Iterable
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from tracer.kernel.nodes import SHADOW
@@ -21,10 +21,10 @@ class Fold:
     weight: float  # of its first rays, together
     under: int | None = None
 
-    def words(self, rows: Iterable[int], inside: dict[int, int]) -> tuple[str, str]:
-        """(number of rays, their share of the weight), of those that are in `rows`."""
-        count = sum(inside.get(i) == self.row for i in rows)
-        return (f"+{count} ray{'s' if count > 1 else ''}", f"{percent(self.weight)} %")
+    def words(self, count: int, one_line: bool = False) -> tuple[str, ...]:
+        """The number of rays and their share of the weight, of a fold with so many rays."""
+        words = (f"+{count} ray{'s' if count > 1 else ''}", f"{percent(self.weight)} %")
+        return (", ".join(words),) if one_line else words
 
 
 def percent(share: float) -> str:
@@ -33,10 +33,10 @@ def percent(share: float) -> str:
 
 
 def fold_branches(
-    tree: RayTree, kept: set[int], last: int, lights: int
+    tree: RayTree, allowed: Collection[int], kept: set[int], last: int, lights: int
 ) -> tuple[set[int], dict[int, Fold], dict[int, int]]:
-    """(rows drawn as themselves, folds, fold of each folded row). The branches of a hit that are not kept make one
-    fold.
+    """(rows drawn as themselves, folds, fold of each folded row). Of the allowed rows, the branches of a hit that are
+    not kept make one fold.
 
     There are no boxes below the level `last`. A hit's shadow rays are drawn if there are no more than `lights`.
     """
@@ -47,14 +47,14 @@ def fold_branches(
     folds: dict[int, Fold] = {}
     inside: dict[int, int] = {}
     for i in sorted(kept):
-        roots = tuple(c for c in tree.children[i] if c not in kept and nodes["kind"][c] != SHADOW)
+        roots = tuple(c for c in tree.children[i] if c in allowed and c not in kept and nodes["kind"][c] != SHADOW)
         if roots:
             row = max(roots, key=lambda c: (weights[c], -c))
             under = i if nodes["depth"][i] >= last else None
             folds[row] = Fold(row, roots, float(sum(weights[c] for c in roots)), under)
             inside |= dict.fromkeys(roots, row)
-    for i in range(len(tree)):  # parents come before their children
-        parent = int(nodes["parent"][i])
-        if parent in inside and i not in inside:
-            inside[i] = inside[parent]
+    parents = nodes["parent"].tolist()
+    for i in range(len(tree)) if inside else ():  # parents come before their children
+        if parents[i] in inside and i in allowed and i not in inside:
+            inside[i] = inside[parents[i]]
     return rows, folds, inside

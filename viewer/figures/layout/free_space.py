@@ -47,20 +47,39 @@ class FreeSpace:
 
     def place(self, size: tuple[float, float], corners: Iterable[str]) -> Point | None:
         """The top left of a free rectangle of this size, as near as possible to one of the corners, like "top left"."""
+        x, y = self._places(size)
+        if not len(x):
+            return None
+        left, top, _, _ = self.where
+        right, bottom = left + CELL * self.taken.shape[1], top + CELL * self.taken.shape[0]
+        costs = []
+        for rank, corner in enumerate(corners):
+            far_x = right - size[0] - x if "right" in corner else x - left
+            far_y = bottom - size[1] - y if "bottom" in corner else y - top
+            costs.append(np.hypot(far_x, far_y) + RANK * rank)
+        best = int(np.argmin(np.min(costs, axis=0)))
+        return (float(x[best]), float(y[best]))
+
+    def nearest(self, size: tuple[float, float], box: Rectangle) -> Point | None:
+        """The top left of the free rectangle of this size that is nearest to a box."""
+        x, y = self._places(size)
+        if not len(x):
+            return None
+        left, top, right, bottom = box
+        far_x = np.maximum(0.0, np.maximum(left - size[0] - x, x - right))
+        far_y = np.maximum(0.0, np.maximum(top - size[1] - y, y - bottom))
+        aside = np.abs(x + 0.5 * size[0] - 0.5 * (left + right)) + np.abs(y + 0.5 * size[1] - 0.5 * (top + bottom))
+        best = int(np.argmin(np.hypot(far_x, far_y) + 1e-3 * aside))  # of equal distances, the one that faces the box
+        return (float(x[best]), float(y[best]))
+
+    def _places(self, size: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+        """Left and top of all free rectangles of this size."""
         wide, high = (math.ceil(length / CELL) for length in size)
         rows, columns = self.taken.shape
         if wide > columns or high > rows:
-            return None
+            return np.zeros(0), np.zeros(0)
         sums = np.pad(self.taken.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
         inside = sums[high:, wide:] - sums[:-high, wide:] - sums[high:, :-wide] + sums[:-high, :-wide]
         y, x = np.nonzero(inside == 0)
-        if not len(x):
-            return None
-        costs = []
-        for rank, corner in enumerate(corners):
-            far_x = columns - wide - x if "right" in corner else x
-            far_y = rows - high - y if "bottom" in corner else y
-            costs.append(CELL * np.hypot(far_x, far_y) + RANK * rank)
-        best = int(np.argmin(np.min(costs, axis=0)))
         left, top, _, _ = self.where
-        return (left + CELL * float(x[best]), top + CELL * float(y[best]))
+        return left + CELL * x, top + CELL * y

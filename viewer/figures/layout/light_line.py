@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from tracer.tree.raytree import RayTree
 from viewer.figures.font import text_width
-from viewer.figures.lights import Fate, counted, light_line
+from viewer.figures.lights import MOST_LIGHTS, Fate, counted, fate_of, light_line, shadow_rays
 
 WORDS, SIGNS, NO_LINE = range(3)  # its forms, the widest first
 SIGN = 0.95  # width of a sign, before its label, in text sizes
@@ -42,6 +42,29 @@ class LightLine:
             parts.append(LinePart(left, str(count), fate.name))
             left += SIGN * size + text_width(str(count), size)
         return LightLine(left, tuple(parts))
+
+
+def box_signs(tree: RayTree, i: int, size: float) -> tuple[tuple[LinePart, int | None], ...]:
+    """The signs of the shadow rays of hit i in its own box, with their rows: one each, or, if they are many, one a fate
+    with its number. `left` counts from the first sign's left end.
+    """
+    shadows = shadow_rays(tree, i)
+    if len(shadows) <= MOST_LIGHTS:
+        return tuple((LinePart(k * SIGN * size, "", fate_of(tree, row).name), row) for k, row in enumerate(shadows))
+    parts, left = [], 0.0
+    for fate, count in counted(tree, shadows):
+        parts.append((LinePart(left, str(count), fate.name), None))
+        left += (SIGN + BETWEEN) * size + text_width(str(count), size)
+    return tuple(parts)
+
+
+def signs_width(tree: RayTree, i: int, lights: bool, size: float) -> float:
+    """The width of the signs in the box of hit i."""
+    signs = box_signs(tree, i, size) if lights else ()
+    if not signs:
+        return 0.0
+    last, _ = signs[-1]
+    return last.left + SIGN * size + text_width(last.text, size)
 
 
 def widest_line(tree: RayTree, shadows: Sequence[int], form: int, size: float) -> float:

@@ -5,14 +5,24 @@ Boxes and labels never overlap. Edges run through free space: from a box's sides
 right side through the free column to the next level.
 """
 
-from collections.abc import Collection
-from dataclasses import dataclass
-
 from tracer.kernel.nodes import SHADOW
-from tracer.tree.raytree import RayTree
-from viewer.figures.layout.sizes import BOX, LINE, MARGIN, NOTE, SLOT, STUB, Sizes, bar_width
+from viewer.figures.layout.places import LayoutTask, Places
+from viewer.figures.layout.sizes import (
+    BARE_NOTE,
+    BELOW,
+    BOX,
+    LINE,
+    MARGIN,
+    NOTE,
+    SLOT,
+    STUB,
+    Sizes,
+    TreeStyle,
+    bar_width,
+)
 from viewer.figures.layout.tidy_tree import Layout, Spacing, tidy_layout
-from viewer.figures.marks import HEIGHT, Point
+from viewer.figures.lights import shadow_rays
+from viewer.figures.marks import Point
 
 # All in text sizes.
 GAP = 0.7  # least distance between two boxes side by side
@@ -20,83 +30,67 @@ GAP_BELOW = 0.3  # least distance between two boxes one below the other, with al
 SPREAD = 1.6  # largest factor of these distances if there is space
 EYE = 0.75  # from the top to the eye
 EYE_WIDE = 0.95  # from the left to the eye, and from the eye to the start of the first ray
-FIRST = 4.8  # from the eye down to the first hit
 FIRST_RIGHT = 3.4  # from the eye to the box of the first hit
 CLEAR = 6.3  # least distance of levels if a leaf's note may hang beside a box of the next level
-PITCH, TALLEST = 4.85, 8.0  # least and largest distance of levels, downwards
+# Downwards, with stubs and without them, in a compact tree: from the eye to the first hit, least and largest distance
+# of levels, and the share of it down to which edges stay outside the neighbours' boxes and stubs.
+FIRST, COMPACT_FIRST = 4.8, 3.1
+PITCH, COMPACT_PITCH = 4.85, 3.7
+TALLEST, COMPACT_TALLEST = 8.0, 5.5
+PASSES, COMPACT_PASSES = 0.9, 0.3
 CORRIDOR, WIDEST = 2.4, 6.0  # least and largest distance between the boxes of two levels, sideways
 
 EYES = ("top", "left")
 
 
-@dataclass(frozen=True)
-class Places:
-    """Centres of boxes and of signs at ends of stubs, ends of the bars of total internal reflection, middles of the
-    lines that stand for shadow rays, the eye.
-    """
-
-    at: dict[int, Point]
-    bars: dict[int, Point]
-    lines: dict[int, Point]
-    eye: Point
-
-
-@dataclass(frozen=True)
-class LayoutTask:
-    """The rows and the boxes of folds to place, with a text size, between a left and a right end."""
-
-    tree: RayTree
-    rows: Collection[int]
-    folds: Collection[int]
-    sizes: Sizes
-    size: float
-    where: tuple[float, float]
-    hung: bool  # whether folds hang under the last level
-
-    @property
-    def levels(self) -> int:
-        """The number of levels below the first."""
-        return max(int(self.tree.nodes["depth"][i]) for i in (*self.rows, *self.folds))
-
-
-def levels_down(size: float, hung: bool) -> int:
+def levels_down(style: TreeStyle, hung: bool) -> int:
     """The largest possible number of levels below the first. `hung`: with folds under the last."""
-    return int(_room_below(size, hung) / (PITCH * size))
+    return int(_room_below(style, hung) / (_pitch(style) * style.size))
 
 
-def levels_right(sizes: Sizes, size: float, where: tuple[float, float]) -> int:
-    return int(_room_right(sizes, size, where) / (sizes.column + CORRIDOR * size))
+def levels_right(sizes: Sizes, style: TreeStyle) -> int:
+    return int(_room_right(sizes, style) / (sizes.column + CORRIDOR * style.size))
 
 
-def _first(size: float) -> float:
+def _pitch(style: TreeStyle) -> float:
+    return COMPACT_PITCH if style.compact else PITCH
+
+
+def _first(style: TreeStyle) -> float:
     """The vertical position of the first hit."""
-    return (MARGIN + EYE + FIRST) * size
+    return style.where[1] + (MARGIN + EYE + (COMPACT_FIRST if style.compact else FIRST)) * style.size
 
 
-def _room_below(size: float, hung: bool) -> float:
+def _room_below(style: TreeStyle, hung: bool) -> float:
     """The room between the first hit and the lowest possible one."""
-    return HEIGHT - _first(size) - (0.5 * BOX + STUB + NOTE + LINE * hung + 0.5 + MARGIN) * size
+    hanging = (BARE_NOTE + LINE + BELOW) * hung if style.compact else STUB + NOTE + LINE * hung + 0.5
+    return style.where[3] - _first(style) - (0.5 * BOX + hanging + MARGIN) * style.size
 
 
 def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
     """The positions; None if they do not fit."""
-    tree, size, sizes, where = task.tree, task.size, task.sizes, task.where
+    tree, style, sizes = task.tree, task.style, task.sizes
+    size, (left, top, right, _) = style.size, style.where
+    left += style.aside
     margin, gap = MARGIN * size, GAP * size
     unit = sizes.column + gap
     stub = sizes.slot / unit
-    first, free, levels = _first(size), _room_below(size, task.hung), task.levels
-    crowded = CLEAR * size * levels > free
-    room = Spacing(0.5, 0.5, stub, 0.5 * stub, sides=True, passes=0.9, crowded=crowded, bars=True)
-    laid = tidy_layout(tree, {*task.rows, *task.folds}, room)
-    rim = (where[0] + margin - 0.5 * gap, where[1] - margin + 0.5 * gap)
+    first, free, levels = _first(style), _room_below(style, task.hung), task.levels
+    crowded = CLEAR * size * levels > free and not style.compact
+    passes = COMPACT_PASSES if style.compact else PASSES
+    room = Spacing(0.5, 0.5, stub, 0.5 * stub, sides=True, passes=passes, crowded=crowded, bars=not style.compact)
+    kinds, depth, parents = (tree.nodes[name] for name in ("kind", "depth", "parent"))
+    placed = [i for i in task.rows if kinds[i] != SHADOW] if style.compact else task.rows
+    laid = tidy_layout(tree, {*placed, *task.folds}, room)
+    rim = (left + margin - 0.5 * gap, right - margin + 0.5 * gap)
     across = _across(laid, (0.5, 0.5), unit, rim)
-    if across is None or PITCH * size * levels > free:
+    if across is None or _pitch(style) * size * levels > free:
         if not anyhow:
             return None
-        across = across or (0.5 * (where[0] + where[1]), 1.0)
+        across = across or (0.5 * (left + right), 1.0)
     middle, spread = across
-    pitch = min(TALLEST * size, free / levels) if levels else 0.0
-    kinds, depth, parents = (tree.nodes[name] for name in ("kind", "depth", "parent"))
+    tallest = COMPACT_TALLEST if style.compact else TALLEST
+    pitch = min(tallest * size, free / levels) if levels else 0.0
     at = {
         i: (middle + place.x * unit * spread, first + pitch * float(depth[i]))
         for i, place in laid.places.items()
@@ -110,7 +104,7 @@ def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
 
     at |= {i: hanging(int(parents[i]), place.x) for i, place in laid.places.items() if kinds[i] == SHADOW}
     bars = {i: hanging(i, place.x) for i, place in laid.bars.items()}
-    return Places(at, *_lines(task, at, bars), (at[0][0], margin + EYE * size))
+    return Places(at, *_lines(task, at, bars), (at[0][0], top + margin + EYE * size))
 
 
 def _lines(task: LayoutTask, at: dict[int, Point], bars: dict[int, Point]) -> tuple[dict[int, Point], dict[int, Point]]:
@@ -118,44 +112,47 @@ def _lines(task: LayoutTask, at: dict[int, Point], bars: dict[int, Point]) -> tu
     lines: dict[int, Point] = {}
     moved = dict(bars)
     for i, wide in task.sizes.lines.items():
-        x, y = at[i][0], at[i][1] + 0.5 * task.sizes.box + STUB * task.size
-        bar = bar_width(task.size) if i in bars else 0.0
+        size = task.style.size
+        x, y = at[i][0], at[i][1] + 0.5 * task.sizes.box + STUB * size
+        bar = bar_width(size) if i in bars else 0.0
         lines[i] = (x - 0.5 * bar, y)
         if i in bars:
-            moved[i] = (x + 0.5 * (wide + SLOT * task.size), y)
+            moved[i] = (x + 0.5 * (wide + SLOT * size), y)
     return moved, lines
 
 
-def _room_right(sizes: Sizes, size: float, where: tuple[float, float]) -> float:
+def _room_right(sizes: Sizes, style: TreeStyle) -> float:
     """The room between the first hit and the rightmost possible one."""
-    return where[1] - where[0] - (2.0 * MARGIN + EYE_WIDE + FIRST_RIGHT) * size - sizes.column
+    left, _, right, _ = style.where
+    return right - left - (2.0 * MARGIN + EYE_WIDE + FIRST_RIGHT) * style.size - sizes.column
 
 
 def place_rightwards(task: LayoutTask, anyhow: bool) -> Places | None:
     """The positions; None if they do not fit. Reflected rays go up, refracted ones down."""
-    tree, size, sizes, where = task.tree, task.size, task.sizes, task.where
+    tree, style, sizes = task.tree, task.style, task.sizes
+    size, (left, top, _, bottom) = style.size, style.where
     margin, kinds = MARGIN * size, tree.nodes["kind"]
     unit = sizes.up + sizes.down + GAP_BELOW * size
     extent = ((sizes.up + 0.5 * GAP_BELOW * size) / unit, (sizes.down + 0.5 * GAP_BELOW * size) / unit)
     hits = {i for i in task.rows if kinds[i] != SHADOW}
     laid = tidy_layout(tree, hits | set(task.folds), Spacing(*extent, 0.0, 0.0))
-    rim = (margin - 0.5 * GAP_BELOW * size, HEIGHT - margin + 0.5 * GAP_BELOW * size)
+    rim = (top + margin - 0.5 * GAP_BELOW * size, bottom - margin + 0.5 * GAP_BELOW * size)
     across = _across(laid, extent, unit, rim)
-    free, levels = _room_right(sizes, size, where), task.levels
+    free, levels = _room_right(sizes, style), task.levels
     if across is None or (sizes.column + CORRIDOR * size) * levels > free:
         if not anyhow:
             return None
-        across = across or (0.5 * HEIGHT, 1.0)
+        across = across or (0.5 * (top + bottom), 1.0)
     middle, spread = across
     pitch = min(sizes.column + WIDEST * size, free / levels) if levels else 0.0
-    eye = where[0] + margin + EYE_WIDE * size
+    eye = left + margin + EYE_WIDE * size
     first = eye + FIRST_RIGHT * size + 0.5 * sizes.column
     depth = tree.nodes["depth"]
     at = {i: (first + pitch * float(depth[i]), middle + place.x * unit * spread) for i, place in laid.places.items()}
     bars: dict[int, Point] = {}
     for i in sorted(hits):
-        stubs = [c for c in tree.children[i] if c in task.rows and kinds[c] == SHADOW]
-        barred = any(c in task.rows and tree.kind(c) == "tir" for c in tree.children[i])
+        stubs = [] if style.compact else [c for c in shadow_rays(tree, i) if c in task.rows]
+        barred = not style.compact and any(c in task.rows and tree.kind(c) == "tir" for c in tree.children[i])
         (x, y), count = at[i], len(stubs) + barred
         ends = [(x + sizes.slot * (k - 0.5 * (count - 1)), y + 0.5 * sizes.box + STUB * size) for k in range(count)]
         if barred:

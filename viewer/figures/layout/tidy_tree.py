@@ -5,15 +5,10 @@ them, half a level down, are short stubs to the lights, as in Whitted's figure. 
 distance, and equal subtrees look the same.
 """
 
-from collections.abc import Set
 from dataclasses import dataclass
-
-import numpy as np
 
 from tracer.kernel.nodes import REFRACTION, SHADOW, TIR
 from tracer.tree.raytree import RayTree
-from tracer.tree.text import heaviest_rows
-from viewer.figures.ray_lines import drawn_rows
 
 
 @dataclass(frozen=True)
@@ -25,14 +20,10 @@ class Spacing:
     stub_gap: float  # between two stubs
     stub_half: float
     lean: float = 0.5  # sideways offset of an only child
-    edge: float = 0.2  # between a stub and the edges beside it
     sides: bool = False  # rays leave at a node's sides instead of its middle, and its stubs are as wide as itself
     passes: float = 0.5  # length of its stubs in levels: down to there, edges of neighbours must stay outside them
     crowded: bool = False  # its stubs reach so far down that they must stay away from nodes of the next level
     bars: bool = False  # whether total internal reflection has a stub for the refracted ray that does not exist
-
-
-NAMES_BESIDE = Spacing(left=0.32, right=0.92, stub_gap=0.32, stub_half=0.16)
 
 
 @dataclass(frozen=True)
@@ -59,7 +50,7 @@ class _Subtree:
     right: list[float]
 
 
-def tidy_layout(tree: RayTree, rows: set[int], room: Spacing = NAMES_BESIDE) -> Layout:
+def tidy_layout(tree: RayTree, rows: set[int], room: Spacing) -> Layout:
     """Positions of these rows, the root at x = 0. With each row, its parent must be among them."""
     subtrees: dict[int, _Subtree] = {}
     for i in sorted(rows, reverse=True):
@@ -84,11 +75,6 @@ def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtr
     count = len(stubs) + barred
     shifts = _apart([subtrees[child] for child in rays])
     if reflected and refracted:
-        # The edges must leave room for the stubs where they pass them, halfway down.
-        between = count > 0 and not room.sides
-        wanted = 4.0 * (0.5 * room.stub_gap * max(count - 1, 0) + room.edge) if between else 0.0
-        grow = max(0.0, wanted - (shifts[-1] - shifts[0]))
-        shifts = [shift + (grow if k >= len(reflected) else 0.0) for k, shift in enumerate(shifts)]
         middle = 0.5 * (shifts[0] + shifts[-1])
     elif rays:
         middle = shifts[-1] + room.lean if reflected else shifts[0] - room.lean
@@ -97,7 +83,7 @@ def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtr
     shifts = [shift - middle for shift in shifts]
     offsets, bars = {i: 0.0}, {}
     left, right = ([-room.left] * 2, [room.right] * 2) if room.sides else ([-room.left, 0.0], [room.right, 0.0])
-    places = _stub_places(count, bool(reflected), bool(refracted), room)
+    places = [room.stub_gap * (k - 0.5 * (count - 1)) for k in range(count)]  # in the middle, below the hit
     for x in places:
         left[1], right[1] = min(left[1], x - room.stub_half), max(right[1], x + room.stub_half)
     if barred:
@@ -133,27 +119,3 @@ def _apart(subtrees: list[_Subtree]) -> list[float]:
                 edge.append(reach + shift)
             edge[level] = max(edge[level], reach + shift)
     return shifts
-
-
-def _stub_places(count: int, ray_left: bool, ray_right: bool, room: Spacing) -> list[float]:
-    """Positions of the stubs to the lights: in the middle, or on the side without a ray."""
-    if ray_left != ray_right and not room.sides:
-        sign = 1.0 if ray_left else -1.0
-        return sorted(sign * (0.5 * room.edge + room.stub_gap * k) for k in range(count))
-    return [room.stub_gap * (k - 0.5 * (count - 1)) for k in range(count)]
-
-
-def closed_under_parents(parents: np.ndarray, wanted: set[int]) -> set[int]:
-    """The rows whose ancestors are all wanted: without a row, its whole branch is left out."""
-    kept: set[int] = set()
-    for i in sorted(wanted):
-        if i == 0 or int(parents[i]) in kept:
-            kept.add(i)
-    return kept
-
-
-def heaviest_places(tree: RayTree, kinds: Set[str], most: int) -> dict[int, Place]:
-    """The positions of the heaviest rows of these kinds, at most `most`."""
-    wanted = {i for i in drawn_rows(tree) if tree.kind(i) in kinds or i == 0}
-    wanted = closed_under_parents(tree.nodes["parent"], wanted)
-    return tidy_layout(tree, heaviest_rows(tree, most, wanted)).places

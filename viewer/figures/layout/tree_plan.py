@@ -2,32 +2,49 @@
 
 Each hit is a box, and all boxes have one size, so that equal subtrees look the same. Reflected rays leave at a box's
 left side, refracted ones at its right, and stubs to the lights hang below: no lines cross. With the eye at the left,
-all rays leave at the right side, reflected ones upwards. If the tree does not fit, the lightest branches are folded
-into boxes that give their number of rays and weight.
+all rays leave at the right side, reflected ones upwards. If the tree does not fit, it becomes compact: the signs of
+shadow rays stand in the boxes. If that does not fit either, the lightest branches are folded into boxes that give
+their number of rays and weight. In a place that is narrow and high, the tree may become an outline.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
+
+import numpy as np
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
+from viewer.figures.labels import hit_label
 from viewer.figures.layout.folds import Fold, fold_branches
 from viewer.figures.layout.light_line import NO_LINE, SIGNS, WORDS
+from viewer.figures.layout.outline import GAP, place_as_outline
+from viewer.figures.layout.places import LayoutTask, Places
 from viewer.figures.layout.placing import (
-    LayoutTask,
-    Places,
     levels_down,
     levels_right,
     place_downwards,
     place_rightwards,
 )
-from viewer.figures.layout.sizes import EDGE_LABEL, FOLD, SHORT, STUB, Sizes, TreeStyle, name_in_box
+from viewer.figures.layout.sizes import (
+    BOX,
+    EDGE_LABEL,
+    FOLD,
+    OUTLINE,
+    SHORT,
+    SMALLEST,
+    STUB,
+    HitSizes,
+    PlannedRays,
+    Sizes,
+    TreeStyle,
+    name_in_box,
+)
 from viewer.figures.lights import many_lights
 from viewer.figures.marks import Point
 
-SMALLEST = 8.0  # points: the smallest text size
-MORE = 40  # if the whole tree does not fit, this many of the other rays are tried one by one, the heaviest first
+MORE = 40  # if the whole tree does not fit, this many of the other rays are tried one by one, the heaviest first,
+VAIN = 8  # until so many in turn do not fit
+NARROW = 1.3  # width over height of a place in which the tree may be an outline
 
 
 @dataclass(frozen=True)
@@ -43,6 +60,7 @@ class TreePlan:
     inside: dict[int, int]  # a folded row -> the row of its fold
     places: Places
     box: tuple[float, float]
+    label: float  # width of the widest label of a ray
     fits: bool  # on its part of the canvas
     lights_left_out: bool = False  # for want of room
 
@@ -56,13 +74,24 @@ class TreePlan:
         return self.places.at
 
     @property
+    def seen(self) -> tuple[bool, int, bool]:
+        """A measure of how much is seen, to choose between plans."""
+        hits = sum(self.tree.nodes["kind"][i] != SHADOW for i in self.rows)
+        return (self.fits, hits, not self.lights_left_out)
+
+    @property
     def hang(self) -> float:
         """From a box's middle down to the signs below it."""
         return 0.5 * self.box[1] + STUB * self.size
 
     @property
     def fold_height(self) -> float:
-        return FOLD * self.size
+        return (BOX if self.style.eye == OUTLINE else FOLD) * self.size
+
+    @property
+    def before(self) -> float:
+        """In an outline: from a box's middle to the left end of its ray's label."""
+        return self.label + GAP * self.size + 0.5 * self.box[0]
 
     @property
     def top(self) -> float:
@@ -73,112 +102,151 @@ class TreePlan:
         return name_in_box(self.tree, i, self.style.longest)
 
 
-def plan_tree(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
-    """The plan for these steps of one tree, the deepest last. If text is so large that not even the first hit fits, it
-    is smaller.
-    """
-    plan = _plan_lights(trees, style)
+def plan_tree(rays: PlannedRays, style: TreeStyle) -> TreePlan:
+    """The plan for a tree. If text is so large that not even the first hit fits, it is smaller."""
+    plan = _plan_forms(rays, style)
     while not plan.fits and plan.size > SMALLEST:
-        plan = _plan_lights(trees, replace(style, size=max(SMALLEST, math.ceil(plan.size) - 1.0)))
+        plan = _plan_forms(rays, replace(style, size=max(SMALLEST, math.ceil(plan.size) - 1.0)))
     return plan
 
 
-def _plan_lights(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
+def _plan_forms(rays: PlannedRays, style: TreeStyle) -> TreePlan:
+    """The plan for a text size: with stubs to the lights, or compact if more is seen then."""
+    plan = _plan_lights(rays, style)
+    if plan.fits and not plan.folds and not plan.lights_left_out:
+        return plan
+    low = replace(style, compact=True, named=False, line=SIGNS if style.lights else NO_LINE)
+    plans = [plan, _named(rays, low)]
+    if style.lights and many_lights(rays.tree):
+        bare = _named(rays, replace(low, lights=0, line=NO_LINE))
+        plans.append(replace(bare, lights_left_out=True))
+    left, top, right, bottom = style.where
+    if right - left < NARROW * (bottom - top):
+        plans.append(_named(rays, replace(low, eye=OUTLINE)))
+    return max(plans, key=lambda plan: plan.seen)
+
+
+def _plan_lights(rays: PlannedRays, style: TreeStyle) -> TreePlan:
     """The plan for a text size. No ray is folded for the lines that stand for many shadow rays: if their words do not
     fit, they have signs, and if these do not, they are left out.
     """
-    if style.line == NO_LINE or not many_lights(trees[-1]):
-        return _named(trees, style)
-    bare = _named(trees, replace(style, line=NO_LINE))
+    if style.line == NO_LINE or not many_lights(rays.tree):
+        return _named(rays, style)
+    bare = _named(rays, replace(style, line=NO_LINE))
     for form in (WORDS, SIGNS):
-        plan = _named(trees, replace(style, line=form))
+        plan = _named(rays, replace(style, line=form))
         if plan.fits and len(plan.rows) >= len(bare.rows):
             return plan
     return replace(bare, lights_left_out=True)
 
 
-def _named(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
+def _named(rays: PlannedRays, style: TreeStyle) -> TreePlan:
     """The plan in which names of lights are left to the legend, and names of objects cut, if more rays fit then."""
-    best = _plan(trees, style)
-    for shorter in (replace(style, named=False), replace(style, named=False, longest=SHORT)):
+    best = _plan(rays, style)
+    shorter = [replace(style, named=False)] if style.named and style.lights else []
+    if any(len(hit_label(rays.tree, i)) > SHORT for i in rays.rows):
+        shorter.append(replace(style, named=False, longest=SHORT))
+    for asked in shorter:
         if best.fits and not best.folds:
             break
-        found = _plan(trees, shorter)
+        found = _plan(rays, asked)
         if (found.fits, len(found.rows)) > (best.fits, len(best.rows)):
             best = found
     return best
 
 
-def fitting_size(trees: Sequence[RayTree], style: TreeStyle) -> float | None:
+def fitting_size(rays: PlannedRays, style: TreeStyle) -> float | None:
     """The largest text size, in whole points, with which all rays fit; None if no size does."""
-    rays = {i for i in range(len(trees[-1])) if trees[-1].nodes["kind"][i] != SHADOW}
-    deepest = int(trees[-1].nodes["depth"].max())
+    hits = {i for i in rays.rows if rays.tree.nodes["kind"][i] != SHADOW}
+    deepest = int(rays.tree.nodes["depth"].max())
     for size in range(int(style.size), int(SMALLEST) - 1, -1):
-        asked = replace(style, size=float(size), longest=SHORT, named=False, line=NO_LINE)
-        if deepest <= _last_level(trees, asked) and _try(trees, rays, asked, deepest):
-            return float(size)
+        for compact in (False, True):
+            asked = replace(style, size=float(size), longest=SHORT, named=False, line=NO_LINE, compact=compact)
+            measured = HitSizes(rays, asked)
+            if deepest <= _last_level(measured) and _try(measured, hits, deepest):
+                return float(size)
     return None
 
 
-def _plan(trees: Sequence[RayTree], style: TreeStyle) -> TreePlan:
+def _plan(rays: PlannedRays, style: TreeStyle) -> TreePlan:
     """The plan with as many levels as possible, or with one less if that shows more of the weight."""
-    last = _last_level(trees, style)
-    weights = trees[-1].nodes["weight"].max(axis=1)
-    hits = trees[-1].nodes["kind"] != SHADOW
-    plans = [_plan_of(trees, style, levels) for levels in range(last, max(last - 2, -1), -1)]
+    measured = HitSizes(rays, style)
+    last = _last_level(measured)
+    weights = rays.tree.nodes["weight"].max(axis=1)
+    hits = rays.tree.nodes["kind"] != SHADOW
+    plans = [_plan_of(measured, levels) for levels in range(last, max(last - 2, -1), -1)]
     return max(plans, key=lambda plan: float(sum(weights[i] for i in sorted(plan.rows) if hits[i])))
 
 
-def _plan_of(trees: Sequence[RayTree], style: TreeStyle, last: int) -> TreePlan:
-    tree = trees[-1]
-    weights, kinds = tree.nodes["weight"].max(axis=1), tree.nodes["kind"]
-    rays = [i for i in range(len(tree)) if kinds[i] != SHADOW and (weights[i] >= style.fold or i == 0)]
-    rays = {i for i in rays if tree.nodes["depth"][i] <= last}
-    heaviest = sorted(rays, key=lambda i: (-weights[i], i))
+def _plan_of(measured: HitSizes, last: int) -> TreePlan:
+    """The plan with the most of the heaviest rays that fit above and on a level."""
+    tree = measured.tree
+    heaviest = _heaviest(measured, last)
     low, high = 0, len(heaviest)
-    best = _try(trees, set(heaviest), style, last)
+    best = _try(measured, set(heaviest), last)
     if best is not None:
-        low = high
+        return best
     while low + 1 < high:  # bisection for the most rays that fit: `low` do, `high` do not
         middle = (low + high) // 2
-        found = _try(trees, set(heaviest[:middle]), style, last)
+        found = _try(measured, set(heaviest[:middle]), last)
         if found is None:
             high = middle
         else:
             low, best = middle, found
     if best is None:  # even the first hit alone is too large: draw it all the same
-        return _try(trees, {0}, style, 0, anyhow=True)  # type: ignore[return-value]
+        return _try(measured, {0}, 0, anyhow=True)  # type: ignore[return-value]
     kept = set(heaviest[:low])
     # A branch of one ray takes no more room as itself than as a fold. If one does not fit, a lighter one may.
-    single = sorted(r for fold in best.folds.values() for r in fold.roots if not tree.children[r] and r in rays)
+    single = sorted(r for fold in best.folds.values() for r in fold.roots if not tree.children[r] and r in heaviest)
     parents = tree.nodes["parent"]
+    failed = 0
     for i in (*single, *heaviest[low : low + MORE]):
-        if i not in kept and int(parents[i]) in kept:
-            found = _try(trees, kept | {i}, style, last)
-            if found is not None:
-                best = found
+        if i not in kept and int(parents[i]) in kept and failed < VAIN:
+            found = _try(measured, kept | {i}, last)
+            if found is None:
+                failed += 1
+            else:
+                best, failed = found, 0
                 kept.add(i)
     return best
 
 
-def _last_level(trees: Sequence[RayTree], style: TreeStyle) -> int:
+def _heaviest(measured: HitSizes, last: int) -> list[int]:
+    """The rays down to a level that the style does not fold, the heaviest first."""
+    nodes = measured.tree.nodes
+    weights, kinds = nodes["weight"].max(axis=1), nodes["kind"]
+    rays = measured.rays
+    first, allowed = (np.isin(np.arange(len(weights)), list(rows)) for rows in (rays.first | {0}, rays.rows))
+    kept = (kinds != SHADOW) & (nodes["depth"] <= last) & allowed & (first | (weights >= measured.style.fold))
+    found = np.flatnonzero(kept)
+    return found[np.lexsort((found, -weights[found], ~first[found]))].tolist()
+
+
+def _last_level(measured: HitSizes) -> int:
     """The level below which there are no boxes."""
-    deepest = int(trees[-1].nodes["depth"].max())
+    style = measured.style
+    deepest = int(measured.tree.nodes["depth"].max())
     if style.eye == "left":
-        return levels_right(Sizes.of(trees, range(len(trees[-1])), {}, {}, style), style.size, style.where)
-    whole = levels_down(style.size, hung=False)
-    return whole if deepest <= whole else max(0, levels_down(style.size, hung=True))
+        return levels_right(Sizes.of(measured, measured.rays.rows, {}, {}), style)
+    if style.eye == OUTLINE:
+        return deepest
+    whole = levels_down(style, hung=False)
+    return whole if deepest <= whole else max(0, levels_down(style, hung=True))
 
 
-def _try(
-    trees: Sequence[RayTree], kept: set[int], style: TreeStyle, last: int, anyhow: bool = False
-) -> TreePlan | None:
+PLACINGS = {"top": place_downwards, "left": place_rightwards, OUTLINE: place_as_outline}
+
+
+def _try(measured: HitSizes, kept: set[int], last: int, anyhow: bool = False) -> TreePlan | None:
     """The plan with these rays, and all others folded; None if it does not fit."""
-    rows, folds, inside = fold_branches(trees[-1], kept, last, style.lights)
-    sizes = Sizes.of(trees, rows, folds, inside, style)
+    tree, style = measured.tree, measured.style
+    rows, folds, inside = fold_branches(tree, measured.rays.rows, kept, last, style.lights)
+    sizes = Sizes.of(measured, rows, folds, inside)
     boxes = {row for row, fold in folds.items() if fold.under is None}
-    task = LayoutTask(trees[-1], rows, boxes, sizes, style.size, style.where, hung=len(boxes) < len(folds))
-    places = (place_rightwards if style.eye == "left" else place_downwards)(task, anyhow)
+    task = LayoutTask(tree, rows, boxes, sizes, style, hung=len(boxes) < len(folds))
+    places = PLACINGS[style.eye](task, anyhow)
     if places is None:
         return None
-    return TreePlan(trees[-1], style, frozenset(rows), folds, inside, places, (sizes.column, sizes.box), not anyhow)
+    return TreePlan(
+        tree, style, frozenset(rows), folds, inside, places, (sizes.column, sizes.box), sizes.label, not anyhow
+    )

@@ -8,7 +8,7 @@ import datetime
 import io
 import zipfile
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, TypeGuard
 
 from tracer.extras import missing_extra
 from viewer.base.files import Unusable
@@ -51,7 +51,7 @@ class _Slide:
         self.boxes: dict[str, Any] = {}
         self.words: dict[str, list[Text]] = {}
         for mark in figure.marks:
-            if isinstance(mark, Text) and mark.inside:
+            if _fills_box(mark):
                 self.words.setdefault(mark.inside, []).append(mark)
 
     def draw(self) -> None:
@@ -64,7 +64,7 @@ class _Slide:
                 self._line(mark, self.shapes)
         signs: dict[str, Any] = {}
         for mark in self.figure.marks:
-            if isinstance(mark, Box) or (isinstance(mark, Text) and mark.inside):
+            if isinstance(mark, Box) or _fills_box(mark):
                 continue
             if isinstance(mark, Text):
                 self._text(mark)
@@ -147,6 +147,11 @@ class _Slide:
             _paint(made.fill, self.figure.paper)
         made.text_frame.margin_left = made.text_frame.margin_right = 0
         _write(made.text_frame, [text], text.anchor)
+
+
+def _fills_box(mark: Mark) -> TypeGuard[Text]:
+    """Whether it is the text of a box; a text at one end of it is a frame of its own."""
+    return isinstance(mark, Text) and bool(mark.inside) and mark.anchor == "middle"
 
 
 def _write(frame: Any, words: Sequence[Text], anchor: str) -> None:

@@ -5,11 +5,12 @@ selected hit, then labels of rays, then names of lights and of the eye. Lengths 
 the view.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
+from tracer.formulas.vector import rescale, unit
 from tracer.kernel.nodes import KINDS, SHADOW
 from viewer.base.orbit import project
 from viewer.base.theme import DIMMED, QUIET, Color, faded
@@ -31,6 +32,7 @@ SAMPLES = 25  # points of a ray at which its visibility is tested
 SPOTS = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)  # places for a label, as shares of the visible part of a ray
 SHORTEST = 10.0  # visible part of a ray that is named
 BACKING = 0.78  # opacity of the background behind a text
+FAR = 1e6  # the distance of a light at infinity, in radii of the scene
 NEAR = 2e-5  # in depth: what is on a surface is not hidden by it
 
 
@@ -85,9 +87,7 @@ class SceneMarks:
     def _take(self, at: Point, wide: float) -> None:
         self.taken.append(widened((*at, *at), 0.5 * wide))
 
-    def _text(
-        self, name: str, content: str, spots: Iterable[tuple[Point, str]], color: Color, title: str = ""
-    ) -> bool:
+    def _text(self, name: str, content: str, spots: Iterable[tuple[Point, str]], color: Color, title: str = "") -> bool:
         """Place a text at the first spot (position, anchor) with room. Returns whether there is one."""
         for at, anchor in spots:
             box = widened(text_box(at, content, TEXT, anchor), 2.0)
@@ -121,11 +121,11 @@ class SceneMarks:
         assert session.world
         scene = session.world.scene
         for j, light in enumerate(scene.lights):
-            point = (
-                session.orbit.eye + 1e6 * np.array(session.world.arrays.lights[j]["towards"])
-                if light.position is None
-                else session.frame.inside(light.position)
-            )
+            if light.direction:
+                point = session.orbit.eye - FAR * np.array(unit(rescale(light.direction)))
+            else:
+                assert light.position
+                point = session.frame.inside(light.position)
             places, inside = self.at(point[None])
             name = scene.light_name(j)
             if not inside[0]:

@@ -1,0 +1,37 @@
+"""What is to be placed in a tree figure, and where it stands then."""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from tracer.tree.raytree import RayTree
+from viewer.figures.layout.sizes import Sizes, TreeStyle
+from viewer.figures.marks import Point
+
+
+@dataclass(frozen=True)
+class Places:
+    """Centres of boxes and of signs at ends of stubs, ends of the bars of total internal reflection, middles of the
+    lines that stand for shadow rays, the eye.
+    """
+
+    at: dict[int, Point]
+    bars: dict[int, Point]
+    lines: dict[int, Point]
+    eye: Point
+
+
+@dataclass(frozen=True)
+class LayoutTask:
+    """The rows and the boxes of folds to place, in a style."""
+
+    tree: RayTree
+    rows: Collection[int]
+    folds: Collection[int]
+    sizes: Sizes
+    style: TreeStyle
+    hung: bool  # whether folds hang under the last level
+
+    @property
+    def levels(self) -> int:
+        """The number of levels below the first."""
+        return max(int(self.tree.nodes["depth"][i]) for i in (*self.rows, *self.folds))

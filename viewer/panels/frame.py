@@ -1,0 +1,121 @@
+"""The frame of the panels in one place: its titles, and below or behind them the panel in front.
+
+A title on a picture stands on a plate. A click on a title brings its panel to the front, a double click gives it all of
+the room.
+"""
+
+from collections.abc import Callable, Sequence
+
+from imgui_bundle import imgui
+
+from viewer.base.theme import faded
+from viewer.panels import draw as d
+from viewer.panels.panel import Panel
+from viewer.session.layout import Rectangle
+from viewer.session.session import Session
+
+PLATE = 0.82  # opacity
+MARGIN = 8.0  # logical pixels: from the border of the panel
+BETWEEN = 16.0  # two titles
+
+
+def draw(
+    session: Session, sharing: Sequence[Panel], front: Panel, where: Rectangle, body: Callable[[], object]
+) -> None:
+    """Draw the panel in front of those that share a place. `body` draws its content."""
+    flags = imgui.WindowFlags_
+    imgui.set_next_window_pos(where[:2])
+    imgui.set_next_window_size(where[2:])
+    imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))
+    imgui.begin(
+        front.title, None, flags.no_decoration | flags.no_move | flags.no_docking | flags.no_saved_settings
+        | flags.no_bring_to_front_on_focus | flags.no_scroll_with_mouse | flags.no_nav_focus,
+    )  # fmt: skip
+    imgui.pop_style_var()
+    if front.fills and len(sharing) == 1:
+        body()
+        _plate(session, front)
+    else:
+        _row(session, sharing, front)
+        _body(session, front, body)
+    imgui.end()
+
+
+def _body(session: Session, front: Panel, body: Callable[[], object]) -> None:
+    flags = imgui.WindowFlags_
+    still = flags.no_scrollbar | flags.no_scroll_with_mouse if front.fills else flags.none
+    padded = imgui.ChildFlags_.none if front.fills else imgui.ChildFlags_.always_use_window_padding
+    imgui.push_style_var(imgui.StyleVar_.window_padding, (1.5 * MARGIN * d.unit(), 0.25 * MARGIN * d.unit()))
+    if imgui.begin_child("body", (0.0, 0.0), padded, still):
+        body()
+        if session.scroll and not front.fills:
+            lines = session.scroll * imgui.get_text_line_height_with_spacing()
+            imgui.set_scroll_y(imgui.get_scroll_y() + lines)
+    imgui.end_child()
+    imgui.pop_style_var()
+
+
+def _row(session: Session, sharing: Sequence[Panel], front: Panel) -> None:
+    """The titles of all panels in the place, in a row."""
+    unit = d.unit()
+    imgui.set_cursor_pos((1.5 * MARGIN * unit, 0.75 * MARGIN * unit))
+    imgui.begin_group()
+    for k, panel in enumerate(sharing):
+        if k:
+            imgui.same_line(0.0, BETWEEN * unit)
+        _title(session, panel, panel is front, len(sharing) > 1)
+    if front.head:
+        imgui.same_line(0.0, BETWEEN * unit)
+        front.head(session, imgui.get_content_region_avail().x)
+    imgui.end_group()
+    imgui.dummy((0.0, 0.25 * MARGIN * unit))
+
+
+def _plate(session: Session, panel: Panel) -> None:
+    """The title on the picture, with what belongs beside it."""
+    unit, theme = d.unit(), session.appearance.theme
+    room = imgui.get_window_width() - 4.0 * MARGIN * unit
+    imgui.set_cursor_pos((MARGIN * unit, MARGIN * unit))
+    imgui.push_style_color(imgui.Col_.child_bg, faded(theme.panel, PLATE))
+    imgui.push_style_var(imgui.StyleVar_.child_rounding, 6.0 * unit)
+    imgui.push_style_var(imgui.StyleVar_.window_padding, (MARGIN * unit, 0.5 * MARGIN * unit))
+    child = imgui.ChildFlags_
+    flags = imgui.WindowFlags_
+    shown = imgui.begin_child(
+        "plate", (0.0, 0.0), child.always_use_window_padding | child.auto_resize_x | child.auto_resize_y,
+        flags.no_scrollbar | flags.no_saved_settings | flags.no_nav,
+    )  # fmt: skip
+    if shown and panel.head:
+        panel.head(session, room)
+        if _is_doubly_clicked():
+            session.layout.maximise(panel.title)
+    elif shown:
+        _title(session, panel, True, False)
+    imgui.end_child()
+    imgui.pop_style_var(2)
+    imgui.pop_style_color()
+
+
+def _is_doubly_clicked() -> bool:
+    """Whether the plate was clicked twice, beside its fields."""
+    over = imgui.is_window_hovered() and not imgui.is_any_item_hovered()
+    return over and imgui.is_mouse_double_clicked(imgui.MouseButton_.left)
+
+
+def _title(session: Session, panel: Panel, is_front: bool, is_choice: bool) -> None:
+    theme = session.appearance.theme
+    with d.bold():
+        size = imgui.calc_text_size(panel.title)
+        at = imgui.get_cursor_screen_pos()
+        pressed = imgui.invisible_button(f"title {panel.title}", size)
+        color = theme.text if is_front else theme.text if imgui.is_item_hovered() else theme.muted
+        pad = imgui.get_window_draw_list()
+        pad.add_text(at, d.u32(color), panel.title)
+        if is_front and is_choice:
+            below = at.y + size.y + 1.0
+            pad.add_line((at.x, below), (at.x + size.x, below), d.u32(theme.accent), 2.0 * d.unit())
+    d.hint("double click, or Z: all of the room")
+    if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+        session.layout.maximise(panel.title)
+    elif pressed:
+        session.layout.current(session.appearance.is_lecture_size).front[panel.place_in(session)] = panel.title

@@ -1,0 +1,34 @@
+"""The image as an inset of the scene, in lecture mode. It can be clicked; F3 enlarges it."""
+
+from imgui_bundle import imgui
+
+from viewer.gl.canvas import Canvas
+from viewer.panels import draw as d, image
+from viewer.session.layout import Corner
+from viewer.session.session import Session
+
+SHARE = 0.42  # of the scene's width, at most
+HEIGHT = 0.36  # of its height, at most
+MARGIN = 10.0  # logical pixels
+
+
+def draw(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+    """Draw the image into the lower left corner of a scene of this size, if it is not on show elsewhere."""
+    if not session.appearance.is_lecture_size or Corner.TOP_RIGHT in session.layout.on_show or not session.world:
+        return
+    width, height = session.size
+    scale = min(SHARE * room.x / width, HEIGHT * room.y / height)
+    size = (scale * width, scale * height)
+    margin = MARGIN * d.unit()
+    theme = session.appearance.theme
+    imgui.set_cursor_screen_pos((corner.x + margin, corner.y + room.y - size[1] - margin))
+    imgui.push_style_color(imgui.Col_.child_bg, theme.panel)
+    imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))
+    flags = imgui.WindowFlags_
+    if imgui.begin_child("inset", size, imgui.ChildFlags_.none, flags.no_scrollbar | flags.no_scroll_with_mouse):
+        image.draw(session, canvas)
+    imgui.end_child()
+    imgui.pop_style_var()
+    imgui.pop_style_color()
+    pad, end = imgui.get_window_draw_list(), imgui.get_item_rect_max()
+    pad.add_rect(imgui.get_item_rect_min(), end, d.u32(theme.border), 0.0, 1.5 * d.unit())
