@@ -18,11 +18,12 @@ from viewer.explain.scattering import direction_error
 from viewer.gl.lines import line_rows
 
 LENGTH = 96.0  # logical pixels: of the normal, if it is seen from the side
-SHARE, SHORTEST = 0.7, 0.45  # at most this share of the ray's own length, but at least this share of LENGTH
+SHARE, SHORTEST = 0.7, 0.55  # at most this share of the ray's own length, but at least this share of LENGTH
 # Of this length:
 BACK = 0.8  # the normal continued into the second medium
 RADIUS, RADIUS_2 = 0.46, 0.6  # of the arcs of theta 1 and theta 2
 CONE = 0.85  # the side of the cone
+AWAY = (0.2, 0.32, 0.45, 0.6, 0.85, 1.15, 1.5)  # distances of an angle's text from its arc
 STEP = math.radians(4.0)  # between the corners of an arc
 SIDES = 4  # lines on the cone
 SMALLEST = math.radians(1.0)  # an angle below has no arc
@@ -110,7 +111,7 @@ def interface_lines(hit: Hit, length: float, theme: Theme) -> np.ndarray:
     # Borders first: that of one corner of a curve must not cover the line before it.
     borders = lines.copy()
     borders["tint"][:, :3] = theme.ground[:3]
-    borders["width"] += 2.0 * HALO
+    borders["width"] += 1.5 * HALO
     borders["arrow"] = Arrow.NONE.value
     return np.concatenate([borders, lines])
 
@@ -138,7 +139,7 @@ def interface_names(hit: Hit, length: float) -> list[Name]:
         found.append(
             name(
                 f"θ₁ {format_angle(hit.theta1, hit.error)}",
-                *((middle, RADIUS + away) for away in (0.2, 0.32, 0.45, 0.6)),
+                *((middle, RADIUS + away) for away in AWAY),
             )
         )
     if hit.theta2 is not None and hit.theta2 > SMALLEST:
@@ -146,7 +147,7 @@ def interface_names(hit: Hit, length: float) -> list[Name]:
         found.append(
             name(
                 f"θ₂ {format_angle(hit.theta2, hit.error)}",
-                *((middle, RADIUS_2 + away) for away in (0.2, 0.32, 0.45, 0.6)),
+                *((middle, RADIUS_2 + away) for away in AWAY),
             )
         )
     if hit.n2 is not None:

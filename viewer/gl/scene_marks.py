@@ -5,7 +5,7 @@ selected hit, then labels of rays, then names of lights and of the eye. Lengths 
 the view.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -37,16 +37,20 @@ NEAR = 2e-5  # in depth: what is on a surface is not hidden by it
 
 
 class SceneMarks:
-    """The marks over one picture. `size` is the view's, `depths` are those of `Stage.depths`."""
+    """The marks over one picture. `size` is the view's, `depths` are those of `Stage.depths`, `covers` are rectangles
+    where other things lie over it.
+    """
 
-    def __init__(self, session: Session, canvas: Canvas, size: Point, depths: np.ndarray) -> None:
+    def __init__(
+        self, session: Session, canvas: Canvas, size: Point, depths: np.ndarray, covers: Sequence[Rectangle] = ()
+    ) -> None:
         self.session, self.canvas, self.size, self.depths = session, canvas, size, depths
         self.theme = session.appearance.theme
         self.where: Rectangle = (0.0, 0.0, *size)
         self.matrix = session.orbit.matrix(size[0] / size[1])
         self.signs: list[Mark] = []
         self.texts: list[Mark] = []
-        self.taken: list[Rectangle] = []
+        self.taken: list[Rectangle] = list(covers)
         self.names: list[tuple[str, Color, list[tuple[Point, str]]]] = []  # of lights and of the eye, placed last
 
     def marks(self) -> list[Mark]:

@@ -7,6 +7,7 @@ from imgui_bundle import imgui
 
 from viewer.base.orbit import project
 from viewer.base.theme import SMALL
+from viewer.figures.marks import Rectangle
 from viewer.figures.ray_lines import nearest_row
 from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas, texture_ref
@@ -16,6 +17,7 @@ from viewer.panels.panel import Panel
 from viewer.session.layout import Corner
 from viewer.session.session import Session
 
+TITLE = 26.0  # logical pixels around the title
 REACH = 9.0  # logical pixels: the largest distance of a click from a ray
 
 
@@ -41,9 +43,10 @@ def draw(session: Session, canvas: Canvas) -> None:
     stage.push_clip_rect(corner, end, True)
     unit = d.unit()
     view = (room.x / unit, room.y / unit)
+    covers = _covers(session, room)
     marks = canvas.scene_marks.get(
-        (canvas.stage.pictures, view, session.shown.labels, session.shown.lights),
-        lambda: SceneMarks(session, canvas, view, canvas.stage.depths()).marks(),
+        (canvas.stage.pictures, view, session.shown.labels, session.shown.lights, *covers),
+        lambda: SceneMarks(session, canvas, view, canvas.stage.depths(), covers).marks(),
     )
     draw_marks(stage, marks, (corner.x, corner.y), unit)
     _fewer(session, canvas, stage, corner)
@@ -85,6 +88,17 @@ def _row_at(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.
     mouse = imgui.get_mouse_pos()
     at = (mouse.x - corner.x, mouse.y - corner.y)
     return nearest_row(lines, places.reshape(-1, 2, 2), depths.reshape(-1, 2), at, REACH * d.unit())
+
+
+def _covers(session: Session, room: imgui.ImVec2) -> list[Rectangle]:
+    """What lies over the view, in logical pixels: its title, and the image as an inset."""
+    unit = d.unit()
+    title = imgui.calc_text_size(session.world.scene.caption if session.world else "")
+    found = [(0.0, 0.0, title.x / unit + TITLE, title.y / unit + TITLE)]
+    if covered := inset.place(session, room):
+        left, top, right, bottom = covered
+        found.append((left / unit, top / unit, right / unit, bottom / unit))
+    return found
 
 
 def _fewer(session: Session, canvas: Canvas, stage: imgui.ImDrawList, corner: imgui.ImVec2) -> None:
