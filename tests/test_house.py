@@ -17,7 +17,7 @@ from tests import ROOT
 ORDER = (
     "raytree",
     "viewer.cli", "viewer.report", "viewer.window", "viewer.panels", "viewer.gl", "viewer.session", "viewer.lessons",
-    "viewer.figures", "viewer.explain", "viewer.base",
+    "viewer.figures", "viewer.reopen", "viewer.explain", "viewer.base",
     "tracer", "tracer.optics", "tracer.nodes", "tracer.cluster",  # the public modules
     "tracer.whitted", "tracer.measure", "tracer.image", "tracer.tree", "tracer.kernel", "tracer.formats",
     "tracer.scene", "tracer.accel", "tracer.shapes", "tracer.fields", "tracer.rays", "tracer.formulas",
@@ -108,7 +108,8 @@ def test_one_place_knows_each_library() -> None:
         },
         "distributed": {"tracer/image/cluster.py"},
         "fpdf": {"viewer/figures/writers/pdf.py"},
-        "pypdfium2": {"viewer/figures/writers/png.py"},
+        "pypdfium2": {"viewer/base/pdfium.py"},
+        "ziamath": {"viewer/figures/formula/ziamath_paths.py"},
         "pptx": {"viewer/figures/writers/pptx.py"},
         "contourpy": {"viewer/figures/visible/outlines.py"},
         "copykitten": {"viewer/base/clipboard.py"},

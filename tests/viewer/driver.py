@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 from imgui_bundle import imgui
+from imgui_bundle.imgui import internal
 
 from viewer.base.orbit import project
+from viewer.figures.marks import Mark, Text
 from viewer.lessons import lesson
 from viewer.session.session import Session
 from viewer.window.app import App
@@ -132,8 +134,22 @@ class Driver:
                 return left + float(x), top + float(y)
         return None
 
+    def tree_marks(self) -> list[Mark]:
+        """The marks of the tree panel."""
+        return self.canvas.tree_marks.last
+
+    def tree_texts(self) -> list[Text]:
+        return [mark for mark in self.tree_marks() if isinstance(mark, Text)]
+
     def picture(self) -> np.ndarray:
         return self.app.surface.grab()
+
+
+def body(title: str) -> internal.Window:
+    """The part of a panel below its titles, which scrolls."""
+    found = [window for window in imgui.get_current_context().windows if window.name.startswith(f"{title}/body")]
+    assert len(found) == 1, title
+    return found[0]
 
 
 @contextmanager

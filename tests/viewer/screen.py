@@ -23,13 +23,7 @@ def screen(width: int = 1600, height: int = 1000) -> str:
     The GL library keeps a connection to it that cannot be closed, and Xlib ends a process whose server is gone. The
     window manager runs when this returns: if a window is mapped while a manager takes over, glfw may wait forever.
     """
-    read_end, write_end = os.pipe()
-    # Without -noreset the server restarts when its last window closes, and the next window may not find it.
-    options = ["-displayfd", str(write_end), "-screen", "0", f"{width}x{height}x24", "-noreset", "-nolisten", "tcp"]
-    with_us("Xvfb", *options, keep=[write_end])
-    os.close(write_end)
-    with os.fdopen(read_end) as told:
-        display = f":{told.readline().strip()}"
+    display = _server(width, height)
     os.environ["DISPLAY"] = display
     with tempfile.TemporaryDirectory() as folder:
         told = Path(folder) / "told"
@@ -37,6 +31,23 @@ def screen(width: int = 1600, height: int = 1000) -> str:
         with_us("openbox", "--startup", f"sh -c 'echo up > {told}'")
         told.read_text()
     return display
+
+
+@cache
+def bare_screen(width: int = 1600, height: int = 1000) -> str:
+    """Start a display without a window manager, and return its name."""
+    return _server(width, height)
+
+
+def _server(width: int, height: int) -> str:
+    """Start an X server, and return the name of its display."""
+    read_end, write_end = os.pipe()
+    # Without -noreset the server restarts when its last window closes, and the next window may not find it.
+    options = ["-displayfd", str(write_end), "-screen", "0", f"{width}x{height}x24", "-noreset", "-nolisten", "tcp"]
+    with_us("Xvfb", *options, keep=[write_end])
+    os.close(write_end)
+    with os.fdopen(read_end) as told:
+        return f":{told.readline().strip()}"
 
 
 def with_us(*command: str, keep: Sequence[int] = ()) -> None:

@@ -18,11 +18,11 @@ from tracer.measure.conditions import Moment
 from tracer.printable import json_text, printable
 from viewer.base.cells import csv_text
 from viewer.figures.catalogue import FORMATS
-from viewer.panels.menu import save_image
 from viewer.report.chapter import Chapter
 from viewer.report.conditions import Conditions
 from viewer.report.page import as_html
 from viewer.session.view_state import Notice, Request
+from viewer.window.menu import save_image
 
 EVIL = "a\x1b[2J\x07\x08\x7f\x9b31m\u202e\u2066\u200e\r\n\u2028\u2029\x85z"
 SHOWN = r"a\x1b[2J\x07\x08\x7f\x9b31m\u202e\u2066\u200e\r\n\u2028\u2029\x85z"

@@ -41,6 +41,11 @@ class Cached(Generic[T]):
         self._changed.run(key, lambda: self._replace(make))
         return self._value[0]
 
+    @property
+    def last(self) -> T:
+        """The value of the last key. IndexError if there is none."""
+        return self._value[0]
+
     def _replace(self, make: Callable[[], T]) -> None:
         self.release()
         self._value.append(make())

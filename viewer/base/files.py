@@ -190,3 +190,9 @@ def has_folder(path: Path) -> bool:
         return path.is_dir()
     except (OSError, ValueError):
         return False
+
+
+def free_path(path: Path) -> Path:
+    """This path, or the next one with a number that does not exist."""
+    names = (path.with_stem(f"{path.stem}-{k}") if k > 1 else path for k in range(1, 10**6))
+    return next(name for name in names if not name.exists())

@@ -11,10 +11,12 @@
 
 import argparse
 import re
+import shlex
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import MISSING, Field, dataclass, field, fields
 from typing import Any, TypeVar
 
+from tracer.printable import printable
 from viewer.base.values import Unreadable, Value
 
 T = TypeVar("T")
@@ -118,9 +120,9 @@ def options_of(kind: type[T], parsed: argparse.Namespace) -> T:
 
 
 def words(options: Any, leave_out: Sequence[str] = ()) -> list[str]:
-    """The command line that parses to these options, without the fields in `leave_out`."""
+    """The command line that parses to these options, without the fields in `leave_out`. Positionals come first."""
     found: list[str] = []
-    for item in fields(options):
+    for item in sorted(fields(options), key=lambda item: not spelling(item).is_positional):
         how, value = spelling(item), getattr(options, item.name)
         if item.name in leave_out or value == item.default:
             continue
@@ -129,7 +131,8 @@ def words(options: Any, leave_out: Sequence[str] = ()) -> list[str]:
         elif how.is_positional:
             found += [how.value.show(part) for part in (value if how.nargs in ("+", "*") else [value])]
         else:
-            found += joined([flag(item.name), how.value.show(value)], [flag(item.name)])
+            name, text = flag(item.name), how.value.show(value)
+            found += [f"{name}={text}"] if text.startswith("-") else [name, text]  # no option of its own
     return found
 
 
@@ -147,3 +150,24 @@ def joined(arguments: Sequence[str], valued: Iterable[str]) -> list[str]:
         else:
             found.append(argument)
     return found
+
+
+def shell_line(words: Iterable[str]) -> str:
+    """The words as a line for a shell (bash, zsh), without control characters: a word that has some is written as
+    $'...' with escapes, which the shell reads back to the same word.
+    """
+    return " ".join(shlex.quote(word) if printable(word) == word else _escaped(word) for word in words)
+
+
+def _escaped(word: str) -> str:
+    def escape(c: str) -> str:
+        code = ord(c)
+        if c in "'\\":
+            return f"\\{c}"
+        if printable(c) == c:
+            return c
+        if code < 0x80 or 0xDC80 <= code <= 0xDCFF:  # ASCII, or a byte of a file's name that is not UTF-8
+            return f"\\x{code & 0xFF:02x}"
+        return f"\\u{code:04x}" if code <= 0xFFFF else f"\\U{code:08x}"
+
+    return "$'" + "".join(map(escape, word)) + "'"

@@ -19,6 +19,7 @@ from tracer.scene.scene import middle_and_radius
 ENDLESS = 3.0  # a surface with a radius above this many distances from camera to `look_at` is ignored in the frame
 FOV = math.radians(35)
 CLOSEST, FARTHEST = 0.02, 60.0  # distance to the target
+REMOTE = 1e9  # largest distance of a target from the scene, in its radii
 STEEPEST = math.radians(89)
 MARGIN = 0.04  # share of the picture that `fit` leaves free around the points
 AZIMUTH, ELEVATION, DISTANCE = 38.0, 22.0, 2.6  # the default view: degrees, and radii of the scene
@@ -187,11 +188,15 @@ def orbit_beside(
     world: World, frame: Frame, azimuth: float, elevation: float, distance: float, target: Sequence[float] | None
 ) -> Orbit:
     """A camera at these angles (degrees) from the scene's camera. `target` is a point of the world, None for its
-    centre.
+    centre. ValueError if the target is too far from the scene.
     """
     orbit = Orbit.beside(world.view(), world.scene.camera.up, azimuth, elevation, distance)
     if target:
-        orbit.target = frame.inside(tuple(target))
+        with np.errstate(over="ignore"):
+            orbit.target = frame.inside(tuple(target))
+        if not np.abs(orbit.target).max() <= REMOTE:
+            said = ",".join(map(repr, target))
+            raise ValueError(f"the target of the 3D view must be within {REMOTE:g} radii of the scene, got {said}")
     return orbit
 
 

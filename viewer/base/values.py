@@ -10,11 +10,17 @@ from typing import Any
 from tracer.formats import READERS
 
 MAX_PIXELS = 16384  # across an image
+SMALLEST_ZOOM, LARGEST_ZOOM = 0.01, 1000.0  # of a picture in its panel
+NEAREST, FARTHEST = 1e-9, 1e9  # distance of the 3D view, in radii of the scene
+FAR = 1e6  # limit of the coordinates of a picture's middle
 UP_HELP = "axis of a mesh file that points upwards, y by default"
+DEPTH_HELP = "recursion depth, the scene's own by default"
+MODEL_HELP = "the scene's own by default"
 MAX_RAYS_HELP = (
     "limit of rays of the image, 10^10 for each sample of a pixel by default; every tree gets an equal share"
 )
 SCENE_HELP = f"a {', '.join(list(READERS)[:-1])} or {list(READERS)[-1]} file, or a lesson's name"
+FIGURE_TOO = f"{SCENE_HELP}; or a figure that raytree wrote"
 
 
 class Unreadable(ValueError):
@@ -74,13 +80,28 @@ def _ray_name(text: str) -> str:
     return text
 
 
+def _ray_path(text: str) -> str:
+    if not re.fullmatch(r"(E|([RTI](\[\d+\])?)+)(\.L\([^()\[\]{}]+\)(\[\d+\])?)?", text):
+        raise Unreadable(f'the path of a ray, like E, TR or TR.L(key), got "{text}"')
+    return text
+
+
+def _pan_zoom(text: str) -> tuple[float, ...]:
+    numbers = _numbers(text)
+    if len(numbers) != 3 or not SMALLEST_ZOOM <= numbers[0] <= LARGEST_ZOOM or not max(map(abs, numbers[1:])) <= FAR:
+        allowed = f"a zoom from {SMALLEST_ZOOM:g} to {LARGEST_ZOOM:g} and a point X,Y, like 2,0.5,0.5"
+        raise Unreadable(f'{allowed}, got "{text}"')
+    return numbers
+
+
 def _orbit(text: str) -> tuple[float, ...]:
     numbers = _numbers(text)
     finite = all(map(math.isfinite, numbers))
-    if finite and len(numbers) in (3, 6) and -90.0 <= numbers[1] <= 90.0 and numbers[2] > 0.0:
+    if finite and len(numbers) in (3, 6) and -90.0 <= numbers[1] <= 90.0 and NEAREST <= numbers[2] <= FARTHEST:
         return numbers
     asked = (
-        "azimuth and elevation (-90 to 90) in degrees and a distance > 0, like 38,22,2.6, or these and a target X,Y,Z"
+        f"azimuth and elevation (-90 to 90) in degrees and a distance ({NEAREST:g} to {FARTHEST:g}), like 38,22,2.6,"
+        " or these and a target X,Y,Z"
     )
     raise Unreadable(f'{asked}, got "{text}"')
 
@@ -108,6 +129,8 @@ PIXEL = Value(lambda text: _two(text, ","), lambda pixel: f"{pixel[0]},{pixel[1]
 SIZE = Value(_size, lambda size: f"{size[0]}x{size[1]}", "WxH")
 RAY = Value(_ray, _show_numbers, "ox,oy,oz,dx,dy,dz")  # origin and direction
 RAY_NAME = Value(_ray_name, metavar="PATH")
+RAY_PATH = Value(_ray_path, metavar="PATH")
+PAN_ZOOM = Value(_pan_zoom, _show_numbers, "Z,X,Y")
 ORBIT = Value(_orbit, _show_numbers, "A,E,D[,X,Y,Z]")  # azimuth, elevation, distance, target
 DEPTHS = Value(_depths, _show_depths, "D|A..B")
 
@@ -159,3 +182,16 @@ def some_of(names: Sequence[str]) -> Value:
         return chosen
 
     return Value(read, ",".join, "A,B")
+
+
+def none_or_some_of(names: Sequence[str], metavar: str) -> Value:
+    """Some of these names, separated by commas, or `none`, as a tuple in the order of `names`."""
+
+    def read(text: str) -> tuple[str, ...]:
+        chosen = [part.strip() for part in text.split(",")] if text != "none" else []
+        for name in chosen:
+            if name not in names:
+                raise Unreadable(f'any of {",".join(names)}, or none, got "{name}"')
+        return tuple(name for name in names if name in chosen)
+
+    return Value(read, lambda chosen: ",".join(chosen) or "none", metavar)

@@ -1,37 +1,54 @@
 """`raytree export`: a pixel's ray tree as figures and as data, page by page, into a file or a folder."""
 
+import contextlib
 from dataclasses import replace
 
 from tracer.printable import shown_path
 from viewer.base.files import Unusable, collect
 from viewer.base.progress import Progress
 from viewer.base.streams import put
-from viewer.cli.loading import faults, find, prepared
+from viewer.cli.loading import faults, found_scene, prepared
 from viewer.cli.terminal import compile_once
-from viewer.figures.export import check_options, make
+from viewer.figures.export import Made, check_options, make
 from viewer.figures.export_options import ExportOptions
-from viewer.figures.targets import target_of
+from viewer.figures.targets import Target, target_of
+from viewer.reopen.scene_files import scene_files
+from viewer.session.restore.command import embedded
+from viewer.session.restore.figure_scene import FigureScene
 
 
 def export(options: ExportOptions) -> int:
-    (path, lesson), target, _ = collect(
-        lambda: find(options.scene), lambda: target_of(options), lambda: check_options(options)
-    )
-    if lesson:
-        own = range(lesson.depth, lesson.depth + 1) if lesson.depth is not None else None
-        pixel = options.pixel or (None if options.ray else lesson.pixel)
-        options = replace(options, pixel=pixel, depth=options.depth or own)
-    if not options.pixel and not options.ray:
-        raise Unusable("raytree export: give a pixel (--pixel X,Y) or a ray (--ray ox,oy,oz,dx,dy,dz)")
-    compile_once()
-    with faults():
-        world = prepared(path, options.up)
-        with Progress("export") as progress:
-            name, view = (lesson.name, lesson.view) if lesson else (path.stem, None)
-            made = make(options, world, name, target, view, progress)
-            made.write()
-            for note in made.notes:
-                progress.put(f"note: {note}")
+    with contextlib.ExitStack() as stack:
+        scene, target, _ = collect(
+            lambda: stack.enter_context(found_scene(options.scene)),
+            lambda: target_of(options),
+            lambda: check_options(options),
+        )
+        if scene.state.depth is not None and not options.depth:
+            options = replace(options, depth=range(scene.state.depth, scene.state.depth + 1))
+        if not options.pixel and not options.ray:
+            options = replace(options, pixel=scene.state.pixel)
+        if not options.pixel and not options.ray:
+            raise Unusable("raytree export: give a pixel (--pixel X,Y) or a ray (--ray ox,oy,oz,dx,dy,dz)")
+        made = make_files(options, scene, target)
     for file, _ in made.files:
         put(f"{shown_path(file)}\n")
     return 0
+
+
+def make_files(options: ExportOptions, scene: FigureScene, target: Target) -> Made:
+    """Make the files of a scene's figures, and write them."""
+    compile_once()
+    with faults():
+        world = prepared(scene.path, options.up)
+        with Progress("export") as progress:
+            lesson = scene.lesson
+            name, view = (lesson.name, lesson.view) if lesson else (scene.path.stem, None)
+            files = scene_files(world.scene, lesson.path if lesson else None, scene.home if scene.copy_of else None)
+            size = (world.scene.image.width, world.scene.image.height)
+            carried = embedded(files, options.state(size)) if files else None
+            made = make(options, world, name, target, view, progress, carried)
+            made.write()
+            for note in [scene.note] * bool(scene.note) + made.notes:
+                progress.put(f"note: {note}")
+    return made

@@ -2,6 +2,7 @@
 
 import contextlib
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import tracer
@@ -11,24 +12,47 @@ from tracer.printable import shown_path
 from tracer.scene.radiance_bound import MissingBoundError
 from viewer.base.files import Unusable, has_folder, is_there
 from viewer.base.progress import Progress
+from viewer.base.values import SCENE_HELP
 from viewer.lessons import lesson
 from viewer.lessons.lesson import Lesson
+from viewer.reopen.places import CARRYING, is_figure
+from viewer.reopen.view_state import UNCHANGED
+from viewer.session.restore.figure_scene import FigureScene, FigureScenes
+from viewer.session.scene_loader import with_lesson
 
 
-def find(name: str) -> tuple[Path, Lesson | None]:
-    """The scene's file, and the lesson if a lesson was named. Unusable if there is neither."""
+def find(name: str, takes_figures: bool = False) -> tuple[Path, Lesson | None]:
+    """The scene's file, and the lesson if a lesson was named. Unusable if there is neither, or for a figure unless the
+    caller takes one.
+    """
     path = Path(name)
+    if is_figure(path) and not takes_figures:
+        raise Unusable(f"{name}: a figure is opened by raytree view, trace and export; a scene is {SCENE_HELP}")
     if is_there(path / "lesson.md"):
         found = lesson.read_file(path / "lesson.md")
         return found.scene, found
     if has_folder(path):
         raise Unusable(f"{shown_path(path)}: a folder must have a file lesson.md, got none")
-    if is_there(path) or path.suffix.lower() in (*READERS, *OTHER_MESHES):
+    if is_there(path) or path.suffix.lower() in (*READERS, *OTHER_MESHES, *CARRYING):
         return path, None
     if name not in lesson.names() and (path.suffix or len(path.parts) > 1):
         raise Unusable(f"{name}: a scene must be one of {', '.join(READERS)} or a lesson's name")
     found = lesson.read(name)
     return found.scene, found
+
+
+@contextlib.contextmanager
+def found_scene(name: str) -> Iterator[FigureScene]:
+    """The scene of a file, a lesson or a figure, with the state that it opens with. A copy that a figure carries is
+    there until the end. Unusable if there is none.
+    """
+    path, lesson = find(name, takes_figures=True)
+    figures = FigureScenes()
+    try:
+        found = figures.find(path) if is_figure(path) else FigureScene(path, lesson, UNCHANGED, path.parent)
+        yield replace(found, state=with_lesson(found.state, found.lesson))
+    finally:
+        figures.close()
 
 
 @contextlib.contextmanager

@@ -1,6 +1,6 @@
 """The options of each command. Those of `export`, which the window uses too: `viewer.figures.export_options`."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -9,9 +9,12 @@ from tracer.formats import UP_AXES
 from viewer.base.options import argument, option, switch
 from viewer.base.pictures import WRITERS
 from viewer.base.values import (
+    DEPTH_HELP,
+    FIGURE_TOO,
     FILE,
     LIGHT,
     MAX_RAYS_HELP,
+    MODEL_HELP,
     PIXEL,
     POSITIVE,
     RAY,
@@ -24,17 +27,18 @@ from viewer.base.values import (
     whole,
 )
 from viewer.figures.catalogue import DATA
+from viewer.reopen.view_state import ViewState
 
 HEAVIEST = 300  # rays that `trace` prints as text
 OUTPUT = "FILE|FOLDER/"
 
 
 def _depth() -> Any:
-    return option(whole(0, metavar="D"), "recursion depth, the scene's own by default")
+    return option(whole(0, metavar="D"), DEPTH_HELP)
 
 
 def _model() -> Any:
-    return option(one_of(MODELS), "the scene's own by default")
+    return option(one_of(MODELS), MODEL_HELP)
 
 
 def _min_weight() -> Any:
@@ -68,23 +72,24 @@ def _up() -> Any:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ViewOptions:
-    """`raytree view`."""
+class ViewOptions(ViewState):
+    """`raytree view`. The fields of ViewState bring a view back."""
 
-    scene: str | None = argument("SCENE", TEXT, SCENE_HELP, nargs="?")
-    pixel: tuple[int, int] | None = option(PIXEL, "pick this pixel, counted from the top left")
-    depth: int | None = _depth()
-    model: str | None = _model()
+    scene: str | None = argument("SCENE", TEXT, FIGURE_TOO, nargs="?")
     screenshot: Path | None = option(FILE, "draw the viewer into a file, and exit", metavar="FILE.png")
     size: tuple[int, int] | None = _size("of the window or the screenshot")
-    up: str = _up()
+
+    @property
+    def state(self) -> ViewState:
+        """What is to be shown."""
+        return ViewState(**{item.name: getattr(self, item.name) for item in fields(ViewState)})
 
 
 @dataclass(frozen=True, kw_only=True)
 class TraceOptions:
     """`raytree trace`."""
 
-    scene: str = argument("SCENE", TEXT, SCENE_HELP)
+    scene: str = argument("SCENE", TEXT, FIGURE_TOO)
     pixel: tuple[int, int] | None = option(PIXEL, "counted from the image's top left", group="where", required=True)
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where", required=True)
     depth: int | None = _depth()

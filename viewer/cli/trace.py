@@ -4,7 +4,7 @@ import tracer
 from viewer.base.files import Unusable, check_writable, write_atomically
 from viewer.base.progress import Progress
 from viewer.base.streams import put
-from viewer.cli.loading import extra, faults, find, prepared
+from viewer.cli.loading import extra, faults, found_scene, prepared
 from viewer.cli.options import TraceOptions, limits_of
 from viewer.cli.terminal import compile_once
 from viewer.figures.catalogue import FORMATS
@@ -15,10 +15,9 @@ def trace(options: TraceOptions) -> int:
         check_writable(options.output)
     if options.verify and options.format not in ("text", "json"):
         raise Unusable(f"raytree trace: --verify is written as text or json, not as {options.format}")
-    path, _ = find(options.scene)
-    compile_once()
-    with faults():
-        world = prepared(path, options.up)
+    with found_scene(options.scene) as scene, faults():
+        compile_once()
+        world = prepared(scene.path, options.up)
         ray = (options.ray[:3], options.ray[3:]) if options.ray else None
         tree = tracer.trace(world, options.pixel, ray, **limits_of(options))
     most = options.rays or None

@@ -1,5 +1,6 @@
 """`raytree view`: the viewer in a window; or a screenshot of it, which needs no display."""
 
+import contextlib
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -12,91 +13,166 @@ from viewer.base.files import Unusable, check_writable, is_there, write_atomical
 from viewer.base.pictures import png
 from viewer.base.progress import Progress
 from viewer.base.streams import put
-from viewer.cli.loading import faults, find, prepared
+from viewer.cli.loading import faults, find, found_scene, prepared
 from viewer.cli.options import ViewOptions
 from viewer.cli.terminal import compile_once, compiling
 from viewer.lessons import lesson as lessons
-from viewer.lessons.lesson import Lesson
+from viewer.reopen.view_state import merged
+from viewer.session.restore.last_session import LastSession, SessionKeeper, read_last
+from viewer.session.restore.view import restore_appearance
+from viewer.session.scene_loader import Opening
 from viewer.session.session import Session
 from viewer.window.app import App
 from viewer.window.backend import NoWindow, Offscreen, Window
 
 SIZE = (1280, 720)
+MOST_PATHS = 12  # that a fault lists
+NOT_RESTORED = "the last scene is not restored: "
 CONTENTS = "raytree window"  # the text in a screenshot that names what is shown
 
 
 def view(options: ViewOptions) -> int:
-    path, lesson = find(options.scene or lessons.names()[0])
-    if not is_there(path):  # a file that cannot be read is shown with its faults: perhaps it is being written
-        raise Unusable(f"{shown_path(path)}: file not found")
     if options.screenshot:
         if options.screenshot.suffix.lower() != ".png":
             raise Unusable(f"{options.screenshot}: a screenshot must be a .png file")
+        opening = _opening(options)
         check_writable(options.screenshot)
-        take_screenshot(path, lesson, options, options.screenshot)
+        take_screenshot(opening, options, options.screenshot)
         return 0
     folder = _settings_folder()
+    last, opening = _with_last_session(options, folder)
+    place = last.window if last else None
+    size = options.size or ((place.width, place.height) if place else SIZE)
     try:
-        window = Window("raytree", options.size or SIZE, folder / "panels.ini" if folder else None)
+        window = Window("raytree", size, folder / "panels.ini" if folder else None, place=place)
     except NoWindow as reason:
-        return without_display(path, lesson, options, str(reason))
+        return without_display(options, str(reason))
     app = App(window, Session())
+    session = app.session
+    restore_appearance(session.appearance, opening.state)
+    keeper = SessionKeeper(folder / "session.json", session, lambda: window.place) if folder else None
+    check = SelectionCheck(session, options.select)
     if folder:
-        app.session.export.remember(folder / "figure.json")
+        session.export.remember(folder / "figure.json")
+
+    def look() -> None:
+        check.look()
+        if keeper:
+            keeper.look()
+
+    app.each_round = look
     try:
-        app.session.loader.open(path, lesson, options.depth, options.pixel, options.model, options.up)
+        session.loader.load(opening)
         app.run()
+        if keeper:
+            keeper.close()
     finally:
         app.close()
     return 0
 
 
-def take_screenshot(path: Path, lesson: Lesson | None, options: ViewOptions, target: Path) -> None:
+def _opening(options: ViewOptions) -> Opening:
+    """The scene, lesson or figure that was asked for; the first lesson if none was."""
+    path, lesson = find(options.scene or lessons.names()[0], takes_figures=True)
+    if not is_there(path):  # a file that cannot be read is shown with its faults: perhaps it is being written
+        raise Unusable(f"{shown_path(path)}: file not found")
+    return Opening(path, lesson, options.state)
+
+
+def _with_last_session(options: ViewOptions, folder: Path | None) -> tuple[LastSession | None, Opening]:
+    """The last session, if neither a scene nor a pixel is asked for, and what to open. If its scene cannot be opened
+    any more, the first lesson is, with a note.
+    """
+    first = _opening(options)
+    if options.scene or options.pixel or not folder:
+        return None, first
+    last, note = read_last(folder / "session.json")
+    if last is None:
+        return None, replace(first, note=note)
+    try:
+        opening = _opening(replace(options, scene=last.scene))
+    except Unusable as unusable:
+        return last, replace(first, note=f"{NOT_RESTORED}{unusable.faults[0]}")
+    instead = replace(first, note=NOT_RESTORED)
+    return last, replace(opening, state=merged(last.state, options.state), instead=instead)
+
+
+class SelectionCheck:
+    """Says once if the tree on show does not have the ray that was asked for."""
+
+    def __init__(self, session: Session, asked: str | None) -> None:
+        self.session, self.asked = session, asked
+
+    def fault(self) -> str | None:
+        """The fault; None if there is none, or no tree yet."""
+        tree = self.session.tree
+        if not self.asked or not tree or self.session.selection != self.asked or self.session.selected is not None:
+            return None
+        known = ", ".join(tree.path(i) for i in range(min(len(tree), MOST_PATHS)))
+        more = " ..." if len(tree) > MOST_PATHS else ""
+        return f"--select {self.asked}: must be a ray of this tree, which has depth {tree.depth}: {known}{more}"
+
+    def look(self) -> None:
+        """Show the fault as soon as the tree is there."""
+        fault = self.fault()
+        if fault:
+            self.session.show_faults([fault])
+        if self.session.tree:
+            self.asked = None
+
+
+def take_screenshot(opening: Opening, options: ViewOptions, target: Path) -> None:
     """Draw the viewer until the first full image and the tree are finished, and write a screenshot."""
     try:
         app = App(Offscreen(options.size or SIZE), Session())
     except NoWindow as reason:
         raise Unusable(str(reason)) from None
+    session = app.session
+    check = SelectionCheck(session, options.select)
     try:
-        app.session.loader.open(path, lesson, options.depth, options.pixel, options.model, options.up)
-        with (
-            Progress(compiling(), at_once=True)
-            if app.session.warmup.compiles
-            else Progress("load the scene") as progress
-        ):
+        restore_appearance(session.appearance, opening.state)
+        session.loader.load(opening)
+        with Progress(compiling(), at_once=True) if session.warmup.compiles else Progress("load the scene") as progress:
 
             def say(doing: str) -> None:
-                if app.session.faults:
-                    raise Unusable(*app.session.faults)
+                fault = check.fault()
+                if session.faults or fault:
+                    raise Unusable(*session.faults, *([fault] if fault else []))
                 progress.say(doing)
 
             app.settle(say=say, progress=progress)
+            say("write the screenshot")
+            if session.opening and session.opening.note:
+                progress.put(f"note: {session.opening.note}")
             write_atomically(target, png(app.surface.grab(), {CONTENTS: json.dumps(app.contents())}))
     finally:
         app.close()
 
 
-def without_display(path: Path, lesson: Lesson | None, options: ViewOptions, reason: str) -> int:
+def without_display(options: ViewOptions, reason: str) -> int:
     """If no window can be opened: print the picked pixel's tree, and take a screenshot."""
     put(f"{reason}.\n")
     compile_once()
-    with faults():
-        world = prepared(path, options.up)
+    opening = _opening(options)
+    with contextlib.ExitStack() as stack, faults():
+        scene = stack.enter_context(found_scene(options.scene or lessons.names()[0]))
+        state = merged(scene.state, options.state)
+        world = prepared(scene.path, state.up)
         image = world.scene.image
-        pixel = options.pixel or (lesson and lesson.pixel) or (image.width // 2, image.height // 2)
-        depth = options.depth if options.depth is not None else lesson and lesson.depth
-        tree = tracer.trace(world, pixel, depth=depth, model=options.model)
-    target = Path("out") / f"{lesson.name if lesson else path.stem}.png"
+        pixel = state.pixel or (image.width // 2, image.height // 2)
+        tree = tracer.trace(world, pixel, depth=state.depth, model=state.model)
+        name = scene.lesson.name if scene.lesson else scene.path.stem
+    target = Path("out") / f"{name}.png"
     put(f"Drawing the viewer into {shown_path(target)} instead; this is the ray tree it shows:\n\n{tree.to_text()}")
     target.parent.mkdir(exist_ok=True)
     check_writable(target)
-    take_screenshot(path, lesson, replace(options, pixel=pixel), target)
+    take_screenshot(replace(opening, state=replace(opening.state, pixel=pixel)), options, target)
     return 0
 
 
 def _settings_folder() -> Path | None:
-    """The folder for what is kept from one start to the next: the places of the panels, the last choice of a figure.
-    None if there can be none.
+    """The folder for what is kept from one start to the next: the last session, the places of the panels, the last
+    choice of a figure. None if there can be none.
     """
     try:
         folder = platformdirs.user_config_path("raytree")

@@ -1,4 +1,4 @@
-"""The numbers that decide what happens at both ends of a ray: angles, critical angle, radicand."""
+"""The numbers that decide what happens at both ends of a ray: indices, angles, critical angle, radicand."""
 
 import math
 from typing import NamedTuple
@@ -7,19 +7,28 @@ from tracer.formulas import optics
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.wording import format_angle, format_number
+from viewer.explain.formulas import Lecture
 from viewer.explain.scattering import direction_error
 
-HEADINGS = ("", "θ₁", "θc", "radicand", "θ₂")
+ABSENT = format_number(math.nan)
 
 
 class Interface(NamedTuple):
-    """A row of the table, with a dash for what does not exist there."""
+    """A surface that the ray leaves or meets. A dash stands for what does not exist there."""
 
-    place: str  # "start" or "end"
+    title: str
+    formula: str  # of the ray that leaves there, or of those that are sent out; empty if there is none
+    n1: str
+    n2: str
     theta1: str
+    theta2: str
     critical: str  # angle; only towards a medium of smaller index
     radicand: str  # 1 − η²(1 − c₁²), at a transparent surface; negative for total internal reflection
-    theta2: str
+
+    @property
+    def is_clear(self) -> bool:
+        """Whether light can pass the surface."""
+        return self.radicand != ABSENT
 
 
 def interfaces(tree: RayTree, i: int) -> list[Interface]:
@@ -27,20 +36,32 @@ def interfaces(tree: RayTree, i: int) -> list[Interface]:
     row = tree.nodes[i]
     if row["kind"] == SHADOW:
         return []
-    ends = [("start", int(row["parent"])), ("end", i)]
-    return [_interface(tree, hit, place) for place, hit in ends if hit >= 0 and tree.object_name(hit)]
+    found, parent = [], int(row["parent"])
+    if parent >= 0:
+        formula = Lecture.SNELL if tree.kind(i) == "refraction" else Lecture.REFLECTION
+        title = f"How it came to be, at {tree.label(parent)}'s hit"
+        found.append(_interface(tree, parent, title, formula))
+    if tree.object_name(i):
+        clear = not math.isnan(row["radicand"])
+        mirrors = tree.scene.objects[row["object"]].material.reflect > 0.0
+        formula = Lecture.SNELL if clear else Lecture.REFLECTION if mirrors else ""
+        found.append(_interface(tree, i, f"What it meets: {tree.object_name(i)}", formula))
+    return found
 
 
-def _interface(tree: RayTree, hit: int, place: str) -> Interface:
+def _interface(tree: RayTree, hit: int, title: str, formula: str) -> Interface:
     row = tree.nodes[hit]
     turn = direction_error(tree, hit)
     critical = None if math.isnan(row["radicand"]) else optics.critical_angle(float(row["n1"]), float(row["n2"]))
     return Interface(
-        place,
+        title,
+        formula,
+        format_number(row["n1"]),
+        format_number(row["n2"]),
         format_angle(row["theta1"], turn),
+        format_angle(row["theta2"], turn),
         format_angle(math.nan if critical is None else critical),
         _steady(float(row["radicand"])),
-        format_angle(row["theta2"], turn),
     )
 
 

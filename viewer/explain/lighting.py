@@ -10,6 +10,7 @@ from tracer.kernel.world import World
 from tracer.scene import Material
 from tracer.tree.raytree import RayTree
 from viewer.base.wording import format_color, format_number, format_rgb, format_weight
+from viewer.explain.formulas import Lecture
 from viewer.explain.scattering import local_error
 from viewer.explain.sections import Section
 
@@ -18,11 +19,11 @@ def local_light(tree: RayTree, world: World, i: int, most: int = sys.maxsize) ->
     """The local term of hit i, light by light; if there are more than `most` lights, with one line for all of them."""
     row = tree.nodes[i]
     material = world.scene.objects[row["object"]].material
-    section = Section("Local light", "I = A ka C + Σ S L (kd C (N·L) + ks (R·V)ᵖ)")
+    section = Section("Local light", Lecture.LOCAL)
     color = _color(world, tree, i)
     ambient = np.array(world.scene.tracing.ambient) * material.ambient * color
-    section.add("colour C", format_rgb(color, 3))
-    section.add("ka  kd  ks  p", "  ".join(format_number(x, 3) for x in _numbers(material)))
+    section.add(Lecture.COLOR, format_rgb(color, 3))
+    section.add(Lecture.COEFFICIENTS, "  ".join(format_number(x, 3) for x in _numbers(material)))
     section.add(f"ambient: A · {format_number(material.ambient)} · C", format_rgb(ambient, 4))
     lights = world.scene.lights
     if len(lights) <= most:
@@ -63,16 +64,17 @@ def one_light(tree: RayTree, world: World, i: int, j: int) -> Section:
     material = world.scene.objects[row["object"]].material
     n_l, r_v = _cosines(tree, i, child)
     color = _color(world, tree, i)
-    section = Section(f"Light from {world.scene.light_name(j)}", "S L (kd C (N·L) + ks (R·V)ᵖ)")
-    section.add("light L", format_rgb(light.color, 3))
-    section.add("N·L", format_number(n_l))
+    section = Section(f"Light from {world.scene.light_name(j)}", Lecture.ONE_LIGHT)
+    section.add(Lecture.LIGHT, format_rgb(light.color, 3))
+    section.add(Lecture.TO_LIGHT, format_number(n_l))
     if n_l <= 0.0:
-        section.add("N·L ≤ 0", "the surface faces away from it: no light")
+        section.add(Lecture.FACES_AWAY, "the surface faces away from it: no light")
         return section
-    section.add("kd C (N·L)", format_rgb(material.diffuse * n_l * color, 4))
+    section.add(Lecture.DIFFUSE, format_rgb(material.diffuse * n_l * color, 4))
     highlight = material.specular * r_v**material.shininess if r_v > 0.0 else 0.0
-    section.add("R·V", format_number(r_v))
-    section.add(f"ks (R·V)ᵖ, p = {format_number(material.shininess)}", f"{highlight:.4f}")
+    section.add(Lecture.MIRRORED, format_number(r_v))
+    section.add(Lecture.EXPONENT, format_number(material.shininess))
+    section.add(Lecture.HIGHLIGHT, f"{highlight:.4f}")
     section.add(
         "S: fraction that arrives", format_weight(tree.nodes["factor"][child], tree.nodes["factor_error"][child])
     )

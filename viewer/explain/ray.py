@@ -11,7 +11,7 @@ import numpy as np
 from tracer.kernel.nodes import SHADOW
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
-from tracer.tree.text import END_REASONS
+from tracer.tree.text import END_REASONS, cut_summary
 from viewer.base.wording import (
     format_angle,
     format_color,
@@ -22,6 +22,7 @@ from viewer.base.wording import (
     format_weight,
 )
 from viewer.explain.fate import ray_fate
+from viewer.explain.formulas import Lecture
 from viewer.explain.lighting import local_light, one_light
 from viewer.explain.scattering import (
     brought_error,
@@ -55,6 +56,28 @@ def headline(tree: RayTree, i: int) -> tuple[str, str]:
     return name, f"{fate}; {why}" if why else fate
 
 
+def ray_facts(tree: RayTree, i: int) -> str:
+    """The kind of a ray, its weight and the medium that it runs in, in a line beside its label."""
+    row = tree.nodes[i]
+    if row["kind"] == SHADOW:
+        return f"shadow ray from {tree.object_name(int(row['parent']))} to {tree.light_name(i)}"
+    facts = [KIND_NAMES[tree.kind(i)].lower(), f"weight {format_number(float(row['weight'].max()), 3)}"]
+    if tree.object_name(i) and tree.from_inside(i):
+        facts.append(f"inside {tree.object_name(i)}")
+    return ", ".join(facts)
+
+
+def certainty(tree: RayTree, i: int) -> list[str]:
+    """Paragraphs on what becomes of ray i, on what is missing, and on how certain its numbers are."""
+    fate, missing = headline(tree, i)[1], cut_summary(tree)
+    found = " ".join(f"{words[0].upper()}{words[1:]}." for words in (fate, missing))
+    certain = ""
+    if tree.object_name(i) and tree.nodes["kind"][i] != SHADOW:
+        digits = tree.digits(i)
+        certain = "1 digit of its point is certain. " if digits == 1 else f"{digits} digits of its point are certain. "
+    return [found, f"{certain}Closest decision: {margin_text(tree, i)}."]
+
+
 def ray_numbers(tree: RayTree, i: int) -> Section:
     """The numbers of row i."""
     row = tree.nodes[i]
@@ -71,10 +94,10 @@ def ray_numbers(tree: RayTree, i: int) -> Section:
         section.add("estimated rounding error", f"{error:.1g}".replace("-", "−"))
     if not shadow:
         section.add("normal n", format_point(row["normal"], turn))
-        section.add("n₁ → n₂", format_pair(format_number(row["n1"]), format_number(row["n2"])))
-        section.add("θ₁ → θ₂", format_pair(format_angle(row["theta1"], turn), format_angle(row["theta2"], turn)))
+        section.add(Lecture.INDICES, format_pair(format_number(row["n1"]), format_number(row["n2"])))
+        section.add(Lecture.ANGLES, format_pair(format_angle(row["theta1"], turn), format_angle(row["theta2"], turn)))
         if not math.isnan(row["radicand"]):
-            section.add("1 − η²(1 − c₁²)", format_number(row["radicand"]))
+            section.add(Lecture.RADICAND, format_number(row["radicand"]))
     section.add("closest decision", margin_text(tree, i))
     section.add("factor", format_weight(row["factor"], row["factor_error"]))
     section.add("weight", format_weight(row["weight"], row["weight_error"]))
@@ -120,7 +143,7 @@ def explain_ray(tree: RayTree, world: World, i: int) -> list[Part]:
 def _sum(tree: RayTree, i: int) -> Section:
     """The ray's radiance, written as a sum."""
     row = tree.nodes[i]
-    section = Section("Radiance", "I = local + Σ factor × child")
+    section = Section("Radiance", Lecture.RADIANCE)
     if tree.end(i) == "background":
         section.add("background", format_rgb(row["radiance"], 4))
         return section

@@ -14,6 +14,7 @@ from tracer.formulas.vector import vector
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.wording import format_angle, format_number, format_point
+from viewer.explain.formulas import Lecture
 from viewer.explain.sections import Section
 
 
@@ -79,7 +80,7 @@ def _snell(tree: RayTree, i: int) -> Section:
     n1, n2 = float(row["n1"]), float(row["n2"])
     left = n1 * math.sin(row["theta1"])
     turn = direction_error(tree, i)
-    section = Section("Snell's law", "n₁ sin θ₁ = n₂ sin θ₂")
+    section = Section("Snell's law", Lecture.SNELL)
     section.add(f"{format_number(n1)} · sin {format_angle(row['theta1'], turn)}", format_number(left, error=n1 * turn))
     if row["radicand"] > 0.0:
         section.add(
@@ -87,7 +88,7 @@ def _snell(tree: RayTree, i: int) -> Section:
             format_number(n2 * math.sin(row["theta2"]), error=n2 * turn),
         )
     else:
-        section.add("sin θ₂ would be", f"{format_number(left / n2)} > 1")
+        section.add(Lecture.TOO_LARGE_SINE, f"would be {format_number(left / n2)} > 1")
     return section
 
 
@@ -96,8 +97,8 @@ def _critical(tree: RayTree, i: int) -> Section:
     n1, n2 = float(row["n1"]), float(row["n2"])
     critical = optics.critical_angle(n1, n2)
     assert critical is not None
-    section = Section("Critical angle", "θc = asin(n₂ / n₁)")
-    section.add(f"asin({format_number(n2)} / {format_number(n1)})", format_angle(critical))
+    section = Section("Critical angle", Lecture.CRITICAL)
+    section.add(f"arcsin({format_number(n2)} / {format_number(n1)})", format_angle(critical))
     beyond = row["radicand"] <= 0.0
     section.add(
         f"θ₁ = {format_angle(row['theta1'], direction_error(tree, i))}",
@@ -113,24 +114,24 @@ def _transmission(tree: RayTree, i: int) -> Section:
     c1 = optics.cosine(v, normal)
     root = float(row["radicand"])
     turn = direction_error(tree, i)
-    section = Section("Transmission direction", "t = η v + (η c₁ − c₂) n,  η = n₁/n₂")
-    section.add("η = n₁/n₂", format_number(n1 / n2))
-    section.add("c₁ = −v·n", format_number(c1, error=turn))
-    section.add("1 − η²(1 − c₁²)", format_number(root, error=2.0 * (n1 / n2) ** 2 * turn))
+    section = Section("Transmission direction", Lecture.TRANSMISSION)
+    section.add(Lecture.ETA, format_number(n1 / n2))
+    section.add(Lecture.COSINE_1, format_number(c1, error=turn))
+    section.add(Lecture.RADICAND, format_number(root, error=2.0 * (n1 / n2) ** 2 * turn))
     if root <= 0.0:
-        section.add("η²(1 − c₁²)", f"{format_number(1.0 - root)} ≥ 1: total internal reflection")
+        section.add(Lecture.TOO_LARGE, f"{format_number(1.0 - root)} ≥ 1: total internal reflection")
         return section
     c2 = math.sqrt(root)
-    section.add("c₂ = √", format_number(c2, error=turn))
-    section.add("v", format_point(v, turn), tree.label(i))
-    section.add("n", format_point(normal, turn))
+    section.add(Lecture.COSINE_2, format_number(c2, error=turn))
+    section.add(Lecture.INCOMING, format_point(v, turn), tree.label(i))
+    section.add(Lecture.NORMAL, format_point(normal, turn))
     if n1 == n2:
-        section.add("t = v", "equal indices: straight on", _child(tree, i, "refraction"))
+        section.add(Lecture.STRAIGHT, "equal indices: straight on", _child(tree, i, "refraction"))
     else:
         with np.errstate(invalid="ignore"):
             t = optics.transmission(v, normal, n1, n2, c1, c2)
         words = format_point(t, turn) if math.isfinite(sum(t)) else "rounding leaves no direction"
-        section.add("t", words, _child(tree, i, "refraction"))
+        section.add(Lecture.REFRACTED, words, _child(tree, i, "refraction"))
     return section
 
 
@@ -143,14 +144,16 @@ def _fresnel(tree: RayTree, i: int) -> Section:
     c1 = min(1.0, optics.cosine(v, normal))
     c2 = math.sqrt(max(optics.radicand(optics.sine(v, normal), n1, n2), 0.0))
     r, t = optics.fresnel(c1, n1, n2)
-    section = Section("Fresnel", "reflected (kr + kt) R,  refracted (kr + kt) T")
-    section.add("rₛ = (n₁c₁ − n₂c₂) / (n₁c₁ + n₂c₂)", format_number(_amplitude(n1 * c1, n2 * c2)))
-    section.add("rₚ = (n₂c₁ − n₁c₂) / (n₂c₁ + n₁c₂)", format_number(_amplitude(n2 * c1, n1 * c2)))
-    section.add("R = (rₛ² + rₚ²) / 2", format_number(r))
-    section.add("T", format_number(t))
+    section = Section("Fresnel", Lecture.FRESNEL)
+    section.add(Lecture.AMPLITUDE_S, format_number(_amplitude(n1 * c1, n2 * c2)))
+    section.add(Lecture.AMPLITUDE_P, format_number(_amplitude(n2 * c1, n1 * c2)))
     share = material.reflect + material.transmit
-    section.add("(kr + kt) R", format_number(share * r), _child(tree, i, "reflection"))
-    section.add("(kr + kt) T", format_number(share * t), _child(tree, i, "refraction"))
+    rays = (_child(tree, i, "reflection"), _child(tree, i, "refraction"))
+    section.add(Lecture.REFLECTANCE, format_number(r), rays[0] if share == 1.0 else "")
+    section.add(Lecture.TRANSMITTED, format_number(t), rays[1] if share == 1.0 else "")
+    if share != 1.0:
+        section.add(Lecture.SHARE_R, format_number(share * r), rays[0])
+        section.add(Lecture.SHARE_T, format_number(share * t), rays[1])
     return section
 
 
@@ -163,9 +166,9 @@ def _reflection(tree: RayTree, i: int) -> Section:
     row = tree.nodes[i]
     v, n = vector(row["direction"]), vector(row["normal"])
     turn = direction_error(tree, i)
-    section = Section("Reflection", "r = v − 2 (n·v) n")
-    section.add("v", format_point(v, turn), tree.label(i))
-    section.add("n", format_point(n, turn))
-    section.add("n·v", format_number(-optics.cosine(v, n), error=turn))
-    section.add("r", format_point(optics.reflect(v, n), turn), _child(tree, i, "reflection", "tir"))
+    section = Section("Reflection", Lecture.REFLECTION)
+    section.add(Lecture.INCOMING, format_point(v, turn), tree.label(i))
+    section.add(Lecture.NORMAL, format_point(n, turn))
+    section.add(Lecture.COSINE, format_number(-optics.cosine(v, n), error=turn))
+    section.add(Lecture.REFLECTED, format_point(optics.reflect(v, n), turn), _child(tree, i, "reflection", "tir"))
     return section

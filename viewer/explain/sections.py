@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass, field
 
+from viewer.explain.formulas import Lecture
+from viewer.explain.plain_formula import plain
+
 
 @dataclass(frozen=True)
 class Line:
@@ -10,6 +13,7 @@ class Line:
     name: str
     value: str = ""
     ray: str = ""  # the label of the ray that the value belongs to
+    symbol: str = ""  # the name as a formula, if it is one
 
 
 @dataclass
@@ -19,7 +23,9 @@ class Section:
     lines: list[Line] = field(default_factory=list)
 
     def add(self, name: str, value: str = "", ray: str = "") -> None:
-        self.lines.append(Line(name, value, ray))
+        """Add a line. A `name` of the lecture's formulas is typeset."""
+        symbol = name if isinstance(name, Lecture) else ""
+        self.lines.append(Line(plain(symbol) if symbol else name, value, ray, symbol))
 
 
 @dataclass(frozen=True)

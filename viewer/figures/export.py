@@ -1,22 +1,20 @@
 """Makes the files of an export: a pixel's ray tree as figures and as data."""
 
 import math
-import shlex
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import tracer
 from tracer.kernel.world import World
-from tracer.printable import printable
 from viewer.base.files import Unusable, write_atomically
-from viewer.base.options import words
+from viewer.base.options import shell_line, words
 from viewer.base.orbit import STEEPEST, Frame, Orbit, ViewAngles, initial_orbit, orbit_beside
 from viewer.base.theme import THEMES
 from viewer.figures.catalogue import BREADTH, FIGURES, FORMATS
 from viewer.figures.export_options import ExportOptions
 from viewer.figures.figure import both, tree
-from viewer.figures.figure.hit import hit_row
+from viewer.figures.labels import hit_row
 from viewer.figures.layout.tree_plan import fitting_size
 from viewer.figures.lights import many_lights
 from viewer.figures.marks import Figure, Text
@@ -26,6 +24,8 @@ from viewer.figures.steps import Step, by_color, by_depth, by_level, by_ray
 from viewer.figures.subject import FigureStyle, Subject
 from viewer.figures.targets import Target, check_pages, grouped, mark_of, stem_of
 from viewer.figures.writers.png import PIXELS
+from viewer.reopen.embedded import Embedded, pack
+from viewer.reopen.places import CARRYING
 
 FARTHER = 1.8  # largest factor by which the view moves back to show the scene's camera
 
@@ -67,11 +67,12 @@ def make(
     target: Target,
     view: ViewAngles | None = None,
     progress: Callable[[float], None] = lambda share: None,
+    embedded: Embedded | None = None,
 ) -> Made:
     """Make the files that the options ask for.
 
-    `scene` is its name in file names. `view` is the first view that a lesson asks for. ValueError or Unusable for
-    options that the scene or the tree does not allow.
+    `scene` is its name in file names. `view` is the first view that a lesson asks for. `embedded` is what the figures
+    carry to be reopened. ValueError or Unusable for options that the scene or the tree does not allow.
     """
     depth = world.scene.tracing.depth
     depths = options.depth or range(depth, depth + 1)
@@ -83,10 +84,12 @@ def make(
     drawn = pages(options.figure, subject, style) if any(FORMATS[name].figures for name in target.formats) else []
     notes = ray_notes(drawn, options.figure, subject) + fold_notes(drawn, options.figure, subject, style)
     notes += size_notes(drawn, options.figure, style) + sum_notes(drawn, options.figure, subject, style)
+    carried, left_out = pack(embedded) if embedded and carries(target) else (b"", [])
+    notes += left_out
     files: list[tuple[Path, bytes]] = []
     for name in target.formats:
         kind = FORMATS[name]
-        figures = [replace(page, command=command_line(options, name)) for page in drawn]
+        figures = [replace(page, command=command_line(options, name), embedded=carried) for page in drawn]
         notes += letter_notes(drawn, name)
         for k, group in enumerate(grouped(kind, steps, options.step)):
             progress(len(files) / (len(target.formats) * len(steps)))
@@ -104,7 +107,12 @@ def command_line(options: ExportOptions, format_name: str) -> str:
     """The command that makes the same figure again, without its output."""
     width = options.width if format_name == "png" else None
     same = replace(options, format=(format_name,), width=width)
-    return printable(shlex.join(["raytree", "export", *words(same, leave_out=("output",))]))
+    return shell_line(["raytree", "export", *words(same, leave_out=("output",))])
+
+
+def carries(target: Target) -> bool:
+    """Whether a file of this export carries the view and its scene."""
+    return any(FORMATS[name].suffix in CARRYING for name in target.formats)
 
 
 def steps_of(world: World, options: ExportOptions, depths: range) -> list[Step]:

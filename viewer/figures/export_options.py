@@ -8,6 +8,7 @@ from viewer.base.options import argument, option, switch
 from viewer.base.theme import THEMES
 from viewer.base.values import (
     DEPTHS,
+    FIGURE_TOO,
     MAX_RAYS_HELP,
     ORBIT,
     PIXEL,
@@ -15,17 +16,19 @@ from viewer.base.values import (
     POINTS,
     RAY,
     RAY_NAME,
-    SCENE_HELP,
+    RAY_PATH,
     SHARE,
     SIZE,
     TEXT,
     UP_HELP,
     WEIGHT,
+    Unreadable,
     one_of,
     some_of,
     whole,
 )
 from viewer.figures.catalogue import FIGURE_NAMES, FORMATS, ORDERS, STEPS
+from viewer.reopen.view_state import KINDS, VIEW_WORDS, ViewState, merged
 
 TEXT_SIZE = 18.0  # points: readable in the last row if the figure fills a slide
 EYES = ("top", "left")  # of a tree
@@ -35,7 +38,7 @@ EYES = ("top", "left")  # of a tree
 class ExportOptions:
     """`raytree export`."""
 
-    scene: str = argument("SCENE", TEXT, SCENE_HELP)
+    scene: str = argument("SCENE", TEXT, FIGURE_TOO)
     pixel: tuple[int, int] | None = option(PIXEL, "from the image's top left; a lesson's own by default", group="where")
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where")
     figure: str = option(one_of(FIGURE_NAMES), "tree by default", "tree")
@@ -70,6 +73,31 @@ class ExportOptions:
     no_lights: bool = switch("leave out the rays to the lights")
     ground: bool = switch("on the theme's background; transparent by default")
     width: int | None = option(PIXELS, "PNG: pixels across; 1920 by default")
+    reopen: ViewState | None = option(
+        VIEW_WORDS, "options of raytree view that the figure opens with, besides its own: '--theme dark --hide normals'"
+    )
     output: str = option(
         TEXT, "names in a folder: SCENE_X_Y_FIGURE_dD.EXT", metavar="FILE|FOLDER/", short="-o", required=True
     )
+
+    def state(self, size: tuple[int, int]) -> ViewState:
+        """The state of a view that shows what the figure shows. `size` is that of the scene's image: a pixel of an
+        image of another size is none of the window's, and a ray given by hand is not either.
+        """
+        own = ViewState(
+            pixel=self.pixel if self.size in (None, size) else None,
+            depth=self.depth[-1] if self.depth else None,
+            model=self.model,
+            up=self.up,
+            select=self._selected(),
+            camera=self.view,
+            filter=tuple(kind for kind in KINDS if kind != "shadow") if self.no_lights else None,
+        )
+        return merged(own, self.reopen) if self.reopen else own
+
+    def _selected(self) -> str | None:
+        """The path of the ray that a figure of a hit is about, if it was given as a path."""
+        try:
+            return RAY_PATH.read(self.node.upper()) if self.node else None
+        except Unreadable:
+            return None

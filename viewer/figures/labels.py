@@ -45,3 +45,20 @@ def ray_title(tree: RayTree, i: int) -> str:
     if row["kind"] == SHADOW:
         return f"{what} to {tree.light_name(i)}, {fate}"
     return f"{what}, {fate}, weight {format_number(float(row['weight'].max()), 3)}"
+
+
+def hit_row(tree: RayTree, asked: str | None) -> int:
+    """The row of a hit that was asked for by its ray's path (TR) or label (R3); without a request, the first.
+    ValueError with a message for the user.
+    """
+    hits = [i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW and tree.object_name(i)]
+    if not hits:
+        raise ValueError("--figure hit: the ray meets no surface")
+    if asked is None:
+        return 0
+    for i in hits:
+        if asked.upper() in (tree.path(i), tree.label(i)):
+            return i
+    known = ", ".join(f"{tree.path(i)} ({tree.label(i)})" if i else tree.path(i) for i in hits[:12])
+    more = " ..." if len(hits) > 12 else ""
+    raise ValueError(f"--node {asked} must be the path or the label of a ray that meets a surface: {known}{more}")

@@ -11,7 +11,9 @@ from itertools import groupby
 
 from tracer.printable import printable
 from viewer.base.theme import Arrow, Color, blend
-from viewer.figures.font import text_box
+from viewer.explain.plain_formula import plain
+from viewer.figures.font import ANCHORS, text_box
+from viewer.figures.formula.typeset import Contour, typeset
 
 WIDTH, HEIGHT = 960.0, 540.0
 
@@ -47,6 +49,10 @@ def overlap(a: Rectangle, b: Rectangle) -> bool:
 
 def inside(point: Point, box: Rectangle) -> bool:
     return box[0] < point[0] < box[2] and box[1] < point[1] < box[3]
+
+
+def within(box: Rectangle, outer: Rectangle) -> bool:
+    return box[0] >= outer[0] and box[1] >= outer[1] and box[2] <= outer[2] and box[3] <= outer[3]
 
 
 def widened(box: Rectangle, by: float) -> Rectangle:
@@ -169,6 +175,46 @@ class Text(Mark):
         return text_box(self.at, self.content, self.size, self.anchor)
 
 
+@dataclass(frozen=True)
+class Formula(Mark):
+    """One line of a formula. `at` is the middle, the left or the right end of its baseline, `size` the size of its
+    font, `source` LaTeX, of the part that `viewer.explain.plain_formula` reads.
+    """
+
+    source: str
+    at: Point
+    size: float
+    color: Color
+    anchor: str = "middle"  # start, middle, end
+
+    def __post_init__(self) -> None:
+        make_printable(self, "name", "title", "source")
+
+    @property
+    def plain(self) -> str:
+        """The formula as plain text, for readers who cannot see it."""
+        return plain(self.source)
+
+    def origin(self) -> Point:
+        """The left end of the baseline."""
+        left, _, right, _ = typeset(self.source).box
+        return (self.at[0] - self.size * (left + ANCHORS[self.anchor] * (right - left)), self.at[1])
+
+    def box(self) -> Rectangle:
+        x, y = self.origin()
+        left, top, right, bottom = (self.size * side for side in typeset(self.source).box)
+        return (x + left, y + top, x + right, y + bottom)
+
+    def outlines(self) -> list[list[Contour]]:
+        """The contours of each glyph or bar, with segments as in `Typeset`."""
+        origin = self.origin()
+
+        def placed(segment: tuple[float, ...]) -> tuple[float, ...]:
+            return tuple(origin[k % 2] + self.size * place for k, place in enumerate(segment))
+
+        return [[tuple(map(placed, contour)) for contour in outline] for outline in typeset(self.source).outlines]
+
+
 def with_line_width(mark: Mark, share: float) -> Mark:
     """The mark with its lines `share` times as thick."""
     stroke = getattr(mark, "stroke", None)
@@ -198,6 +244,7 @@ class Figure:
     ground: bool = False  # whether it has that background; otherwise it is transparent
     width: float = WIDTH
     height: float = HEIGHT
+    embedded: bytes = b""  # the view and its scene, to be reopened (`viewer.reopen.embedded`)
 
     def __post_init__(self) -> None:
         make_printable(self, "title", "description", "command")

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-from viewer.figures.marks import Box, Disc, Line, Mark, Point, Rectangle, Shape, Text
+from viewer.figures.marks import Box, Disc, Formula, Line, Mark, Point, Rectangle, Shape, Text
 
 PICKED = ("ray", "hit")  # the kinds of names that can be picked: `ray-3` and `hit-3` belong to row 3 of a tree
 
@@ -47,7 +47,7 @@ def distance(mark: Mark, point: Point) -> float:
             return _to_curve(ends, point, mark.stroke.width if mark.stroke else 0.0)
         case Line():
             return _to_curve((mark.start, mark.end), point, mark.stroke.width)
-        case Text():
+        case Text() | Formula():
             return _to_rectangle(mark.box(), point)
         case _:
             return math.inf

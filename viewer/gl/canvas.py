@@ -69,7 +69,10 @@ class Canvas:
         self.tree_marks: Cached[list[Mark]] = Cached()
         self.ray_changed = Changed()  # the ray whose numbers are shown
         self.interfaces: Cached[list[Interface]] = Cached()  # at both ends of that ray
+        self.certainty: Cached[list[str]] = Cached()  # of that ray, in sentences
+        self.ray_ends: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # left, top, right, bottom of the same
         self.explanation: Cached[list[Part]] = Cached()  # of that ray
+        self.hit: Cached[list[Mark]] = Cached()  # the marks of the hit on show
         self._map: Cached[moderngl.Texture | None] = Cached(_release)
         self._near: Cached[Seen | None] = Cached(lambda seen: _release(seen and seen.texture))
         self._view_changed = Changed()

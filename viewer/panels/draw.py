@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 from imgui_bundle import imgui
 
-from viewer.base.theme import FONT_SIZE, Arrow, Color, RayStyle, Theme, faded
+from viewer.base.theme import FONT_SIZE, SMALL, Arrow, Color, RayStyle, Theme, faded
 
 Point = tuple[float, float]
 
@@ -28,6 +28,13 @@ def bold(size: float = 0.0) -> Iterator[None]:
         yield
     finally:
         imgui.pop_font()
+
+
+def small_text(content: str, color: Color) -> None:
+    """A line of text of the smaller size."""
+    imgui.push_font(None, SMALL * imgui.get_style().font_size_base)
+    imgui.text_colored(color, content)
+    imgui.pop_font()
 
 
 def text_size(text: str, size: float) -> Point:

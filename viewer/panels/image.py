@@ -227,4 +227,4 @@ def waiting_lines(session: Session) -> list[str]:
     return ["Loading ..."]
 
 
-PANEL = Panel("Image", draw, Corner.TOP_RIGHT, fills=True, head=_head)
+PANEL = Panel("Image", draw, Corner.TOP_RIGHT, fills=True, head=_head, is_named=False, is_covered=False)

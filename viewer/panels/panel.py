@@ -18,7 +18,9 @@ class Panel:
     place: Corner  # at the desk
     lecture_place: Corner | None = None  # in lecture mode, if it is another
     fills: bool = False  # its picture fills the panel, its title lies on it; otherwise it is text, which scrolls
-    head: Callable[[Session, float], None] | None = None  # in the place of the title; it may be so many pixels wide
+    head: Callable[[Session, float], None] | None = None  # beside the title; it may be so many pixels wide
+    is_named: bool = True  # whether its title is shown, where it stands alone
+    is_covered: bool = True  # whether the title may cover a part of the picture
     shows_ray: bool = False  # whether it shows what is selected
     request: Request | None = None  # that brings it to the front
     exists: Callable[[Session], bool] = lambda session: True

@@ -1,18 +1,25 @@
-"""The selected ray: its result, and the lecture's formulas with its numbers."""
+"""The selected ray: how it came to be and what it meets, with the lecture's formulas and its numbers; what is certain
+about it; then everything.
+"""
 
 from imgui_bundle import imgui
 
 from tracer.tree.raytree import RayTree
-from viewer.base.theme import STYLES
-from viewer.explain.interfaces import HEADINGS, Interface, interfaces
-from viewer.explain.ray import explain_ray, headline
-from viewer.explain.sections import Section
+from viewer.explain.formulas import Lecture
+from viewer.explain.interfaces import Interface, interfaces
+from viewer.explain.ray import certainty, explain_ray, ray_facts
+from viewer.explain.sections import Part
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
+from viewer.panels.card import SMALL, Card
 from viewer.panels.panel import Panel
 from viewer.session.layout import Corner
 from viewer.session.session import Session
 from viewer.session.view_state import Request
+
+TWO_COLUMNS = 26.0  # the least width for two columns, in font sizes
+BETWEEN = 1.6  # two columns
+LABEL = 1.35  # size of the ray's label
 
 
 def draw(session: Session, canvas: Canvas) -> None:
@@ -23,77 +30,69 @@ def draw(session: Session, canvas: Canvas) -> None:
     row = session.selected or 0
     if canvas.ray_changed((world, tree.path(row))):  # not at another pixel, so that one number can be watched
         imgui.set_scroll_y(0.0)
-    _head(session, tree, row)
-    _interfaces(session, canvas.interfaces.get((tree, row), lambda: interfaces(tree, row)))
-    for k, part in enumerate(canvas.explanation.get((tree, row), lambda: explain_ray(tree, world, row))):
-        imgui.push_id(k)
-        imgui.separator_text(part.title)
+    corner, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+    card = Card(theme, corner.x, corner.y, width)
+    _head(session, card, tree, row)
+    _ends(card, canvas.interfaces.get((tree, row), lambda: interfaces(tree, row)))
+    canvas.ray_ends = (card.x, corner.y, card.x + width, card.y)
+    for words in (*canvas.certainty.get((tree, row), lambda: certainty(tree, row)), session.verification.text(row)):
+        if words:
+            card.text(words, theme.muted, SMALL)
+    card.skip(0.5)
+    _details(card, canvas.explanation.get((tree, row), lambda: explain_ray(tree, world, row)))
+    imgui.dummy((card.right - corner.x, card.y - corner.y))  # the panel scrolls if that is more than it has
+
+
+def _head(session: Session, card: Card, tree: RayTree, row: int) -> None:
+    """The ray's label in its colour, its kind, its weight and its medium."""
+    theme, label = session.appearance.theme, tree.label(row)
+    top = card.y
+    with d.bold():
+        pixels = round(LABEL * card.em)
+        card.pad.add_text(
+            imgui.get_font(), pixels, (round(card.x), round(top)), d.u32(theme.ray(tree.kind(row))), label
+        )
+        wide = imgui.calc_text_size(label).x * pixels / card.em
+    facts = ray_facts(tree, row) + ("" if session.selected is not None else ", none is selected")
+    beside = Card(theme, card.x + wide + 0.6 * card.em, top + (LABEL - 1.0) * 0.8 * card.em, card.width)
+    beside.width = card.width - (beside.x - card.x)
+    beside.text(facts)
+    card.y = max(top + LABEL * card.em, beside.y)
+    card.skip(0.3)
+
+
+def _ends(card: Card, ends: list[Interface]) -> None:
+    """The surfaces at the ray's start and end, side by side if there is room."""
+    columns = _columns(card, len(ends))
+    for column, end in zip(columns, ends, strict=False):
+        column.text(end.title, card.theme.muted, bold=True)
+        if end.formula:
+            column.formula(end.formula)
+        column.pairs(((Lecture.INDEX_1, end.n1), (Lecture.INDEX_2, end.n2)))
+        column.pairs(((Lecture.THETA_1, end.theta1), (Lecture.THETA_2, end.theta2)))
+        if end.is_clear:
+            column.pairs(((Lecture.THETA_C, end.critical), (Lecture.RADICAND, end.radicand)))
+        column.skip(0.4)
+        card.y, card.right = max(card.y, column.y), max(card.right, column.right)
+
+
+def _columns(card: Card, count: int) -> list[Card]:
+    """The places of up to two columns; below each other they share one, which then goes on."""
+    if count < 2 or card.width < TWO_COLUMNS * card.em:
+        return [card] * count
+    gap = BETWEEN * card.em
+    wide = 0.5 * (card.width - gap)
+    return [Card(card.theme, card.x + k * (wide + gap), card.y, wide) for k in range(2)]
+
+
+def _details(card: Card, parts: list[Part]) -> None:
+    """All sections: of the ray's start and of its end side by side if there is room."""
+    columns = _columns(card, len(parts))
+    for part, column in zip(parts, [*columns, *columns], strict=False):
+        column.text(part.title, bold=True)
         for section in part.sections:
-            _section(session, section)
-        imgui.pop_id()
-    imgui.separator()
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(theme.muted, session.verification.text(row))
-    imgui.pop_text_wrap_pos()
-
-
-def _head(session: Session, tree: RayTree, row: int) -> None:
-    """The ray's name beside its style, and what becomes of it."""
-    name, fate = headline(tree, row)
-    theme, kind, unit = session.appearance.theme, tree.kind(row), d.unit()
-    at, height = imgui.get_cursor_screen_pos(), imgui.get_text_line_height()
-    middle = (at.x, at.y + 0.5 * height)
-    d.sample(imgui.get_window_draw_list(), middle, 30 * unit, STYLES[kind], theme.ray(kind), unit)
-    imgui.dummy((36 * unit, height))
-    imgui.same_line()
-    imgui.text(name)
-    if session.selected is None:
-        imgui.same_line()
-        imgui.text_colored(theme.muted, "(none selected)")
-    imgui.push_text_wrap_pos(0.0)
-    imgui.text_colored(theme.muted, fate[0].upper() + fate[1:] + ".")
-    imgui.pop_text_wrap_pos()
-
-
-def _interfaces(session: Session, rows: list[Interface]) -> None:
-    """The table of angles at both ends. It stands at the top, so that it is seen without scrolling."""
-    if not rows or not imgui.begin_table("interfaces", len(HEADINGS), imgui.TableFlags_.sizing_stretch_same):
-        return
-    for cells in (HEADINGS, *rows):
-        imgui.table_next_row()
-        for k, cell in enumerate(cells):
-            imgui.table_next_column()
-            muted = cells is HEADINGS or k == 0
-            imgui.text_colored(session.appearance.theme.muted if muted else session.appearance.theme.text, cell)
-    imgui.end_table()
-
-
-def _section(session: Session, section: Section) -> None:
-    if not imgui.collapsing_header(section.title, imgui.TreeNodeFlags_.default_open):
-        return
-    if section.formula:
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(session.appearance.theme.accent, section.formula)
-        imgui.pop_text_wrap_pos()
-    flags = imgui.TableFlags_.sizing_stretch_prop | imgui.TableFlags_.pad_outer_x
-    if imgui.begin_table(section.title, 2, flags):
-        # Names wrap, values do not, except for a value that is a sentence.
-        widest = max(imgui.calc_text_size(line.value).x for line in section.lines)
-        if widest < 0.66 * imgui.get_content_region_avail().x:
-            imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
-            imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
-        for line in section.lines:
-            imgui.table_next_row()
-            imgui.table_next_column()
-            imgui.push_text_wrap_pos(0.0)
-            name = f"{line.name}  ({line.ray})" if line.ray else line.name
-            imgui.text_colored(session.appearance.theme.muted, name)
-            imgui.pop_text_wrap_pos()
-            imgui.table_next_column()
-            imgui.push_text_wrap_pos(0.0)
-            imgui.text(line.value)
-            imgui.pop_text_wrap_pos()
-        imgui.end_table()
+            column.section(section)
+        card.y, card.right = max(card.y, column.y), max(card.right, column.right)
 
 
 PANEL = Panel("Selected ray", draw, Corner.BOTTOM_RIGHT, request=Request.SHOW_RAY)

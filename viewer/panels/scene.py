@@ -114,4 +114,4 @@ def _head(session: Session, room: float) -> None:
     imgui.text(session.world.scene.caption if session.world else "Scene")
 
 
-PANEL = Panel("Scene", draw, Corner.TOP_LEFT, fills=True, head=_head)
+PANEL = Panel("Scene", draw, Corner.TOP_LEFT, fills=True, head=_head, is_named=False)

@@ -2,18 +2,25 @@
 zoom, double click to fit.
 """
 
+import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 from imgui_bundle import imgui
 
+from tracer.tree.raytree import RayTree
+from tracer.tree.text import cut_summary
 from viewer.base.theme import SMALL, TREE_TEXT
+from viewer.base.wording import format_number
 from viewer.explain.ray import headline
 from viewer.figures.figure.tree import plan_pages, plan_steps
+from viewer.figures.font import text_width
+from viewer.figures.layout.free_space import FreeSpace
 from viewer.figures.layout.sizes import OUTLINE
 from viewer.figures.layout.tree_legend import sign_entries
 from viewer.figures.layout.tree_plan import TreePlan
 from viewer.figures.legend import legend_row, row_width
-from viewer.figures.marks import Box, Disc, Line, Mark, Point
+from viewer.figures.marks import Box, Disc, Line, Mark, Point, Text
 from viewer.figures.picking import mark_at, row_of
 from viewer.figures.steps import of_kinds, whole
 from viewer.figures.subject import FigureStyle
@@ -82,7 +89,8 @@ def _marks(session: Session, canvas: Canvas, page: tuple[float, float]) -> list[
     step = session.step or canvas.tree_step.get(session.tree, lambda tree=session.tree: whole(tree))
 
     def make() -> list[Mark]:
-        return [*_signs(plan, style), *plan_pages(plan, [of_kinds(step, kinds)], style)[0]]
+        marks = [*_signs(plan, style), *plan_pages(plan, [of_kinds(step, kinds)], style)[0]]
+        return [*marks, *_note(step.tree, marks, style)]
 
     return canvas.tree_marks.get((plan, step, selected, style.theme.name), make)
 
@@ -99,6 +107,23 @@ def _signs(plan: TreePlan, style: FigureStyle) -> list[Mark]:
     while entries and right - row_width(entries, size) < left:
         entries.pop()
     return legend_row(entries, right - row_width(entries, size), middle, size, style.theme)
+
+
+def _note(tree: RayTree, marks: Sequence[Mark], style: FigureStyle) -> list[Mark]:
+    """A note about the rays that were cut, where there is room: shorter if there is less."""
+    if tree.residual <= 0.0:
+        return []
+    size, (width, height) = SMALL * style.text_size, style.page
+    vacant = FreeSpace((EDGE, EDGE, width - EDGE, height - EDGE), marks)
+    vacant.take((0.0, 0.0, 8.0 * style.text_size, 2.5 * style.text_size))  # the panel's title
+    weight, most = format_number(tree.residual, 3), tree.bound
+    bound = f"at most {format_number(most, 3)} missing" if most < math.inf else "no bound on the missing light"
+    for words in (cut_summary(tree), f"cut: {weight} of the weight, {bound}", f"cut: {weight} of the weight"):
+        wide, high = text_width(words, size), 1.3 * size
+        at = vacant.place((wide, high), ("bottom right", "bottom left", "top right"))
+        if at:
+            return [Text("note", (at[0], at[1] + 0.5 * high), words, size, style.theme.muted, "start")]
+    return []
 
 
 def nodes(marks: list[Mark]) -> dict[int, Point]:

@@ -39,9 +39,9 @@ def go(session: Session, by: int) -> None:
 
 def _return_to(session: Session, place: Place) -> None:
     """Pick the pixel and select the ray of a place in the scene on show."""
-    pixel = place.opening.pixel
+    pixel = place.opening.state.pixel
     session.pixel = session.inside(*pixel) if pixel else None
-    session.selection, session.tree, session.full_tree = place.opening.selection, None, None
+    session.selection, session.tree, session.full_tree = place.opening.state.select, None, None
     session.update()
 
 

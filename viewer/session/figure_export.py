@@ -2,7 +2,6 @@
 
 import contextlib
 import json
-import shlex
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
@@ -10,14 +9,15 @@ from pathlib import Path
 
 from tracer.formats.source import Fault, read_text
 from tracer.kernel.world import World
-from tracer.printable import printable
 from viewer.base.clipboard import copy_to_clipboard
-from viewer.base.files import Unusable, write_atomically
-from viewer.base.options import words
+from viewer.base.files import Unusable, free_path, write_atomically
+from viewer.base.options import shell_line, words
 from viewer.base.orbit import ViewAngles
 from viewer.base.theme import THEMES
 from viewer.figures.catalogue import FIGURE_NAMES, FORMATS, PICTURES
 from viewer.figures.export_options import ExportOptions
+from viewer.reopen.scene_files import SceneFiles
+from viewer.session.restore.command import embedded
 
 HINT = "(Ctrl+Shift+C copies its command line)"
 
@@ -31,6 +31,12 @@ class Shown:
     world: World
     scene: str  # its name in file names
     view: ViewAngles | None
+    files: SceneFiles | None  # carried by the figure
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the image."""
+        return (self.world.scene.image.width, self.world.scene.image.height)
 
 
 class FigureExport:
@@ -69,7 +75,7 @@ class FigureExport:
 
         name = "png" if copied and self.format != "tikz" else self.format
         options = replace(shown.options, format=(name,), theme=self.theme or shown.theme)
-        self.command = printable(shlex.join(["raytree", "export", *words(options, leave_out=("output",))]))
+        self.command = shell_line(["raytree", "export", *words(options, leave_out=("output",))])
         self._keep()
         depth = options.depth[-1] if options.depth else 0
         stem = f"{stem_of(shown.scene, options.pixel)}_{self.figure}_d{depth}"
@@ -79,7 +85,8 @@ class FigureExport:
         def make() -> str:
             from viewer.figures.export import make
 
-            made = make(options, shown.world, shown.scene, target, shown.view)
+            content = embedded(shown.files, options.state(shown.size)) if shown.files else None
+            made = make(options, shown.world, shown.scene, target, shown.view, embedded=content)
             if not copied:
                 made.write()
                 return "; ".join([f"wrote {target.path.resolve()}  {HINT}", *made.notes])
@@ -107,9 +114,3 @@ class FigureExport:
             choice = {"figure": self.figure, "format": self.format, "theme": self.theme}
             with contextlib.suppress(Unusable):  # then the choice holds for this time only
                 write_atomically(self.kept, json.dumps(choice).encode("utf-8"))
-
-
-def free_path(path: Path) -> Path:
-    """This path, or the next one with a number that does not exist."""
-    names = (path.with_stem(f"{path.stem}-{k}") if k > 1 else path for k in range(1, 10**6))
-    return next(name for name in names if not name.exists())

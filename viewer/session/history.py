@@ -43,7 +43,10 @@ class History:
     def note(self, selection: str | None) -> None:
         """Note the ray that is selected at this place."""
         if self.now:
-            self.places[self.at] = replace(self.now, opening=self.now.opening._replace(selection=selection))
+            opening = self.now.opening
+            self.places[self.at] = replace(
+                self.now, opening=replace(opening, state=replace(opening.state, select=selection))
+            )
 
     def move(self, by: int) -> Place | None:
         """Go back (-1) or forward (1), and return the place; None at either end."""

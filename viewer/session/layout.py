@@ -48,11 +48,11 @@ class Arrangement:
         self.split(which, at_first.columns if which is None else at_first.rows[which])
 
 
-def desk() -> Arrangement:
+def at_the_desk() -> Arrangement:
     return Arrangement()
 
 
-def lecture() -> Arrangement:
+def in_a_lecture() -> Arrangement:
     return Arrangement(columns=0.54, closed={Corner.TOP_RIGHT, Corner.BOTTOM_LEFT})
 
 
@@ -60,14 +60,14 @@ def lecture() -> Arrangement:
 class Layout:
     """Both arrangements, and the panel that has all of the room."""
 
-    desk: Arrangement = field(default_factory=desk)
-    lecture: Arrangement = field(default_factory=lecture)
+    desk: Arrangement = field(default_factory=at_the_desk)
+    lecture: Arrangement = field(default_factory=in_a_lecture)
     maximised: str | None = None  # its title
     on_show: set[Corner] = field(default_factory=set)  # places of the last frame
 
     def reset(self) -> None:
         """Put all panels back in place."""
-        self.desk, self.lecture, self.maximised = desk(), lecture(), None
+        self.desk, self.lecture, self.maximised = at_the_desk(), in_a_lecture(), None
 
     def current(self, is_lecture: bool) -> Arrangement:
         return self.lecture if is_lecture else self.desk
@@ -106,7 +106,7 @@ def tile(
 
 def stored(layout: Layout) -> dict[str, object]:
     """The layout as data for a file."""
-    return {"maximised": layout.maximised} | {
+    parts = {
         name: {
             "columns": part.columns,
             "rows": list(part.rows),
@@ -115,6 +115,7 @@ def stored(layout: Layout) -> dict[str, object]:
         }
         for name, part in (("desk", layout.desk), ("lecture", layout.lecture))
     }
+    return {"maximised": layout.maximised, **parts}
 
 
 def restored(data: Mapping[str, object]) -> Layout:

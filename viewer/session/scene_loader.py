@@ -2,31 +2,42 @@
 
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple
 
 import tracer
-from tracer.formats import UP_AXES
 from tracer.kernel.world import World
 from tracer.printable import shown_path
 from viewer.base.files import Unusable
 from viewer.lessons.lesson import Lesson, read_file
+from viewer.reopen.places import is_figure
+from viewer.reopen.scene_files import SceneFiles, scene_files
+from viewer.reopen.view_state import UNCHANGED, ViewState, merged
 from viewer.session.call_queue import CallQueue
 from viewer.session.file_watch import FileWatch
+from viewer.session.restore.figure_scene import FigureScenes
+from viewer.session.restore.view import complete
 from viewer.session.warmup import Warmup
 
 
-class Opening(NamedTuple):
-    """A scene to open, with depth, pixel and model; None: the value of the lesson or of the scene."""
+@dataclass(frozen=True)
+class Opening:
+    """A scene to open, and the state of its view; what is None there is the lesson's or the scene's own."""
 
-    path: Path
+    path: Path  # of the scene; of a figure until it is read
     lesson: Lesson | None = None
-    depth: int | None = None
-    pixel: tuple[int, int] | None = None
-    model: str | None = None
-    up: str = UP_AXES[0]
-    selection: str | None = None  # the path of the ray to select
+    state: ViewState = UNCHANGED
     is_return: bool = False  # to a place that was looked at before
+    sets_view: bool = False  # the state is taken over even if the scene is on show already
+    figure: Path | None = None  # whose copy of the scene this is
+    files: SceneFiles | None = None  # the content of the scene's files, when it is loaded
+    note: str = ""  # a notice for when it is shown
+    instead: "Opening | None" = None  # what to open if this cannot be loaded; its note is followed by the reason
+
+    @property
+    def up(self) -> str:
+        """The axis of a mesh file that points upwards."""
+        return self.state.up
 
 
 class SceneLoader:
@@ -42,38 +53,34 @@ class SceneLoader:
         self.calls, self.warmup = calls, warmup
         self.loaded, self.failed = loaded, failed  # called in the window's thread
         self.opening: Opening | None = None  # the last one, with success or not
-        self.loading: Future[World] | None = None
+        self.loading: Future[tuple[World, Opening]] | None = None
         self.worker = ThreadPoolExecutor(1)
         self.watch = FileWatch()
+        self.figures = FigureScenes()
 
-    def open(
-        self,
-        path: Path,
-        lesson: Lesson | None = None,
-        depth: int | None = None,
-        pixel: tuple[int, int] | None = None,
-        model: str | None = None,
-        up: str = UP_AXES[0],
-    ) -> None:
-        """Load a scene in the background. The scene on show stays until it is there, or if it has faults."""
-        if lesson:
-            depth = lesson.depth if depth is None else depth
-            pixel = pixel or lesson.pixel
-        self.load(Opening(path, lesson, depth, pixel, model, up))
+    def open(self, path: Path, lesson: Lesson | None = None, state: ViewState = UNCHANGED) -> None:
+        """Load a scene, or that of a figure, in the background. The scene on show stays until it is there, or if it
+        has faults.
+        """
+        self.load(Opening(path, lesson, state))
 
     def load(self, opening: Opening) -> None:
-        """`open`, where depth and pixel are those of the opening, whatever the lesson says."""
+        """Load a scene in the background. A lesson opens on its own pixel and depth, if the state has none."""
+        if not opening.is_return:
+            opening = replace(opening, state=with_lesson(opening.state, opening.lesson))
         self.opening = opening
-        self.watch.follow(opening.path)
-        if opening.lesson:
-            self.watch.follow_also([opening.lesson.path])
+        self._follow(opening)
         if self.loading:
             self.loading.cancel()
 
-        def load() -> World:
+        def load() -> tuple[World, Opening]:
             if not self.warmup.ready and self.warmup.compiles:
                 self.warmup.wait()  # the kernels that prepare a large scene are being compiled as well
-            return tracer.prepare(tracer.load(opening.path, up=opening.up))
+            found = self._read(opening) if is_figure(opening.path) else opening
+            scene = tracer.load(found.path, up=found.up)
+            home = found.files.folder if found.figure and found.files else None
+            files = scene_files(scene, found.lesson.path if found.lesson else None, home)
+            return tracer.prepare(scene), replace(found, files=files)
 
         self.loading = self.worker.submit(load)
         self.loading.add_done_callback(lambda loading: self.calls.post(lambda: self._finish(loading, opening)))
@@ -89,7 +96,7 @@ class SceneLoader:
             self.failed(list(unusable.faults))
             return
         path = lesson.scene if lesson else self.opening.path
-        self.load(self.opening._replace(path=path, lesson=lesson))
+        self.load(replace(self.opening, path=path, lesson=lesson, sets_view=False, note="", instead=None))
 
     def look(self) -> None:
         """Load the scene again if one of its files has been saved. Called before every frame."""
@@ -98,20 +105,55 @@ class SceneLoader:
         elif lost := self.watch.lost():
             self.calls.post(lambda: self.failed([f"{shown_path(lost)}: the file is gone"]))
 
-    def _finish(self, loading: Future[World], opening: Opening) -> None:
+    def _read(self, opening: Opening) -> Opening:
+        """The opening of a figure's scene. The state that was asked for goes before that of the figure."""
+        found = self.figures.find(opening.path)
+        state = merged(complete(found.state), opening.state)
+        files = SceneFiles(found.home, "") if found.copy_of else None
+        return Opening(
+            found.path, found.lesson, state, sets_view=True, figure=found.copy_of, files=files, note=found.note
+        )
+
+    def _follow(self, opening: Opening) -> None:
+        """Look at the files of an opening that are known before it is read."""
+        self.watch.follow(opening.path)
+        if opening.lesson:
+            self.watch.follow_also([opening.lesson.path])
+
+    def _finish(self, loading: "Future[tuple[World, Opening]]", opening: Opening) -> None:
         if loading is not self.loading:
             return  # another scene has been opened since
         self.loading = None
         try:
-            world = loading.result()
+            world, found = loading.result()
         except tracer.SceneError as error:
             self.watch.follow_also(error.files)
-            self.failed(error.faults)
+            self._fail(error.faults, opening)
+        except Unusable as unusable:
+            self._fail(list(unusable.faults), opening)
         except Exception as error:  # a bug must not end the program: it is reported, and the last scene stays
-            self.failed([f"{type(error).__name__}: {error}"])
+            self._fail([f"{type(error).__name__}: {error}"], opening)
         else:
+            self.opening = found
+            if found.path != opening.path:
+                self._follow(found)
             self.watch.follow_also(world.scene.files)
-            self.loaded(world, opening)
+            self.loaded(world, found)
+
+    def _fail(self, faults: list[str], opening: Opening) -> None:
+        if opening.instead:
+            self.load(replace(opening.instead, note=f"{opening.instead.note}{faults[0]}"))
+        else:
+            self.failed(faults)
 
     def close(self) -> None:
         self.worker.shutdown(wait=False, cancel_futures=True)
+        self.figures.close()
+
+
+def with_lesson(state: ViewState, lesson: Lesson | None) -> ViewState:
+    """The state with the pixel and the depth of a lesson, if there is one, and the state has none."""
+    if lesson is None:
+        return state
+    depth = lesson.depth if state.depth is None else state.depth
+    return replace(state, depth=depth, pixel=state.pixel or lesson.pixel)

@@ -4,6 +4,7 @@ Only the window's thread changes it. Panels read it and call its methods. It imp
 """
 
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,26 +21,28 @@ from viewer.base.cached import Cached
 from viewer.base.orbit import Frame, Orbit, initial_orbit
 from viewer.figures.steps import Step
 from viewer.lessons.lesson import Lesson
+from viewer.reopen.view_state import ViewState
 from viewer.session.call_queue import CallQueue
 from viewer.session.figure_export import FigureExport
 from viewer.session.guard import Guard
 from viewer.session.history import History, Place
 from viewer.session.image_renderer import ImageRenderer
-from viewer.session.layout import Layout
 from viewer.session.refinement import Refinement
+from viewer.session.restore.view import restore
 from viewer.session.reveal import Reveal
 from viewer.session.scene_loader import Opening, SceneLoader
 from viewer.session.verification import Verification
-from viewer.session.view_state import Appearance, Notice, OpenDialog, PanZoom, Pointer, Request, Visibility
+from viewer.session.view_state import Looks, Request
 from viewer.session.warmup import Warmup
 
 LAYOUT_DEPTH = 3  # the tree is laid out for at least this depth, so that no node moves when the depth is stepped 0..3
 
 
-class Session:
+class Session(Looks):
     """One scene, one picked pixel, one selected ray."""
 
     def __init__(self) -> None:
+        super().__init__()
         self.guard = Guard(self.show_faults)
         self.calls = CallQueue(self.guard)
         self.requests: list[Request] = []  # to the window
@@ -50,14 +53,6 @@ class Session:
         self.export = FigureExport(self.calls.post)
         self.verification = Verification(self.calls.post)
         self.reveal = Reveal(lambda: self.tree, lambda: "shadow" in self.shown.kinds)
-        # How the scene is looked at.
-        self.shown = Visibility()
-        self.image_view, self.tree_view = PanZoom(), PanZoom(home=(0.0, 0.0))  # the tree is moved by logical pixels
-        self.appearance = Appearance()
-        self.layout, self.pointer = Layout(), Pointer.NONE
-        self.notice, self.dialog = Notice(), OpenDialog()
-        self.shows_help = self.is_blank = False  # is_blank: the window is black
-        self.scroll = 0  # lines by which the texts are to be scrolled
         # The scene on show.
         self.faults: list[str] = []  # of the last opened scene or the last action; the last good scene stays on show
         self.faults_in_files = False  # whether they are of the scene's files
@@ -73,7 +68,6 @@ class Session:
         self.full_tree: RayTree | None = None  # the same at least LAYOUT_DEPTH deep; `tree` is its first rows
         self.selection: str | None = None  # the path of the selected ray, if the tree has it
         self.history = History()
-        self.hovered: int | None = None  # the row of the tree under the mouse, in any view
         self._selected: Cached[int | None] = Cached()
         if NOTE:
             self.notice.say(NOTE)
@@ -82,7 +76,7 @@ class Session:
 
     def _show(self, world: World, opening: Opening) -> None:
         """Show a scene. If it was on show already, pixel, depth and view stay."""
-        again = self.world is not None and opening.path == self.path
+        again = self.world is not None and opening.path == self.path and not opening.sets_view
         self.faults = []
         self.guard.open_all()
         self.image.forget()
@@ -93,16 +87,17 @@ class Session:
         self.frame = Frame.of(world)
         self.tree = self.full_tree = None
         tracing = world.scene.tracing
-        self.model = opening.model or tracing.model
+        state = opening.state
+        self.model = state.model or tracing.model
         if not again:
-            self.depth = tracing.depth if opening.depth is None else opening.depth
-            self.pixel = opening.pixel
-            self.selection = opening.selection
+            self.depth = tracing.depth if state.depth is None else state.depth
+            self.pixel, self.selection = state.pixel, state.select
             self.home()
-        self._check_pixel(again)
+            restore(self, state, opening.note)
+        self._check_pixel(again or opening.instead is not None)
         self.notes = world.notes
         if not again and not opening.is_return:
-            self._note_place()
+            self.history.add(Place(self._now()))
 
     def _check_pixel(self, moves: bool) -> None:
         """A pixel outside the image is a fault. If the image has become smaller (`moves`), the pixel moves inside."""
@@ -207,7 +202,7 @@ class Session:
         if pixel != self.pixel:
             self.pixel = pixel
             self.tree = None
-            self._note_place(series)
+            self.history.add(Place(self._now(), series))
             self.update()
 
     def inside(self, x: int, y: int) -> tuple[int, int]:
@@ -237,12 +232,8 @@ class Session:
     def _now(self) -> Opening:
         """An opening that leads back to the place on show."""
         assert self.opening
-        return self.opening._replace(
-            pixel=self.pixel, depth=self.depth, model=self.model, selection=self.selection, is_return=True
-        )
-
-    def _note_place(self, series: object = None) -> None:
-        self.history.add(Place(self._now(), series))
+        now = ViewState(pixel=self.pixel, depth=self.depth, model=self.model, select=self.selection, up=self.up)
+        return replace(self.opening, state=now, is_return=True, sets_view=False, note="", instead=None)
 
     def set_depth(self, depth: int) -> None:
         if max(0, depth) != self.depth:

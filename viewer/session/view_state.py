@@ -7,6 +7,7 @@ from pathlib import Path
 
 from tracer.printable import printable
 from viewer.base.theme import DARK, LECTURE_ZOOM, LIGHT, STYLES, Theme
+from viewer.session.layout import Layout
 
 NOTICE_SECONDS = 6.0
 MAX_ZOOM = 200.0
@@ -21,6 +22,8 @@ class Request(Enum):
     MAXIMISE = auto()  # the panel under the mouse; again: give the room back
     NEXT_PANEL = auto()  # of those at the lower right
     OPEN_DIALOG = auto()
+    COPY_VIEW = auto()  # as a command line with the window's size
+    FULL_SCREEN = auto()  # or back
     QUIT = auto()
 
 
@@ -127,3 +130,21 @@ class OpenDialog:
     folder: Path | None = None  # whose files it lists
     not_found: str = ""  # a path that was typed and does not exist
     z_up: bool = False  # whether the z axis of a mesh file points upwards
+
+
+@dataclass(eq=False)
+class Looks:
+    """How the scene is looked at: the part of a session that does not depend on the scene."""
+
+    shown: Visibility = field(default_factory=Visibility)
+    image_view: PanZoom = field(default_factory=PanZoom)
+    tree_view: PanZoom = field(default_factory=lambda: PanZoom(home=(0.0, 0.0)))  # moved by logical pixels
+    appearance: Appearance = field(default_factory=Appearance)
+    layout: Layout = field(default_factory=Layout)
+    notice: Notice = field(default_factory=Notice)
+    dialog: OpenDialog = field(default_factory=OpenDialog)
+    pointer: Pointer = Pointer.NONE
+    shows_help: bool = False
+    is_blank: bool = False  # the window is black
+    scroll: int = 0  # lines by which the texts are to be scrolled
+    hovered: int | None = None  # the row of the tree under the mouse, in any view

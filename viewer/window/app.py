@@ -11,13 +11,13 @@ from tracer.printable import shown_path
 from viewer.base.cached import Changed
 from viewer.base.theme import STYLES
 from viewer.gl.canvas import Canvas
-from viewer.panels import PANELS, bar, blank, draw as d, frame, help, menu, messages, notice, open_dialog, pointer
-from viewer.panels.panel import Panel
-from viewer.session.layout import GAP, Arrangement, Corner, Rectangle, desk, lecture, tile
+from viewer.panels import PANELS
+from viewer.session.saving import copy_view
 from viewer.session.session import Session
 from viewer.session.view_state import Request
-from viewer.window import keys, style
+from viewer.window import bar, blank, help, keys, menu, messages, notice, open_dialog, pointer, style
 from viewer.window.backend import Offscreen, Window
+from viewer.window.tiles import Tiles
 
 IDLE = 0.3  # seconds of sleep between polls of the scene's file
 FASTEST = 1 / 60  # least seconds between frames
@@ -36,8 +36,9 @@ class App:
         self.surface = surface
         self.session = session
         self.canvas = Canvas(surface.ctx, session)
-        self.places: dict[Corner, Rectangle] = {}  # of the panels, when they were drawn last
+        self.tiles = Tiles(session, self.canvas, self._part)
         self.drawn_state: object = None  # of the surface when it was drawn last
+        self.each_round: Callable[[], None] = lambda: None  # called by `run`, some times a second
         self.style_changed = Changed()
         self.title_changed = Changed()
         session.calls.wake = surface.wake
@@ -54,6 +55,7 @@ class App:
             pause = max(0.0, rest - since) if frames_left > 0 or busy else IDLE
             self.surface.wait(min(pause, self.session.reveal.wait(time.monotonic())))  # the next step of an animation
             news = self.session.update()
+            self.each_round()
             if news or self._has_events():
                 frames_left = FRAMES_AFTER_EVENT
                 rest = self._rest(busy, True, took)
@@ -189,7 +191,7 @@ class App:
         # In a window that is too small the panels are cut off.
         width = max(size.x, SMALLEST[0])
         height = max(size.y, SMALLEST[1]) - bar.height()
-        self._panels((left, top, width, height))
+        self.tiles.draw((left, top, width, height))
         session.scroll = 0
         for request in session.take_requests():
             self._part("a request", lambda request=request: self._do(request), closes=False)
@@ -220,103 +222,13 @@ class App:
             self.surface.close_requested()
         elif request is Request.OPEN_DIALOG:
             open_dialog.open_dialog()
+        elif request is Request.COPY_VIEW:
+            copy_view(self.session, self.surface.size)
+        elif request is Request.FULL_SCREEN:
+            self.surface.toggle_full_screen()
         elif request is Request.NEXT_PANEL:
-            self._show_next_panel()
+            self.tiles.show_next()
         elif request is Request.MAXIMISE:
-            self._maximise()
+            self.tiles.maximise()
         else:
-            self._bring_to_front(next(panel for panel in PANELS if panel.request is request))
-
-    def _front(self, place: Corner) -> tuple[list[Panel], Panel]:
-        """The panels of a place, and the one in front."""
-        panels = self._sharing()[place]
-        chosen = self._arrangement.front.get(place)
-        return panels, next((panel for panel in panels if panel.title == chosen), panels[0])
-
-    @property
-    def _arrangement(self) -> Arrangement:
-        return self.session.layout.current(self.session.appearance.is_lecture_size)
-
-    def _bring_to_front(self, panel: Panel) -> None:
-        """Show a panel. The selected ray does not cover a panel that shows it, too."""
-        place = panel.place_in(self.session)
-        _, front = self._front(place)
-        if panel.request is not Request.SHOW_RAY or not front.shows_ray:
-            self._arrangement.front[place] = panel.title
-
-    def _show_next_panel(self) -> None:
-        """Of the panels that share a place at the lower right, show the one after that on show."""
-        panels, front = self._front(Corner.BOTTOM_RIGHT)
-        self._arrangement.front[Corner.BOTTOM_RIGHT] = panels[(panels.index(front) + 1) % len(panels)].title
-
-    def _maximise(self) -> None:
-        """Give the panel under the mouse all of the room, or give it back."""
-        layout, mouse = self.session.layout, imgui.get_mouse_pos()
-        if layout.maximised:
-            layout.maximise(layout.maximised)
-            return
-        for place, (left, top, width, height) in self.places.items():
-            if left <= mouse.x < left + width and top <= mouse.y < top + height:
-                layout.maximise(self._front(place)[1].title)
-
-    def _panels(self, room: Rectangle) -> None:
-        """The panel in front of each place, or the one that has all of the room."""
-        session = self.session
-        layout, sharing = session.layout, self._sharing()
-        arrangement = layout.current(session.appearance.is_lecture_size)
-        alone = next((p for panels in sharing.values() for p in panels if p.title == layout.maximised), None)
-        if alone:
-            self.places, borders = {alone.place_in(session): room}, {}
-        else:
-            self.places, borders = tile(arrangement, set(sharing), room, GAP * d.unit())
-        layout.on_show = set(self.places)
-        self._part("the borders", lambda: self._borders(arrangement, borders, room), closes=False)
-        # The scene comes last: it shows at once what is picked in the image, or selected in the tree.
-        for place, where in sorted(self.places.items(), key=lambda item: item[0] is Corner.TOP_LEFT):
-            panels = [alone] if alone else sharing[place]
-            front = alone or next((p for p in panels if p.title == arrangement.front.get(place)), panels[0])
-            frame.draw(session, panels, front, where, lambda front=front: self._panel(front))
-
-    def _sharing(self) -> dict[Corner, list[Panel]]:
-        """The panels of each place."""
-        found: dict[Corner, list[Panel]] = {}
-        for panel in PANELS:
-            if panel.exists(self.session):
-                found.setdefault(panel.place_in(self.session), []).append(panel)
-        return found
-
-    def _panel(self, panel: Panel) -> None:
-        closed = self.session.guard.closed.get(panel.title)
-        if closed:
-            imgui.text_wrapped(closed)
-        else:
-            self._part(panel.title, lambda: panel.draw(self.session, self.canvas))
-
-    def _borders(self, arrangement: Arrangement, borders: dict[int | None, Rectangle], room: Rectangle) -> None:
-        """The borders between places, which can be dragged. A double click puts one back."""
-        imgui.set_next_window_pos(room[:2])
-        imgui.set_next_window_size(room[2:])
-        flags = imgui.WindowFlags_
-        imgui.push_style_color(imgui.Col_.window_bg, self.session.appearance.theme.ground)
-        imgui.begin(
-            "##room", None, flags.no_decoration | flags.no_move | flags.no_docking | flags.no_saved_settings
-            | flags.no_bring_to_front_on_focus | flags.no_nav,
-        )  # fmt: skip
-        imgui.pop_style_color()
-        internal.bring_window_to_display_back(internal.get_current_window())
-        for which, (left, top, width, height) in borders.items():
-            imgui.set_cursor_screen_pos((left, top))
-            imgui.invisible_button(f"border {which}", (width, height))
-            if imgui.is_item_hovered() or imgui.is_item_active():
-                shapes = imgui.MouseCursor_
-                imgui.set_mouse_cursor(shapes.resize_ew if which is None else shapes.resize_ns)
-                ink = imgui.get_color_u32(self.session.appearance.theme.accent)
-                imgui.get_window_draw_list().add_rect_filled((left, top), (left + width, top + height), ink)
-            if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
-                at_first = lecture() if self.session.appearance.is_lecture_size else desk()
-                arrangement.reset_split(which, at_first)
-            elif imgui.is_item_active():
-                mouse = imgui.get_mouse_pos()
-                share = (mouse.x - room[0]) / room[2] if which is None else (mouse.y - room[1]) / room[3]
-                arrangement.split(which, share)
-        imgui.end()
+            self.tiles.bring_to_front(next(panel for panel in PANELS if panel.request is request))

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 # isort: off
-import imgui_bundle  # before glfw
 import glfw
 
 # isort: on
@@ -22,7 +21,10 @@ from imgui_bundle import imgui, implot
 from imgui_bundle.imgui import backends
 
 from viewer.base.files import Unusable, write_atomically
-from viewer.base.theme import FONT_SIZE
+from viewer.figures.writers.imgui_formula import forget_images
+from viewer.session.restore.last_session import WindowPlace
+from viewer.window.fonts import load_fonts
+from viewer.window.screens import is_reachable, screen_of
 
 GLSL = "#version 330"
 SMALLEST = (480, 320)  # of a window, in its own units
@@ -52,7 +54,12 @@ class Surface:
         io.config_flags |= imgui.ConfigFlags_.docking_enable
         io.config_windows_move_from_title_bar_only = True
         io.config_error_recovery_enable_assert = True
-        _load_fonts()
+        load_fonts()
+
+    def _end_imgui(self) -> None:
+        implot.destroy_context()
+        imgui.destroy_context()
+        forget_images()
 
     def keep_layout(self) -> None:
         """Store the places of the panels, if there is a file for them, and it can be written."""
@@ -82,8 +89,12 @@ class Surface:
 class Window(Surface):
     """A window on the screen. Raises NoWindow if none can be opened."""
 
-    def __init__(self, title: str, size: tuple[int, int], ini: Path | None = None, visible: bool = True) -> None:
+    def __init__(
+        self, title: str, size: tuple[int, int], ini: Path | None = None, place: WindowPlace | None = None
+    ) -> None:
+        """`place`: where it stood before, if that is still on a screen."""
         self.dropped: list[Path] = []
+        self.windowed: tuple[int, int, int, int] | None = None  # place and size to go back to from full screen
         self.on_refresh: Callable[[], None] = lambda: None
         glfw.set_error_callback(lambda code, text: None)  # failures are detected by return values
         if not glfw.init():
@@ -93,10 +104,14 @@ class Window(Surface):
             (glfw.CONTEXT_VERSION_MINOR, 3),
             (glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE),
             (glfw.OPENGL_FORWARD_COMPAT, True),
-            (glfw.VISIBLE, visible),
             (glfw.SCALE_TO_MONITOR, True),
+            (glfw.AUTO_ICONIFY, False),  # full screen stays when a window on another screen is used
         ):
             glfw.window_hint(hint, value)
+        areas = [glfw.get_monitor_workarea(monitor) for monitor in glfw.get_monitors()]
+        if place and is_reachable((place.x, place.y, place.width, place.height), areas):
+            glfw.window_hint(glfw.POSITION_X, place.x)
+            glfw.window_hint(glfw.POSITION_Y, place.y)
         self.window = glfw.create_window(*size, title, None, None)
         if not self.window:
             glfw.terminate()
@@ -113,6 +128,8 @@ class Window(Surface):
         assert address is not None
         backends.glfw_init_for_opengl(address, True)
         backends.opengl3_init(GLSL)
+        if place and place.full_screen:
+            self.toggle_full_screen()
 
     def _drop(self, _: object, paths: list[str]) -> None:
         self.dropped += [Path(path) for path in paths]
@@ -133,6 +150,36 @@ class Window(Surface):
         """Sizes and scale, which change when a projector is plugged in or the resolution is changed."""
         window = self.window
         return glfw.get_window_size(window), glfw.get_framebuffer_size(window), glfw.get_window_content_scale(window)
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in logical pixels, as a window is opened with."""
+        return self._logical(*glfw.get_window_size(self.window))
+
+    @property
+    def place(self) -> WindowPlace:
+        """Where the window stands. While it is minimised, some systems move it out of all screens."""
+        x, y, width, height = self.windowed or (*glfw.get_window_pos(self.window), *glfw.get_window_size(self.window))
+        return WindowPlace(x, y, *self._logical(width, height), self.windowed is not None)
+
+    def _logical(self, width: int, height: int) -> tuple[int, int]:
+        scale = self.scale
+        return (max(1, round(width / scale)), max(1, round(height / scale)))
+
+    def toggle_full_screen(self) -> None:
+        """Fill the screen that the window is on, or go back to the place and size before."""
+        if self.windowed:
+            nothing: Any = None  # its stub asks for a monitor
+            glfw.set_window_monitor(self.window, nothing, *self.windowed, glfw.DONT_CARE)
+            self.windowed = None
+            return
+        self.windowed = (*glfw.get_window_pos(self.window), *glfw.get_window_size(self.window))
+        monitors = glfw.get_monitors()
+        modes = [glfw.get_video_mode(monitor) for monitor in monitors]
+        corners = [glfw.get_monitor_pos(monitor) for monitor in monitors]
+        screens = [(*at, mode.size.width, mode.size.height) for at, mode in zip(corners, modes, strict=True)]
+        k = screen_of(self.windowed, screens)
+        glfw.set_window_monitor(self.window, monitors[k], 0, 0, *screens[k][2:], modes[k].refresh_rate)
 
     @property
     def closing(self) -> bool:
@@ -178,8 +225,7 @@ class Window(Surface):
         self.keep_layout()
         backends.opengl3_shutdown()
         backends.glfw_shutdown()
-        implot.destroy_context()
-        imgui.destroy_context()
+        self._end_imgui()
         self.ctx.release()
         glfw.destroy_window(self.window)
         glfw.terminate()
@@ -210,6 +256,15 @@ class Offscreen(Surface):
     def resize(self, size: tuple[int, int]) -> None:
         imgui.get_io().display_size = imgui.ImVec2(*size)
 
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels."""
+        width, height = imgui.get_io().display_size
+        return (round(width), round(height))
+
+    def toggle_full_screen(self) -> None:
+        """There is no screen."""
+
     def close_requested(self) -> None:
         self.closing = True
 
@@ -219,8 +274,7 @@ class Offscreen(Surface):
     def wait(self, seconds: float) -> None:
         """Returns at once: there are no events from outside."""
 
-    def wake(self) -> None:
-        """See `wait`."""
+    def wake(self) -> None: ...
 
     def begin(self) -> None:
         imgui.get_io().delta_time = 1 / 60
@@ -232,22 +286,7 @@ class Offscreen(Surface):
 
     def close(self) -> None:
         backends.opengl3_shutdown()
-        implot.destroy_context()
-        imgui.destroy_context()
+        self._end_imgui()
         with self.ctx:  # unbinds the context from this thread, which may open a window next
             pass
         self.ctx.release()
-
-
-def _load_fonts() -> None:
-    """Roboto, regular and bold, and from DejaVu Sans the arrows and subscripts that it lacks. Panels take the fonts in
-    this order: `viewer.panels.draw`.
-    """
-    roboto = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "Roboto"
-    symbols = Path(__file__).parent.parent / "fonts" / "DejaVuSans-symbols.ttf"
-    fonts = imgui.get_io().fonts
-    for weight in ("Regular", "Bold"):
-        fonts.add_font_from_file_ttf(str(roboto / f"Roboto-{weight}.ttf"), FONT_SIZE)
-        config = imgui.ImFontConfig()
-        config.merge_mode = True
-        fonts.add_font_from_file_ttf(str(symbols), 0.86 * FONT_SIZE, config)

@@ -39,6 +39,7 @@ LEAVING = (
     K.down_arrow,
     K.tab,
     K.f5,
+    K.f11,
 )  # keys that a field for numbers has no use for
 EDITING = (K.a, K.c, K.v, K.x, K.z, K.y)  # with Ctrl, they edit the text in a field
 US_KEYS = {getattr(K, letter): letter for letter in "abcdefghijklmnopqrstuvwxyz"} | {
@@ -186,6 +187,10 @@ BINDINGS = (
     Binding("R", "refine the image, pause", {"r": toggle_refinement}),
     Binding("T", "light or dark theme", {"t": lambda s: s.appearance.toggle_theme()}),
     Binding("Tab", "lecture size: everything larger", pressed={K.tab: lambda s: s.appearance.toggle_lecture_size()}),
+    Binding(
+        "F11", "full screen, and back (Esc does not leave it)",
+        pressed={K.f11: lambda session: session.requests.append(Request.FULL_SCREEN)},
+    ),
     Binding("B or .", "black screen; any key or click brings the window back", {"b": _blank, ".": _blank}),
     Binding("Esc", "close a message or the help; leave the steps; unselect the ray", pressed={K.escape: _escape}),
     Binding(
@@ -193,6 +198,10 @@ BINDINGS = (
     ),
     Binding(
         "Ctrl+C", "copy that figure: a picture to paste onto a slide; with Shift its command line", ctrl={K.c: _copy}
+    ),
+    Binding(
+        "Ctrl+L", "copy the command line that opens this view again (L: like a location in a browser)",
+        ctrl={K.l: lambda session: session.requests.append(Request.COPY_VIEW)},
     ),
     Binding(
         "Ctrl+O, R, Q", "open a scene or a lesson; reload it (automatic when it is saved); quit",

@@ -10,6 +10,7 @@ from viewer.base.options import spelling, words
 from viewer.base.values import Value
 from viewer.cli.main import COMMANDS, Command, parse
 from viewer.figures.catalogue import FORMATS
+from viewer.reopen import view_state
 
 NUMBER = st.floats(allow_nan=False, allow_infinity=False)
 WORD = st.text("abcdefghij-_./ öπ'\"$", min_size=1).filter(lambda text: not text.startswith("-"))
@@ -29,7 +30,13 @@ STRATEGIES: dict[Value, st.SearchStrategy] = {
     values.SHARE: st.floats(0, 1),
     values.PIXELS: st.integers(16, values.MAX_PIXELS),
     values.POINTS: st.floats(8, 48),
+    values.RAY_PATH: st.sampled_from(("E", "TRI", "T[3]R", "E.L(key)", "TR.L(a 'b' $c)[5]")),
+    values.PAN_ZOOM: st.tuples(st.floats(0.01, 1000), st.floats(-1e6, 1e6), st.floats(-1e6, 1e6)),
+    view_state.VIEW_WORDS: st.deferred(lambda: options(view_state.ViewState)).filter(
+        lambda s: s != view_state.UNCHANGED
+    ),
 }
+NAMES = {"KINDS": view_state.KINDS, "PARTS": view_state.SWITCHES}  # by the option's metavar
 
 
 def strategy(value: Value) -> st.SearchStrategy:
@@ -41,6 +48,9 @@ def strategy(value: Value) -> st.SearchStrategy:
         return st.sampled_from(names)
     if value.metavar == "A,B":
         return st.lists(st.sampled_from(tuple(FORMATS)), min_size=1, unique=True).map(tuple)
+    if value.metavar in NAMES:
+        known = NAMES[value.metavar]
+        return st.sets(st.sampled_from(known)).map(lambda chosen: tuple(name for name in known if name in chosen))
     return st.integers(1, 10**9)
 
 

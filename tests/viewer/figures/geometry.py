@@ -2,7 +2,7 @@
 
 import itertools
 
-from viewer.figures.marks import Box, Figure, Line, Rectangle, Text
+from viewer.figures.marks import Box, Figure, Formula, Line, Rectangle, Text
 
 LESS = 1e-6  # points: overlap allowed to boxes that only touch
 
@@ -36,12 +36,12 @@ def lies_in(line: Line, box: Rectangle) -> bool:
     return all(left < x < right and top < y < bottom for x, y in (line.start, line.end))
 
 
-def check_texts(figure: Figure, least: float = 18.0) -> list[Text]:
-    """Assert that all texts can be read, none leaves the canvas, and no two overlap. Returns them."""
-    texts = [mark for mark in figure.marks if isinstance(mark, Text)]
+def check_texts(figure: Figure, least: float = 18.0) -> list[Text | Formula]:
+    """Assert that all texts and formulas can be read, none leaves the canvas, and no two overlap. Returns them."""
+    texts = [mark for mark in figure.marks if isinstance(mark, (Text, Formula))]
     for text in texts:
         left, top, right, bottom = text.box()
-        assert text.size >= least and text.content, text
+        assert text.size >= least and (isinstance(text, Formula) or text.content), text
         assert left >= 0.0 and top >= 0.0 and right <= figure.width and bottom <= figure.height, text
     for a, b in itertools.combinations(texts, 2):
         assert not overlap(a.box(), b.box()), (a, b)
@@ -59,7 +59,7 @@ def check(figure: Figure, least: float = 18.0) -> None:
     for a, b in itertools.combinations(boxes, 2):
         assert not overlap(rectangle(a), rectangle(b)), (a, b)
     for text, box in itertools.product(texts, boxes):
-        if text.inside == box.name:
+        if isinstance(text, Text) and text.inside == box.name:
             inner, outer = text.box(), rectangle(box)
             assert outer[0] <= inner[0] and inner[2] <= outer[2], text
         else:

@@ -1,6 +1,8 @@
 """The figure of a hit in its plane of incidence: angles have their true size, nothing overlaps."""
 
+import itertools
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 
 import pytest
@@ -9,16 +11,21 @@ from hypothesis import given, settings, strategies as st
 import tracer
 from tests.conftest import LESSONS
 from tests.scenes import ball, box, plane, world_of
-from tests.viewer.figures.geometry import check
+from tests.viewer.figures.geometry import check, check_texts, cuts
 from tracer.kernel.nodes import SHADOW
 from tracer.scene import Light, Material, Object
 from tracer.shapes.polygon import Polygon
-from viewer.figures.figure.hit import CENTER
-from viewer.figures.marks import Figure, Line, Text
+from viewer.base.theme import LIGHT
+from viewer.figures.figure.hit import hit_marks
+from viewer.figures.layout.hit_frame import hit_frame
+from viewer.figures.marks import HEIGHT, WIDTH, Figure, Formula, Line, Mark, Rectangle, Shape, Text, inside
 from viewer.figures.pages import pages
 from viewer.figures.steps import by_depth
 from viewer.figures.subject import FigureStyle, Subject
 from viewer.lessons import lesson
+
+PAGE = (0.0, 0.0, WIDTH, HEIGHT)
+CENTER = hit_frame(PAGE, 18.0).center
 
 
 def turn_of(figure: Figure, name: str, back: bool) -> float:
@@ -68,10 +75,16 @@ def test_hits_of_the_lessons(worlds: dict[str, tracer.World]) -> None:
                 check_angles(tree, i)
 
 
+def written(marks: Iterable[Mark]) -> set[str]:
+    """All texts, and all formulas as plain text."""
+    texts = {mark.content for mark in marks if isinstance(mark, Text)}
+    return texts | {mark.plain for mark in marks if isinstance(mark, Formula)}
+
+
 def test_formulas_carry_the_trees_own_numbers(worlds: dict[str, tracer.World]) -> None:
     tree = tracer.trace(worlds["underwater"], lesson.read("underwater").pixel, depth=2)
     (figure,) = pages("hit", Subject(by_depth([tree])), FigureStyle())
-    words = [m.content for m in figure.marks if isinstance(m, Text)]
+    words = written(figure.marks)
     assert f"{1.0 - tree.nodes['radicand'][0]:.5g} ≥ 1: total internal reflection" in words
     assert "48.75°" in words  # the critical angle of water to air
     assert "no T" in words
@@ -102,7 +115,7 @@ def test_a_hit_without_rays_to_go_on_has_no_formulas_of_them(worlds: dict[str, t
     world, pixel = worlds["glass-ball"], lesson.read("glass-ball").pixel
     trees = [tracer.trace(world, pixel, depth=d) for d in (0, 1)]
     first, second = pages("hit", Subject(by_depth(trees), world), FigureStyle())
-    words = [{m.content for m in page.marks if isinstance(m, Text)} for page in (first, second)]
+    words = [written(page.marks) for page in (first, second)]
     assert "cut: depth" in words[0]
     assert all("local" in page for page in words)
     assert "r = v − 2 (n·v) n" not in words[0]
@@ -150,3 +163,54 @@ def test_a_name_under_water_keeps_clear_of_rays(degrees: float) -> None:
         ((words, below),) = names_of(tracer.trace(world_of(lake, lights=lamps), ray=ray, depth=1))[:1]
         assert below < 0.0
         assert words[:5] == "water"
+
+
+ROOMS = [(460.0, 270.0), (640.0, 600.0), (960.0, 540.0), (300.0, 500.0), (1200.0, 400.0), (520.0, 300.0)]
+
+
+@pytest.mark.parametrize("room", ROOMS)
+@pytest.mark.parametrize("size", (14.0, 16.0, 20.0, 24.0))
+def test_a_hit_fits_every_panel(room: tuple[float, float], size: float, worlds: dict[str, tracer.World]) -> None:
+    """Nothing overlaps or leaves the rectangle, which may begin anywhere; angles stay true, and rays long."""
+    where: Rectangle = (30.0, 20.0, 30.0 + room[0], 20.0 + room[1])
+    for name in ("glass-ball", "underwater", "two-lights"):
+        tree = tracer.trace(worlds[name], lesson.read(name).pixel, depth=2)
+        for node in (i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW and tree.object_name(i)):
+            marks = hit_marks(by_depth([tree])[0], node, size, LIGHT, worlds[name], where)
+            figure = Figure("", "", "", tuple(marks), LIGHT.panel, width=where[2], height=where[3])
+            for text in check_texts(figure, 0.9 * size):
+                left, top, _, _ = text.box()
+                assert left >= where[0] and top >= where[1], text
+            lines = [mark for mark in marks if isinstance(mark, Line)]
+            for line, text in itertools.product(lines, marks):
+                if isinstance(text, (Text, Formula)) and text.name != line.name and text.name != "surface":
+                    assert not any(cuts(piece, text.box()) for piece in line.pieces()), (line, text)
+            (ray,) = (mark for mark in lines if mark.name == f"ray-{node}")
+            assert turn_of(figure, f"ray-{node}", True) == pytest.approx(-tree.nodes["theta1"][node], abs=1e-12)
+            assert math.dist(ray.start, ray.end) >= 2.5 * size
+            assert inside(ray.end, where)
+
+
+def test_the_formulas_stand_on_the_right_of_a_wide_picture_and_below_another(worlds: dict[str, tracer.World]) -> None:
+    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").pixel, depth=2)
+    shown = {}
+    for room in ((960.0, 540.0), (640.0, 600.0), (460.0, 250.0)):
+        marks = hit_marks(by_depth([tree])[0], 0, 16.0, LIGHT, worlds["glass-ball"], (0.0, 0.0, *room))
+        (_, upper), (_, lower) = ((m.name, m) for m in marks if isinstance(m, Shape) and m.name.startswith("medium"))
+        formulas = [mark for mark in marks if isinstance(mark, Formula) and mark.name == "formulas"]
+        shown[room] = {mark.plain for mark in formulas}
+        if room == (960.0, 540.0):
+            assert all(mark.box()[0] > upper.corners[1][0] for mark in formulas)
+        else:
+            assert all(mark.box()[1] > lower.corners[2][1] for mark in formulas)
+    assert {"n₁ sin θ₁ = n₂ sin θ₂", "t = η v + (η c₁ − c₂) n"} <= shown[960.0, 540.0] & shown[640.0, 600.0]
+    assert shown[460.0, 250.0] == set()  # the picture needs all of it
+
+
+def test_rays_angles_and_the_normal_are_named_in_the_picture(worlds: dict[str, tracer.World]) -> None:
+    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").pixel, depth=2)
+    marks = hit_marks(by_depth([tree])[0], 0, 18.0, LIGHT)
+    found = {(mark.plain, mark.name) for mark in marks if isinstance(mark, Formula) and mark.name != "formulas"}
+    reflected, refracted = (tree.find(path) for path in "RT")
+    assert {("v", "ray-0"), ("r", f"ray-{reflected}"), ("t", f"ray-{refracted}"), ("n", "normal")} <= found
+    assert {("θ₁", "angle-ray-0"), ("θ₂", f"angle-ray-{refracted}")} <= found

@@ -16,9 +16,10 @@ from tracer.shapes.polygon import Polygon
 from viewer.base.orbit import Frame, initial_orbit
 from viewer.base.theme import THEMES
 from viewer.figures.figure import both, scene, tree
-from viewer.figures.figure.hit import BOTTOM, LARGEST, LEFT, RIGHT, TOP, WORDS
+from viewer.figures.figure.hit import LARGEST
+from viewer.figures.layout.hit_frame import hit_frame
 from viewer.figures.layout.placing import EYES
-from viewer.figures.marks import HEIGHT, WIDTH, Box, Disc, Line, Mark, Rectangle, Shape, Text
+from viewer.figures.marks import HEIGHT, WIDTH, Box, Disc, Formula, Line, Mark, Rectangle, Shape, Text
 from viewer.figures.pages import pages
 from viewer.figures.steps import by_depth, by_ray
 from viewer.figures.subject import FigureStyle, Subject
@@ -36,7 +37,7 @@ def extent(mark: Mark) -> Rectangle:
     stroke = getattr(mark, "stroke", None)
     half = 0.5 * stroke.width if stroke else 0.0
     match mark:
-        case Text():
+        case Text() | Formula():
             return mark.box()
         case Box(center=(x, y), size=(w, h)):
             points = [(x - 0.5 * w - half, y - 0.5 * h - half), (x + 0.5 * w + half, y + 0.5 * h + half)]
@@ -67,7 +68,7 @@ def check_inside(marks: list[Mark], panel: Rectangle) -> None:
 
 
 def check_texts(marks: list[Mark]) -> None:
-    texts = [mark for mark in marks if isinstance(mark, Text)]
+    texts = [mark for mark in marks if isinstance(mark, (Text, Formula))]
     for a, b in itertools.combinations(texts, 2):
         assert not overlap(a.box(), b.box()), (a, b)
 
@@ -144,8 +145,9 @@ def test_hits_lie_inside_their_panel(seed: int, lights: int, depth: int) -> None
     for node, size in itertools.product(hits, (8.0, 18.0, LARGEST)):
         for page in pages("hit", subject, FigureStyle(list(THEMES.values())[seed % 3], size, node=node)):
             formulas = [mark for mark in page.marks if mark.name == "formulas"]
-            check_inside([mark for mark in page.marks if mark.name != "formulas"], (LEFT, TOP, RIGHT, BOTTOM))
-            check_inside(formulas, (WORDS, 0.0, WIDTH, HEIGHT))
+            frame = hit_frame(PAGE, size)
+            check_inside([mark for mark in page.marks if mark.name != "formulas"], frame.picture)
+            check_inside(formulas, frame.formulas[0])
             check_texts(list(page.marks))
 
 

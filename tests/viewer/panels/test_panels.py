@@ -10,7 +10,7 @@ from imgui_bundle.imgui import internal
 
 from tests import ROOT
 from tests.conftest import LESSONS
-from tests.viewer.driver import Driver, viewer
+from tests.viewer.driver import Driver, body, viewer
 from viewer.base.orbit import project
 from viewer.panels import lesson, ray
 from viewer.session import actions
@@ -61,8 +61,7 @@ def test_lesson_texts_stay_inside_their_panel(room: Driver, size: tuple[int, int
     for name in LESSONS:
         actions.open_lesson(room.session, name)
         room.app.settle(4)
-        panel = window(lesson.PANEL.title)
-        assert not panel.hidden
+        panel = body(lesson.PANEL.title)
         assert panel.content_size.x <= panel.size.x
 
 
@@ -70,12 +69,11 @@ def test_selected_ray_comes_to_the_front_and_begins_at_its_top(room: Driver) -> 
     actions.open_lesson(room.session, "glass-ball")
     room.app.settle()
     room.press(Key.mod_alt, Key.down_arrow)
-    assert not window(ray.PANEL.title).hidden
-    place = window(ray.PANEL.title).rect().get_center()
+    place = body(ray.PANEL.title).rect().get_center()
     room.wheel(place.x, place.y, -20)
-    assert window(ray.PANEL.title).scroll.y > 0
+    assert body(ray.PANEL.title).scroll.y > 0
     room.press(Key.mod_alt, Key.down_arrow)
-    assert window(ray.PANEL.title).scroll.y == 0
+    assert body(ray.PANEL.title).scroll.y == 0
 
 
 def test_lecture_size_and_back_leaves_no_trace(room: Driver) -> None:

@@ -10,8 +10,7 @@ import pytest
 from imgui_bundle import imgui
 
 import tracer
-from tests.viewer.driver import Driver, viewer_of
-from tests.viewer.panels.test_panels import window
+from tests.viewer.driver import Driver, body, viewer_of
 from tracer.image.progressive import RoundStats
 from viewer.base.colormap import RANGES, colorize, gradient
 from viewer.base.srgb import srgb
@@ -215,7 +214,7 @@ def test_the_button_and_the_choice_of_a_way(room: Driver) -> None:
     """By the mouse: the panel comes to the front, its button refines, its list has every method."""
     room.type("r")
     room.type("r")
-    place = window(error.PANEL.title).inner_rect
+    place = body(error.PANEL.title).inner_rect
     room.click(place.min.x + 30, place.min.y + 18)
     assert room.session.refinement.is_running
     room.click(place.min.x + 30, place.min.y + 18)

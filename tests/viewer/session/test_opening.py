@@ -98,7 +98,9 @@ def test_scene_of_any_size_is_drawn(tmp_path: Path) -> None:
     """Light years or nanometres: the 3D view has the same relative accuracy."""
     pictures = []
     for scale in (1.0, 1e60, 1e-60):
-        path = tmp_path / f"scene{scale}.toml"
+        folder = tmp_path / str(scale)
+        folder.mkdir()
+        path = folder / "scene.toml"  # one name, since it is on show
         path.write_text(
             'format = 1\n[[material]]\nname = "m"\nambient = 0.5\ndiffuse = 0.5\n'
             f"[[light]]\nposition = [{5 * scale}, {5 * scale}, 0]\n"

@@ -15,6 +15,7 @@ from imgui_bundle import imgui
 from tests.viewer.driver import Driver, viewer
 from tracer.kernel.world import World
 from viewer.lessons import lesson
+from viewer.reopen.view_state import ViewState
 from viewer.window import keys
 
 K = imgui.Key
@@ -126,7 +127,8 @@ class Chaos:
             found = lesson.read(dice.choice(lesson.names()))
             session.loader.open(found.scene, found)
         else:
-            session.loader.open(self.folder / "scene.toml", pixel=(dice.randrange(60), dice.randrange(60)))
+            pixel = (dice.randrange(60), dice.randrange(60))
+            session.loader.open(self.folder / "scene.toml", state=ViewState(pixel=pixel))
         if dice.random() < 0.6:
             session.loader.worker.submit(lambda: None).result()
 

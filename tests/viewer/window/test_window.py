@@ -99,9 +99,12 @@ def test_minimised_and_back(desk: Desk, worlds: dict[str, tracer.World]) -> None
     assert shows_tree_of(desk, worlds["glass-ball"])
 
 
-def test_program_runs_by_itself_and_ends_on_its_key(tmp_path: Path) -> None:
+def test_program_runs_by_itself_and_ends_on_its_key(
+    tmp_path: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The command as a user starts it: a window comes up, Ctrl+Q closes it, the status is 0."""
     start_screen()
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path_factory.mktemp("settings")))
     command = [str(Path(sys.executable).parent / "raytree"), "view", "two-lights", "--pixel", "300,300"]
     with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         window = hand("search", "--sync", "--onlyvisible", "--name", "A room with two lights").splitlines()[0]

@@ -10,7 +10,7 @@ from viewer.figures import signs
 from viewer.figures.labels import end_label, hit_label, ray_label, ray_title
 from viewer.figures.layout.folds import Fold
 from viewer.figures.layout.light_line import SIGN, box_signs, signs_width
-from viewer.figures.layout.sizes import BARE_NOTE, CUT, INNER, LINE, NOTE, OUTLINE, PADDING, SWATCH
+from viewer.figures.layout.sizes import BARE_NOTE, CUT, LINE, NOTE, OUTLINE, PADDING, SWATCH
 from viewer.figures.layout.tree_plan import TreePlan
 from viewer.figures.lights import shadow_rays
 from viewer.figures.marks import Box, Disc, Mark, Point, Stroke, Text
@@ -68,7 +68,7 @@ def _signs(plan: TreePlan, step: Step, i: int, style: FigureStyle) -> list[Mark]
     note = end_label(tree, i)
     if note.startswith("cut") and _is_leaf(tree, i):
         marks += signs.cut(f"hit-{i}", (right - 0.5 * CUT * size, y), size, theme.muted, note)
-        right -= (CUT + 0.5 * INNER) * size
+    right -= CUT * size  # also without it, so that no sign moves with the depth
     if not plan.style.lights:
         return marks
     left = right - signs_width(tree, i, True, size)

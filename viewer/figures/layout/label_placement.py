@@ -7,7 +7,20 @@ from dataclasses import dataclass, replace
 
 from viewer.base.theme import Color, Theme, faded
 from viewer.figures.font import text_box, wrapped
-from viewer.figures.marks import Disc, Line, Mark, Piece, Point, Rectangle, Shape, Stroke, Text, clip_shares, overlap
+from viewer.figures.marks import (
+    Disc,
+    Line,
+    Mark,
+    Piece,
+    Point,
+    Rectangle,
+    Shape,
+    Stroke,
+    Text,
+    clip_shares,
+    overlap,
+    within,
+)
 
 BACKING, SOLID = 0.7, 0.9  # opacity of the background behind a label: normally, and over a line
 RINGS = (0.75, 1.3, 2.0, 2.9, 3.8)  # distances of a name from its spot, in text sizes
@@ -101,7 +114,7 @@ class LabelPlacer:
         return any(self.free(box) for box in boxes)
 
     def free(self, box: Rectangle) -> bool:
-        return _within(box, self.where) and not any(overlap(box, other) for other in self.taken)
+        return within(box, self.where) and not any(overlap(box, other) for other in self.taken)
 
     def _leader(self, name: str, box: Rectangle, to: Point) -> list[Mark]:
         """A line from the nearest point of a name's box to a disc, which lies inside the picture."""
@@ -129,7 +142,3 @@ class LabelPlacer:
                 at = (spot.at[0] + ring * self.size * right, spot.at[1] + ring * self.size * down)
                 found.append(((ring, turn), at, anchor))
         return found
-
-
-def _within(a: Rectangle, b: Rectangle) -> bool:
-    return a[0] >= b[0] and a[1] >= b[1] and a[2] <= b[2] and a[3] <= b[3]

@@ -6,15 +6,15 @@ Text is drawn in the window's font, whose letters are narrower than those that f
 import math
 from collections.abc import Iterable, Sequence
 
-import mapbox_earcut
 import numpy as np
 from imgui_bundle import imgui
 
 from viewer.base.theme import Color
 from viewer.figures import signs
 from viewer.figures.font import ANCHORS, BASELINE
-from viewer.figures.marks import Box, Disc, Line, Mark, Piece, Point, Shape, Stroke, Text, point_along
+from viewer.figures.marks import Box, Disc, Formula, Line, Mark, Piece, Point, Shape, Stroke, Text, point_along
 from viewer.figures.writers.arrows import heads
+from viewer.figures.writers.imgui_formula import draw_formula
 
 EM = 2048 / 2400  # of the window's font, over its size for imgui, which is the distance from ascender to descender
 CORNERS = 24  # of the arcs of the smallest discs
@@ -49,6 +49,8 @@ class _Writer:
                 self._disc(mark)
             case Shape():
                 self._shape(mark)
+            case Formula():
+                draw_formula(self.pad, mark, self.corner, self.scale)
             case _:
                 raise TypeError(f"the window cannot draw a {type(mark).__name__}")
 
@@ -71,11 +73,11 @@ class _Writer:
             along = self._stroke((self._at(a), self._at(b)), line.stroke, along)
         ink, width = _ink(line.stroke.color), max(1.0, line.stroke.width * self.scale)
         for corners, filled in heads(line):
-            points = [self._at(corner) for corner in corners]
+            side, tip, other = map(self._at, corners)
             if filled:
-                self.pad.add_triangle_filled(*points, ink)
+                self.pad.add_triangle_filled(side, tip, other, ink)
             else:
-                self.pad.add_polyline([imgui.ImVec2(*point) for point in points], ink, width, 0)
+                self.pad.add_polyline([imgui.ImVec2(*point) for point in (side, tip, other)], ink, width, 0)
 
     def _stroke(self, piece: Piece, stroke: Stroke, along: float = 0.0) -> float:
         """Draw a line between two places on the screen. `along` is its place in the pattern of dashes; returns that of
@@ -118,7 +120,7 @@ class _Writer:
         if shape.fill and shape.closed and shape.holes:
             self._fill_rings((shape.corners, *shape.holes), _ink(shape.fill))
         elif shape.fill and shape.closed:
-            points = [imgui.ImVec2(*self._at(corner)) for corner in shape.corners]
+            points: list[imgui.ImVec2Like] = [imgui.ImVec2(*self._at(corner)) for corner in shape.corners]
             self.pad.add_concave_poly_filled(points, _ink(shape.fill))
         if not shape.stroke:
             return
@@ -139,11 +141,14 @@ class _Writer:
 
     def _fill_rings(self, rings: tuple[tuple[Point, ...], ...], ink: int) -> None:
         """Fill an outline with holes."""
+        import mapbox_earcut
+
         corners = np.array([corner for ring in rings for corner in ring], dtype=np.float64)
         ends = np.cumsum([len(ring) for ring in rings]).astype(np.uint32)
         triangles = mapbox_earcut.triangulate_float64(corners, ends).reshape(-1, 3)
         for triangle in triangles.tolist():
-            self.pad.add_triangle_filled(*(self._at((float(x), float(y))) for x, y in corners[triangle]), ink)
+            a, b, c = (self._at((float(x), float(y))) for x, y in corners[triangle])
+            self.pad.add_triangle_filled(a, b, c, ink)
 
 
 def _rounded(box: Box) -> list[Point]:

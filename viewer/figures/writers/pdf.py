@@ -5,9 +5,11 @@ import math
 from collections.abc import Sequence
 
 from viewer.base.theme import Color, rgb_bytes
-from viewer.figures.font import BASELINE, FAMILY, FONT, boxed
-from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.font import BASELINE, FAMILY, FONT, boxed, text_width
+from viewer.figures.formula.typeset import Contour
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
+from viewer.reopen.places import ATTACHMENT
 
 UNDATED = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)  # so that the same figure is the same file on every day
 ROUND = 0.5522847498  # distance of a quarter circle's control points from its ends, in radii
@@ -28,6 +30,10 @@ def write_pdf(figures: Sequence[Figure]) -> bytes:
     pdf.set_creator("raytree")
     pdf.set_lang("en")
     pdf.add_font(FAMILY, "", FONT)
+    if first.embedded:
+        pdf.embed_file(
+            bytes=first.embedded, basename=ATTACHMENT, mime_type="application/zip", modification_date=UNDATED
+        )
     for figure in figures:
         pdf.add_page(format=(figure.width, figure.height))
         page = _Page(pdf, figure.height)
@@ -66,6 +72,8 @@ class _Page:
                     )
             case Text():
                 self._text(mark)
+            case Formula():
+                self._formula(mark)
             case _:
                 raise TypeError(f"no PDF for {type(mark).__name__}")
 
@@ -112,7 +120,34 @@ class _Page:
             self.pdf.set_text_color(*rgb_bytes(text.color))
             self.pdf.text(text.box()[0], text.at[1] + BASELINE * text.size, boxed(text.content))
 
-    def _point(self, p: Point) -> str:
+    def _formula(self, formula: Formula) -> None:
+        """The outlines, and over them, invisible, the plain text, which can be searched and copied."""
+        moves = [move for outline in formula.outlines() for contour in outline for move in self._contour(contour)]
+        self._paint(moves, formula.color, None)
+        left, _, right, _ = formula.box()
+        said = boxed(formula.plain)
+        with self.pdf.local_context(text_mode="INVISIBLE"):
+            self.pdf.set_font(FAMILY, size=(right - left) / text_width(said, 1.0))
+            self.pdf.text(left, formula.at[1], said)
+
+    def _contour(self, contour: Contour) -> list[str]:
+        """A closed contour. PDF has cubic curves only, to which parabolas are raised."""
+        start, *rest = contour
+        at = start[:2]
+        moves = [f"{self._point(at)} m"]
+        for segment in rest:
+            end = segment[-2:]
+            if len(segment) == 2:
+                moves.append(f"{self._point(end)} l")
+            else:
+                controls = [
+                    tuple((p + 2.0 * c) / 3.0 for p, c in zip(side, segment, strict=False)) for side in (at, end)
+                ]
+                moves.append(f"{' '.join(map(self._point, (*controls, end)))} c")
+            at = end
+        return [*moves, "h"]
+
+    def _point(self, p: Sequence[float]) -> str:
         return f"{_n(p[0])} {_n(self.height - p[1])}"
 
 

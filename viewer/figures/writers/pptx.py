@@ -14,11 +14,14 @@ from tracer.extras import missing_extra
 from viewer.base.files import Unusable
 from viewer.base.theme import Arrow, Color, rgb_bytes
 from viewer.figures.font import ANCHORS, FAMILY, text_width
-from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.formula.typeset import Contour
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Rectangle, Shape, Stroke, Text
+from viewer.reopen.places import PART, as_part
 
 EMU = 12_700  # PowerPoint's units per point
 UNDATED = datetime.datetime(2000, 1, 1)  # so that the same figure is the same file on every day
 OLDEST = (1980, 1, 1, 0, 0, 0)  # the earliest time that a ZIP archive can store
+LONGEST_PROPERTY = 255  # characters
 BLANK = 6  # of the default template's layouts
 HEADS = {Arrow.FILLED: "triangle", Arrow.OPEN: "arrow", Arrow.DOUBLE: "stealth"}
 A = "{http://schemas.openxmlformats.org/drawingml/2006/main}"
@@ -33,9 +36,11 @@ def write_pptx(figures: Sequence[Figure]) -> bytes:
     deck = Presentation()
     deck.slide_width, deck.slide_height = (Emu(_emu(size)) for size in (figures[0].width, figures[0].height))
     about = deck.core_properties
-    about.title, about.subject, about.comments = figures[0].title, figures[0].description, figures[0].command
+    texts = (figures[0].title, figures[0].description, figures[0].command)
+    about.title, about.subject, about.comments = map(_property, texts)
     about.author = about.last_modified_by = "raytree"
     about.created = about.modified = UNDATED
+    _add_part(deck, PART, as_part(figures[0].command, figures[0].embedded))
     for figure in figures:
         slide = deck.slides.add_slide(deck.slide_layouts[BLANK])
         _paint(slide.background.fill, figure.paper)
@@ -43,6 +48,21 @@ def write_pptx(figures: Sequence[Figure]) -> bytes:
     buffer = io.BytesIO()
     deck.save(buffer)
     return _undated(buffer.getvalue())
+
+
+def _property(text: str) -> str:
+    """A text as a property of the document, which has limited room. The custom part has the whole command line."""
+    return text if len(text) <= LONGEST_PROPERTY else text[: LONGEST_PROPERTY - 1] + "…"
+
+
+def _add_part(deck: Any, name: str, content: bytes) -> None:
+    """Add a custom XML part."""
+    from pptx.opc.constants import CONTENT_TYPE, RELATIONSHIP_TYPE
+    from pptx.opc.package import Part
+    from pptx.opc.packuri import PackURI
+
+    part = Part(PackURI(name), CONTENT_TYPE.XML, deck.part.package, content)
+    deck.part.relate_to(part, RELATIONSHIP_TYPE.CUSTOM_XML)
 
 
 class _Slide:
@@ -68,6 +88,8 @@ class _Slide:
                 continue
             if isinstance(mark, Text):
                 self._text(mark)
+            elif isinstance(mark, Formula):
+                self._formula(mark)
             elif not isinstance(mark, Line) or not (mark.leaves or mark.reaches):
                 if mark.name not in signs:
                     signs[mark.name] = self.shapes.add_group_shape()
@@ -137,6 +159,24 @@ class _Slide:
         _name(made, shape.name, "")
         _look(made, shape.fill, shape.stroke)
 
+    def _formula(self, formula: Formula) -> None:
+        """A group with an outline for each glyph, and the formula as alternative text."""
+        from pptx.oxml import parse_xml
+
+        group = self.shapes.add_group_shape()
+        _name(group, f"{formula.name} formula", formula.plain)
+        for outline in formula.outlines():
+            places = [place for contour in outline for segment in contour for place in segment]
+            box = (min(places[::2]), min(places[1::2]), max(places[::2]), max(places[1::2]))
+            builder = group.shapes.build_freeform(_emu(box[0]), _emu(box[1]), scale=1.0)
+            builder.add_line_segments([(_emu(box[2]), _emu(box[3]))], close=True)
+            made = builder.convert_to_shape()
+            (path,) = made._element.xpath(".//a:path")
+            path.getparent().replace(path, parse_xml(_curves(outline, box)))
+            _name(made, formula.name, "")
+            _look(made, formula.color, None)
+        group._element.recalculate_extents()
+
     def _text(self, text: Text) -> None:
         """Draw a text in a frame a little wider than its width, since another font may be wider."""
         width, height = 1.15 * text_width(text.content, text.size) + 4.0, 1.2 * text.size
@@ -152,6 +192,24 @@ class _Slide:
 def _fills_box(mark: Mark) -> TypeGuard[Text]:
     """Whether it is the text of a box; a text at one end of it is a frame of its own."""
     return isinstance(mark, Text) and bool(mark.inside) and mark.anchor == "middle"
+
+
+def _curves(outline: Sequence[Contour], box: Rectangle) -> str:
+    """The path of a custom geometry, which may have parabolas, relative to its box."""
+    left, top, right, bottom = map(_emu, box)
+
+    def points(segment: Sequence[float]) -> str:
+        pairs = zip(segment[::2], segment[1::2], strict=True)
+        return "".join(f'<a:pt x="{_emu(x) - left}" y="{_emu(y) - top}"/>' for x, y in pairs)
+
+    parts = []
+    for start, *rest in outline:
+        parts.append(f"<a:moveTo>{points(start)}</a:moveTo>")
+        for segment in rest:
+            kind = "lnTo" if len(segment) == 2 else "quadBezTo"
+            parts.append(f"<a:{kind}>{points(segment)}</a:{kind}>")
+        parts.append("<a:close/>")
+    return f'<a:path xmlns:a="{A[1:-1]}" w="{right - left}" h="{bottom - top}">{"".join(parts)}</a:path>'
 
 
 def _write(frame: Any, words: Sequence[Text], anchor: str) -> None:

@@ -4,8 +4,10 @@ from xml.sax.saxutils import escape, quoteattr
 
 from viewer.base.theme import Color, rgb_bytes
 from viewer.figures.font import BASELINE, FALLBACK, FAMILY
-from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.formula.typeset import Contour
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
+from viewer.reopen.places import as_xml
 
 
 def write_svg(figure: Figure) -> bytes:
@@ -16,7 +18,7 @@ def write_svg(figure: Figure) -> bytes:
         f" font-family={quoteattr(', '.join((_quoted(FAMILY), *FALLBACK)))}>",
         f"<title>{escape(figure.title)}</title>",
         f"<desc>{escape(figure.description)}</desc>",
-        f"<metadata>{escape(figure.command)}</metadata>",
+        f"<metadata>{escape(figure.command)}{as_xml(figure.embedded) if figure.embedded else ''}</metadata>",
     ]
     if figure.ground:
         lines.append(f'<rect width="{w}" height="{h}"{_fill(figure.paper)}/>')
@@ -53,9 +55,23 @@ def _element(mark: Mark) -> list[str]:
             return _line(mark)
         case Text():
             place = f'x="{_n(mark.at[0])}" y="{_n(mark.at[1] + BASELINE * mark.size)}" font-size="{_n(mark.size)}"'
-            return [f'<text {place} text-anchor="{mark.anchor}"{_fill(mark.color)}>{escape(mark.content)}</text>']
+            kept = ' xml:space="preserve"' if "  " in mark.content else ""
+            text = f'<text {place} text-anchor="{mark.anchor}"{_fill(mark.color)}{kept}>{escape(mark.content)}</text>'
+            return [text]
+        case Formula():
+            path = "".join(_contour(contour) for outline in mark.outlines() for contour in outline)
+            said = f'role="img" aria-label={quoteattr(mark.plain)} data-tex={quoteattr(mark.source)}'
+            return [f'<path {said} d="{path}"{_fill(mark.color)}/>']
         case _:
             raise TypeError(f"no SVG for {type(mark).__name__}")
+
+
+def _contour(contour: Contour) -> str:
+    start, *rest = contour
+    path = f"M{_n(start[0])},{_n(start[1])}"
+    for segment in rest:
+        path += ("L" if len(segment) == 2 else "Q") + " ".join(map(_n, segment))
+    return f"{path}Z"
 
 
 def _line(line: Line) -> list[str]:

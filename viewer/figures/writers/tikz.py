@@ -4,7 +4,7 @@ By itself, it loads the class `standalone`. If a document class is loaded alread
 """
 
 from viewer.base.theme import Color, rgb_bytes
-from viewer.figures.marks import Box, Disc, Figure, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
 
 # TeX's special characters, and letters that its usual fonts lack.
@@ -73,19 +73,25 @@ def _draw(mark: Mark) -> list[str]:
                 found.append(f"\\path[{options}] {' -- '.join(map(_point, corners))}{' -- cycle' if filled else ''};")
             return found
         case Text():
-            anchor = {"start": "base west", "middle": "base", "end": "base east"}[mark.anchor]
-            size = f"\\fontsize{{{_n(mark.size)}bp}}{{{_n(1.2 * mark.size)}bp}}\\selectfont"
-            x, y = mark.at[0], mark.at[1] + 0.36 * mark.size
-            return [
-                f"\\node[anchor={anchor},font={size},{_ink('text', mark.color)}] at {_point((x, y))}"
-                f" {{{escaped(mark.content)}}};"
-            ]
+            place = _point((mark.at[0], mark.at[1] + 0.36 * mark.size))
+            return [f"{_node(mark.anchor, mark.size, mark.color)} at {place} {{{escaped(mark.content)}}};"]
+        case Formula():
+            math = f"\\(\\displaystyle {mark.source}\\)"
+            return [f"{_node(mark.anchor, mark.size, mark.color)} at {_point(mark.at)} {{{math}}};"]
         case _:
             raise TypeError(f"no TikZ for {type(mark).__name__}")
 
 
+def _node(anchor: str, size: float, color: Color) -> str:
+    """The start of a node whose baseline is at its place."""
+    side = {"start": "base west", "middle": "base", "end": "base east"}[anchor]
+    font = f"\\fontsize{{{_n(size)}bp}}{{{_n(1.2 * size)}bp}}\\selectfont"
+    return f"\\node[anchor={side},font={font},{_ink('text', color)}]"
+
+
 def escaped(text: str) -> str:
-    return "".join(SIGNS.get(letter, letter) if has(letter) else BOX for letter in text)
+    found = "".join(SIGNS.get(letter, letter) if has(letter) else BOX for letter in text)
+    return found.replace("  ", r"\ \ ")  # TeX takes several spaces for one
 
 
 def has(letter: str) -> bool:

@@ -10,7 +10,7 @@ from viewer.base.theme import THEMES
 from viewer.figures.catalogue import FIGURES, FORMATS, PICTURES
 from viewer.lessons import lesson as lessons
 from viewer.session.actions import go, look_through_camera, open_lesson
-from viewer.session.saving import copy_command, export_figure, save_image
+from viewer.session.saving import copy_command, export_figure, save_image, save_scene
 from viewer.session.session import Session
 from viewer.session.view_state import Pointer, Request
 
@@ -41,6 +41,11 @@ def _file_menu(session: Session) -> None:
     imgui.separator()
     if imgui.menu_item_simple("Save the image as PNG", "", False, session.world is not None):
         save_image(session)
+    is_copy = session.opening is not None and session.opening.figure is not None
+    if imgui.menu_item_simple("Save the figure's scene", "", False, is_copy):
+        save_scene(session)
+    if imgui.menu_item_simple("Copy the command line of this view", "Ctrl+L", False, session.world is not None):
+        session.requests.append(Request.COPY_VIEW)
     imgui.separator()
     if imgui.menu_item_simple("Quit", "Ctrl+Q"):
         session.requests.append(Request.QUIT)
@@ -108,6 +113,8 @@ def _view_menu(session: Session) -> None:
         session.appearance.toggle_theme()
     if imgui.menu_item_simple("Lecture size", "Tab", session.appearance.is_lecture_size):
         session.appearance.toggle_lecture_size()
+    if imgui.menu_item_simple("Full screen", "F11"):
+        session.requests.append(Request.FULL_SCREEN)
     if imgui.menu_item_simple("Black screen", "B"):
         session.is_blank = True
     if imgui.menu_item_simple("Pointer, spotlight", "X", session.pointer is not Pointer.NONE):

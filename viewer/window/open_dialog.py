@@ -8,6 +8,8 @@ from tracer.formats import MESH_READERS, READERS, UP_AXES
 from tracer.printable import shown_path
 from viewer.lessons import lesson as lessons
 from viewer.panels import draw as d
+from viewer.reopen.places import is_figure
+from viewer.reopen.view_state import ViewState
 from viewer.session.actions import open_lesson
 from viewer.session.session import Session
 
@@ -68,14 +70,15 @@ def _go(session: Session, path: Path) -> None:
     elif path.exists():
         imgui.close_current_popup()
         is_mesh = path.suffix.lower() in MESH_READERS
-        session.loader.open(path, up=UP_AXES[is_mesh and dialog.z_up])
+        session.loader.open(path, state=ViewState(up=UP_AXES[is_mesh and dialog.z_up]))
 
 
 def _entries(folder: Path) -> list[Path]:
-    """The folders, then the scenes. Hidden files are left out."""
+    """The folders, then the scenes and figures. Hidden files are left out."""
     try:
         found = [path for path in folder.iterdir() if not path.name.startswith(".")]
     except OSError:
         return []
     folders = sorted(path for path in found if path.is_dir())
-    return folders + sorted(path for path in found if path.suffix.lower() in READERS and not path.is_dir())
+    scenes = (path for path in found if path.suffix.lower() in READERS or is_figure(path))
+    return folders + sorted(path for path in scenes if not path.is_dir())

@@ -20,9 +20,17 @@ BETWEEN = 16.0  # two titles
 
 
 def draw(
-    session: Session, sharing: Sequence[Panel], front: Panel, where: Rectangle, body: Callable[[], object]
+    session: Session,
+    sharing: Sequence[Panel],
+    front: Panel,
+    where: Rectangle,
+    body: Callable[[], object],
+    head: Callable[[float], object],
 ) -> None:
-    """Draw the panel in front of those that share a place. `body` draws its content."""
+    """Draw the panel in front of those that share a place.
+
+    `body` draws its content, `head` what is beside the title, in so many pixels.
+    """
     flags = imgui.WindowFlags_
     imgui.set_next_window_pos(where[:2])
     imgui.set_next_window_size(where[2:])
@@ -32,11 +40,11 @@ def draw(
         | flags.no_bring_to_front_on_focus | flags.no_scroll_with_mouse | flags.no_nav_focus,
     )  # fmt: skip
     imgui.pop_style_var()
-    if front.fills and len(sharing) == 1:
+    if front.fills and front.is_covered and len(sharing) == 1:
         body()
-        _plate(session, front)
+        _plate(session, front, head)
     else:
-        _row(session, sharing, front)
+        _row(session, sharing, front, head)
         _body(session, front, body)
     imgui.end()
 
@@ -55,23 +63,25 @@ def _body(session: Session, front: Panel, body: Callable[[], object]) -> None:
     imgui.pop_style_var()
 
 
-def _row(session: Session, sharing: Sequence[Panel], front: Panel) -> None:
+def _row(session: Session, sharing: Sequence[Panel], front: Panel, head: Callable[[float], object]) -> None:
     """The titles of all panels in the place, in a row."""
     unit = d.unit()
     imgui.set_cursor_pos((1.5 * MARGIN * unit, 0.75 * MARGIN * unit))
     imgui.begin_group()
-    for k, panel in enumerate(sharing):
+    titles = sharing if len(sharing) > 1 or front.is_named else ()
+    for k, panel in enumerate(titles):
         if k:
             imgui.same_line(0.0, BETWEEN * unit)
         _title(session, panel, panel is front, len(sharing) > 1)
     if front.head:
-        imgui.same_line(0.0, BETWEEN * unit)
-        front.head(session, imgui.get_content_region_avail().x)
+        if titles:
+            imgui.same_line(0.0, BETWEEN * unit)
+        head(imgui.get_content_region_avail().x)
     imgui.end_group()
     imgui.dummy((0.0, 0.25 * MARGIN * unit))
 
 
-def _plate(session: Session, panel: Panel) -> None:
+def _plate(session: Session, panel: Panel, head: Callable[[float], object]) -> None:
     """The title on the picture, with what belongs beside it."""
     unit, theme = d.unit(), session.appearance.theme
     room = imgui.get_window_width() - 4.0 * MARGIN * unit
@@ -85,12 +95,14 @@ def _plate(session: Session, panel: Panel) -> None:
         "plate", (0.0, 0.0), child.always_use_window_padding | child.auto_resize_x | child.auto_resize_y,
         flags.no_scrollbar | flags.no_saved_settings | flags.no_nav,
     )  # fmt: skip
+    if shown and panel.is_named:
+        _title(session, panel, True, False)
     if shown and panel.head:
-        panel.head(session, room)
+        if panel.is_named:
+            imgui.same_line(0.0, BETWEEN * unit)
+        head(room - imgui.get_cursor_pos_x())
         if _is_doubly_clicked():
             session.layout.maximise(panel.title)
-    elif shown:
-        _title(session, panel, True, False)
     imgui.end_child()
     imgui.pop_style_var(2)
     imgui.pop_style_color()

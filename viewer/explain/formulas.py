@@ -1,0 +1,64 @@
+r"""The formulas of the lecture, each written once: in LaTeX, of the part that `plain_formula` reads. Vectors are bold.
+
+They are shipped typeset: after a change, `make formulas` typesets them again.
+"""
+
+from enum import StrEnum
+
+_RADICAND = r"1 - \eta^2(1 - c_1^2)"
+
+
+class Lecture(StrEnum):
+    """A formula or a symbol of the lecture: its value is the source."""
+
+    SNELL = r"n_1 \sin\theta_1 = n_2 \sin\theta_2"
+    CRITICAL = r"\theta_c = \arcsin\frac{n_2}{n_1}"
+    TRANSMISSION = r"\mathbf{t} = \eta \mathbf{v} + (\eta c_1 - c_2)\,\mathbf{n}"
+    REFLECTION = r"\mathbf{r} = \mathbf{v} - 2 (\mathbf{n}\cdot\mathbf{v})\,\mathbf{n}"
+    FRESNEL = r"R = \frac{r_s^2 + r_p^2}{2}"
+    LOCAL = (
+        r"I = A k_a C + \sum S L \\ "
+        r"\left[k_d C (\mathbf{N}\cdot\mathbf{L}) + k_s (\mathbf{R}\cdot\mathbf{V})^p\right]"
+    )
+    ONE_LIGHT = r"S L \left[k_d C (\mathbf{N}\cdot\mathbf{L}) + k_s (\mathbf{R}\cdot\mathbf{V})^p\right]"
+    RADIANCE = r"I = \mathrm{local} + \sum \mathrm{factor}\,\times\,\mathrm{child}"
+
+    ETA = r"\eta = n_1/n_2"
+    COSINE_1 = r"c_1 = {-\mathbf{v}}\cdot\mathbf{n}"
+    COSINE_2 = rf"c_2 = \sqrt{{{_RADICAND}}}"
+    RADICAND = _RADICAND
+    TOO_LARGE = r"\eta^2(1 - c_1^2)"
+    AMPLITUDE_S = r"r_s = \frac{n_1 c_1 - n_2 c_2}{n_1 c_1 + n_2 c_2}"
+    AMPLITUDE_P = r"r_p = \frac{n_2 c_1 - n_1 c_2}{n_2 c_1 + n_1 c_2}"
+    REFLECTANCE = r"R"
+    TRANSMITTED = r"T = 1 - R"
+    SHARE_R = r"(k_r + k_t) R"
+    SHARE_T = r"(k_r + k_t) T"
+
+    INCOMING = r"\mathbf{v}"
+    NORMAL = r"\mathbf{n}"
+    REFLECTED = r"\mathbf{r}"
+    REFRACTED = r"\mathbf{t}"
+    STRAIGHT = r"\mathbf{t} = \mathbf{v}"
+    COSINE = r"\mathbf{n}\cdot\mathbf{v}"
+    THETA_1 = r"\theta_1"
+    THETA_2 = r"\theta_2"
+    THETA_C = r"\theta_c"
+    INDEX_1 = r"n_1"
+    INDEX_2 = r"n_2"
+    SINE_1 = r"n_1 \sin\theta_1"
+    SINE_2 = r"n_2 \sin\theta_2"
+    TOO_LARGE_SINE = r"\sin\theta_2"
+    INDICES = r"n_1 \to n_2"
+    ANGLES = r"\theta_1 \to \theta_2"
+    DISTANCE = r"t"
+
+    COLOR = r"C"
+    COEFFICIENTS = r"k_a \quad k_d \quad k_s \quad p"
+    LIGHT = r"L"
+    TO_LIGHT = r"\mathbf{N}\cdot\mathbf{L}"
+    FACES_AWAY = r"\mathbf{N}\cdot\mathbf{L} \leq 0"
+    DIFFUSE = r"k_d C (\mathbf{N}\cdot\mathbf{L})"
+    MIRRORED = r"\mathbf{R}\cdot\mathbf{V}"
+    EXPONENT = r"p"
+    HIGHLIGHT = r"k_s (\mathbf{R}\cdot\mathbf{V})^p"

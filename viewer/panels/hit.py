@@ -1,0 +1,77 @@
+"""The hit of the selected ray in its plane of incidence, as in the figure; without a selection the first hit."""
+
+from imgui_bundle import imgui
+
+from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import RayTree
+from viewer.base.theme import FONT_SIZE
+from viewer.explain.ray import headline
+from viewer.figures.figure.hit import hit_marks
+from viewer.figures.marks import Mark, with_line_width
+from viewer.figures.picking import mark_at, row_of
+from viewer.figures.steps import Step
+from viewer.figures.writers.imgui import EM, draw_marks
+from viewer.gl.canvas import Canvas
+from viewer.panels import draw as d
+from viewer.panels.panel import Panel
+from viewer.session.layout import Corner
+from viewer.session.session import Session
+
+REACH = 6.0  # logical pixels from the mouse to a ray
+THICKER = 1.6  # factor of the line widths of the ray under the mouse
+
+
+def draw(session: Session, canvas: Canvas) -> None:
+    corner, room, unit = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail(), d.unit()
+    if room.x < 8 or room.y < 8:
+        return
+    tree = session.tree
+    row = shown_row(tree, session.selected or 0) if tree else None
+    if tree is None or row is None:
+        imgui.text_colored(session.appearance.theme.muted, "This ray meets nothing." if tree else "No pixel is picked.")
+        return
+    imgui.invisible_button("hit", room)
+    size = (round(room.x / unit), round(room.y / unit))
+    marks = canvas.hit.get(_key(session, row, size), lambda: _marks(session, tree, row, size))
+    hovered = session.hovered
+    if imgui.is_item_hovered():
+        mouse = imgui.get_mouse_pos()
+        at = ((mouse.x - corner.x) / unit, (mouse.y - corner.y) / unit)
+        hovered = row_of(mark_at(marks, at, REACH))
+        canvas.hover("hit", hovered)
+        if hovered is not None:
+            imgui.set_tooltip("\n".join(headline(tree, hovered)))
+            if imgui.is_mouse_released(imgui.MouseButton_.left):
+                session.select(hovered)
+    else:
+        canvas.leave("hit")
+    name = f"ray-{hovered}"
+    shown = (with_line_width(mark, THICKER) if mark.name == name else mark for mark in marks)
+    draw_marks(imgui.get_window_draw_list(), shown, (corner.x, corner.y), unit)
+
+
+def shown_row(tree: RayTree, row: int) -> int | None:
+    """The ray whose hit is shown for a selected ray: itself, if it meets a surface and is no shadow ray, else the ray
+    that sends it out.
+    """
+    if tree.nodes["kind"][row] != SHADOW and tree.object_name(row):
+        return row
+    parent = int(tree.nodes["parent"][row])
+    return parent if parent >= 0 else None
+
+
+def _key(session: Session, row: int, size: tuple[int, int]) -> object:
+    """All that the marks depend on."""
+    return (session.tree, row, size, session.appearance.theme, frozenset(session.shown.kinds))
+
+
+def _marks(session: Session, tree: RayTree, row: int, size: tuple[int, int]) -> list[Mark]:
+    """The marks, in logical pixels."""
+    kinds = session.shown.kinds
+    rows = frozenset(i for i in (row, *tree.children[row]) if i == row or tree.kind(i) in kinds)
+    step = Step(tree, rows, frozenset())
+    where = (0.0, 0.0, float(size[0]), float(size[1]))
+    return hit_marks(step, row, EM * FONT_SIZE, session.appearance.theme, session.world, where)
+
+
+PANEL = Panel("Hit", draw, Corner.BOTTOM_RIGHT, fills=True, shows_ray=True)

@@ -1,0 +1,111 @@
+"""The state of the view on show, and a session that takes it over."""
+
+from dataclasses import replace
+from typing import Protocol
+
+from tracer.kernel.world import World
+from viewer.base.orbit import Frame, Orbit, orbit_beside
+from viewer.base.theme import DARK, LIGHT
+from viewer.reopen.view_state import KINDS, SWITCHES, TYPE_SIZES, ViewState
+from viewer.session.view_state import Appearance, Notice, PanZoom, Request, Visibility
+
+
+class Viewed(Protocol):
+    """The parts of a session that a view's state is about."""
+
+    world: World | None
+    frame: Frame
+    orbit: Orbit
+    shown: Visibility
+    image_view: PanZoom
+    tree_view: PanZoom
+    appearance: Appearance
+    requests: list[Request]
+    notice: Notice
+    pixel: tuple[int, int] | None
+    depth: int
+    model: str
+    selection: str | None
+
+    def show_faults(self, faults: list[str]) -> None: ...
+    @property
+    def up(self) -> str: ...
+    @property
+    def selected(self) -> int | None: ...
+
+
+def state_of(viewed: Viewed) -> ViewState:
+    """The state of the view on show. What is as in a new window is None, except for theme and size of type."""
+    shown, look = viewed.shown, viewed.appearance
+    hidden = tuple(name for name in SWITCHES if not getattr(shown, name))
+    return ViewState(
+        pixel=viewed.pixel,
+        depth=viewed.depth,
+        model=viewed.model,
+        up=viewed.up,
+        select=viewed.selection if viewed.selected is not None else None,
+        camera=viewed.orbit.view(viewed.frame),
+        filter=tuple(kind for kind in KINDS if kind in shown.kinds) if shown.kinds != set(KINDS) else None,
+        hide=hidden or None,
+        theme=look.theme.name,
+        type_size=type_size_of(look),
+        image_zoom=_pan_zoom(viewed.image_view),
+        tree_zoom=_pan_zoom(viewed.tree_view),
+    )
+
+
+def complete(state: ViewState) -> ViewState:
+    """The state with the values of a new window for the kinds of rays and the parts shown, if it has none: a window
+    that takes it over may hide some.
+    """
+    return replace(
+        state,
+        filter=KINDS if state.filter is None else state.filter,
+        hide=() if state.hide is None else state.hide,
+    )
+
+
+def restore(viewed: Viewed, state: ViewState, note: str = "") -> None:
+    """Take over how a scene is looked at, and say a note on it. The scene must be on show; it is opened with pixel,
+    depth and model.
+    """
+    if note:
+        viewed.notice.say(note)
+    restore_appearance(viewed.appearance, state)
+    if state.filter is not None:
+        viewed.shown.kinds = set(state.filter)
+    for name in SWITCHES if state.hide is not None else ():
+        setattr(viewed.shown, name, name not in (state.hide or ()))
+    for look, zoom in ((viewed.image_view, state.image_zoom), (viewed.tree_view, state.tree_zoom)):
+        if zoom:
+            look.zoom, look.center = zoom[0], (zoom[1], zoom[2])
+    restore_camera(viewed, state)
+    if state.select:
+        viewed.requests.append(Request.SHOW_RAY)
+
+
+def restore_appearance(look: Appearance, state: ViewState) -> None:
+    """Take over theme and size of type, which no scene is needed for."""
+    if state.theme:
+        look.theme = DARK if state.theme == DARK.name else LIGHT
+    if state.type_size and state.type_size != type_size_of(look):
+        look.toggle_lecture_size()
+
+
+def restore_camera(viewed: Viewed, state: ViewState) -> None:
+    """Take over the 3D view: azimuth, elevation, distance, and if given the target. One that cannot be is a fault."""
+    if state.camera and viewed.world:
+        azimuth, elevation, distance, *target = state.camera
+        try:
+            viewed.orbit = orbit_beside(viewed.world, viewed.frame, azimuth, elevation, distance, target)
+        except ValueError as error:
+            viewed.show_faults([str(error)])
+
+
+def type_size_of(look: Appearance) -> str:
+    return TYPE_SIZES[look.is_lecture_size]
+
+
+def _pan_zoom(look: PanZoom) -> tuple[float, float, float] | None:
+    is_fit = look.zoom == 1.0 and look.center == look.home
+    return None if is_fit else (float(look.zoom), float(look.center[0]), float(look.center[1]))

@@ -1,0 +1,127 @@
+"""The panels in their places, the borders between them, and which panel is in front."""
+
+from collections.abc import Callable
+
+from imgui_bundle import imgui
+from imgui_bundle.imgui import internal
+
+from viewer.gl.canvas import Canvas
+from viewer.panels import PANELS, draw as d
+from viewer.panels.panel import Panel
+from viewer.session.layout import GAP, Arrangement, Corner, Rectangle, at_the_desk, in_a_lecture, tile
+from viewer.session.session import Session
+from viewer.session.view_state import Request
+from viewer.window import frame
+
+
+class Tiles:
+    """Draws the panels of a session. `part` draws one part of the window, and reports it if that fails."""
+
+    def __init__(self, session: Session, canvas: Canvas, part: Callable[..., object]) -> None:
+        self.session = session
+        self.canvas = canvas
+        self.part = part
+        self.places: dict[Corner, Rectangle] = {}  # when they were drawn last
+
+    def draw(self, room: Rectangle) -> None:
+        """The panel in front of each place, or the one that has all of the room."""
+        session = self.session
+        layout, sharing = session.layout, self._sharing()
+        arrangement = self._arrangement
+        alone = next((p for panels in sharing.values() for p in panels if p.title == layout.maximised), None)
+        if alone:
+            self.places, borders = {alone.place_in(session): room}, {}
+        else:
+            self.places, borders = tile(arrangement, set(sharing), room, GAP * d.unit())
+        layout.on_show = set(self.places)
+        self.part("the borders", lambda: self._borders(arrangement, borders, room), closes=False)
+        # The scene comes last: it shows at once what is picked in the image, or selected in the tree.
+        for place, where in sorted(self.places.items(), key=lambda item: item[0] is Corner.TOP_LEFT):
+            panels = [alone] if alone else sharing[place]
+            front = alone or self._front(place)[1]
+            frame.draw(
+                session, panels, front, where, lambda front=front: self._panel(front),
+                lambda wide, front=front: self._head(front, wide),
+            )  # fmt: skip
+
+    def _sharing(self) -> dict[Corner, list[Panel]]:
+        """The panels of each place."""
+        found: dict[Corner, list[Panel]] = {}
+        for panel in PANELS:
+            if panel.exists(self.session):
+                found.setdefault(panel.place_in(self.session), []).append(panel)
+        return found
+
+    def _head(self, panel: Panel, wide: float) -> None:
+        """What is beside the title."""
+        draw = panel.head
+        if draw:
+            self.part(f"the title of {panel.title}", lambda: draw(self.session, wide))
+
+    def _panel(self, panel: Panel) -> None:
+        closed = self.session.guard.closed.get(panel.title)
+        if closed:
+            imgui.text_wrapped(closed)
+        else:
+            self.part(panel.title, lambda: panel.draw(self.session, self.canvas))
+
+    def _borders(self, arrangement: Arrangement, borders: dict[int | None, Rectangle], room: Rectangle) -> None:
+        """The borders between places, which can be dragged. A double click puts one back."""
+        imgui.set_next_window_pos(room[:2])
+        imgui.set_next_window_size(room[2:])
+        flags = imgui.WindowFlags_
+        imgui.push_style_color(imgui.Col_.window_bg, self.session.appearance.theme.ground)
+        imgui.begin(
+            "##room", None, flags.no_decoration | flags.no_move | flags.no_docking | flags.no_saved_settings
+            | flags.no_bring_to_front_on_focus | flags.no_nav,
+        )  # fmt: skip
+        imgui.pop_style_color()
+        internal.bring_window_to_display_back(internal.get_current_window())
+        for which, (left, top, width, height) in borders.items():
+            imgui.set_cursor_screen_pos((left, top))
+            imgui.invisible_button(f"border {which}", (width, height))
+            if imgui.is_item_hovered() or imgui.is_item_active():
+                shapes = imgui.MouseCursor_
+                imgui.set_mouse_cursor(shapes.resize_ew if which is None else shapes.resize_ns)
+                ink = imgui.get_color_u32(self.session.appearance.theme.accent)
+                imgui.get_window_draw_list().add_rect_filled((left, top), (left + width, top + height), ink)
+            if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+                at_first = in_a_lecture() if self.session.appearance.is_lecture_size else at_the_desk()
+                arrangement.reset_split(which, at_first)
+            elif imgui.is_item_active():
+                mouse = imgui.get_mouse_pos()
+                share = (mouse.x - room[0]) / room[2] if which is None else (mouse.y - room[1]) / room[3]
+                arrangement.split(which, share)
+        imgui.end()
+
+    def _front(self, place: Corner) -> tuple[list[Panel], Panel]:
+        """The panels of a place, and the one in front."""
+        panels = self._sharing()[place]
+        chosen = self._arrangement.front.get(place)
+        return panels, next((panel for panel in panels if panel.title == chosen), panels[0])
+
+    @property
+    def _arrangement(self) -> Arrangement:
+        return self.session.layout.current(self.session.appearance.is_lecture_size)
+
+    def bring_to_front(self, panel: Panel) -> None:
+        """Show a panel. The selected ray does not cover a panel that shows it, too."""
+        place = panel.place_in(self.session)
+        _, front = self._front(place)
+        if panel.request is not Request.SHOW_RAY or not front.shows_ray:
+            self._arrangement.front[place] = panel.title
+
+    def show_next(self) -> None:
+        """Of the panels that share a place at the lower right, show the one after that on show."""
+        panels, front = self._front(Corner.BOTTOM_RIGHT)
+        self._arrangement.front[Corner.BOTTOM_RIGHT] = panels[(panels.index(front) + 1) % len(panels)].title
+
+    def maximise(self) -> None:
+        """Give the panel under the mouse all of the room, or give it back."""
+        layout, mouse = self.session.layout, imgui.get_mouse_pos()
+        if layout.maximised:
+            layout.maximise(layout.maximised)
+            return
+        for place, (left, top, width, height) in self.places.items():
+            if left <= mouse.x < left + width and top <= mouse.y < top + height:
+                layout.maximise(self._front(place)[1].title)
