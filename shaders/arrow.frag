@@ -1,8 +1,8 @@
 // Arrow heads by their distance to the outline: 1 filled, 2 a chevron, 3 two chevrons.
 #version 330
-uniform float opacity;
-uniform vec4 seam;     // w = 1: this colour for all, for the halo
-uniform float extra;   // logical pixels added on every side: the halo
+#include "veil.glsl"
+uniform vec4 seam;     // colour and opacity of the border
+uniform float extra;   // its width in logical pixels
 in vec4 ink;
 in vec2 spot;
 flat in int shape;
@@ -30,7 +30,8 @@ void main() {
     float d = shape == 1 ? head(spot)
             : shape == 2 ? chevron(spot, 0.0, 0.8 * reach)
             : min(chevron(spot, -0.1 * reach, 0.7 * reach), chevron(spot, 0.4 * reach, 0.7 * reach));
-    float cover = clamp(extra + 0.5 - d, 0.0, 1.0);
-    color = vec4(mix(ink.rgb, seam.rgb, seam.w), ink.a * cover * opacity);
+    float cover = clamp(0.5 - d, 0.0, 1.0);
+    float around = clamp(extra + 0.5 - d, 0.0, 1.0);
+    color = seen(bordered(ink, cover, seam, around));
     if (color.a < 0.004) discard;
 }

@@ -1,7 +1,8 @@
-// A ray's strip: round ends, smooth edges, dashes in pixels; `opacity` fades it as a whole (behind objects, not selected).
+// A ray's strip with its border: round ends, smooth edges, dashes in pixels.
 #version 330
-uniform float opacity;
-uniform vec4 seam;     // w = 1: this colour for all, for the halo
+#include "veil.glsl"
+uniform vec4 seam;     // colour and opacity of the border
+uniform float extra;   // its width in logical pixels
 in vec4 ink;
 noperspective in vec2 beside;
 flat in float half_width;
@@ -14,12 +15,13 @@ void main() {
     float along = clamp(beside.x, 0.0, span);
     float away = length(vec2(beside.x - along, beside.y));
     float cover = clamp(half_width + 0.5 - away, 0.0, 1.0);
+    float around = clamp(half_width + extra + 0.5 - away, 0.0, 1.0);
+    float shown = mix(1.0, 1.0 - clamp(along / max(span, 1.0), 0.0, 1.0), fades);
     float period = pattern.x + pattern.y;
     if (period > 0.0) {
         float place = mod(beside.x, period);
-        cover *= clamp(min(place, pattern.x - place) + 0.5, 0.0, 1.0);
+        shown *= clamp(min(place, pattern.x - place) + 0.5, 0.0, 1.0);
     }
-    float fade = mix(1.0, 1.0 - clamp(along / max(span, 1.0), 0.0, 1.0), fades);
-    color = vec4(mix(ink.rgb, seam.rgb, seam.w), ink.a * cover * opacity * fade);
+    color = seen(bordered(vec4(ink.rgb, ink.a * shown), cover, seam, around));
     if (color.a < 0.004) discard;
 }

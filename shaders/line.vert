@@ -5,7 +5,7 @@
 uniform mat4 world_to_clip;
 uniform vec2 size;     // of the picture, in pixels
 uniform float scale;   // pixels per logical pixel
-uniform float extra;   // logical pixels added to the width: the halo
+uniform float extra;   // logical pixels of border on either side
 in vec3 from;
 in vec3 to;
 in vec4 tint;
@@ -46,8 +46,8 @@ void main() {
     float far = length(along);
     along = far > 1e-6 ? along / far : vec2(1.0, 0.0);
     vec2 across = vec2(-along.y, along.x);
-    half_width = 0.5 * width + extra;
-    float reach = half_width + 1.0;  // room for smoothing the edge
+    half_width = 0.5 * width;
+    float reach = half_width + extra + 1.0;  // room for smoothing the edge
     int k = gl_VertexID;
     float end = float(k / 2), sign = float(k % 2) * 2.0 - 1.0;
     vec4 clip = end < 0.5 ? a : b;

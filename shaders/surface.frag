@@ -22,6 +22,7 @@ uniform float fade_to;
 uniform vec3 fade_center;
 uniform vec3 origin;      // added to a position, so that checkers count from the world's origin
 uniform vec4 edge;        // of the outline of glass
+uniform vec3 tint;        // of clear glass: without it, glass is grey, and many faces are fog
 uniform float ghost;      // > 0: opacity of a wall that is seen from behind
 
 in vec3 place;
@@ -94,13 +95,13 @@ void main() {
         float c1 = -dot(v, normal);
         float r0 = pow((glass.y - 1.0) / (glass.y + 1.0), 2.0);
         float fresnel = r0 + (1.0 - r0) * pow(1.0 - c1, 5.0);
-        float rim = clamp(terms.w + 0.85 * fresnel + 0.30 * pow(1.0 - c1, 3.0), 0.0, 1.0);
-        light = light + mix(0.55 * mix(sky(v), base, 0.5), mirrored, rim);
-        alpha = clamp(0.10 + 0.6 * (1.0 - glass.x) + rim, 0.0, fade_from > 0.0 ? 0.26 : 0.85);
+        float rim = clamp(terms.w + 0.8 * fresnel + 0.22 * pow(1.0 - c1, 3.0), 0.0, 1.0);
+        light = 0.3 * light + mix(pow(tint, vec3(2.2)) * base, mirrored, 0.7 * rim);
+        alpha = clamp(0.06 + 0.6 * (1.0 - glass.x) + rim, 0.0, fade_from > 0.0 ? 0.34 : 0.8);
         alpha = clamp(alpha + dot(shine, vec3(0.33)), 0.0, 0.92);
         // The outline of curved surfaces: where the normal turns away from the eye within a pixel.
         float turns = fwidth(c1);
-        float rim_line = turns > 0.02 ? edge.a * (1.0 - smoothstep(0.4, 1.4, c1 / turns)) : 0.0;
+        float rim_line = turns > 0.02 ? edge.a * (1.0 - smoothstep(0.6, 1.8, c1 / turns)) : 0.0;
         light = mix(light, pow(edge.rgb, vec3(2.2)), rim_line);
         alpha = max(alpha, rim_line);
     } else

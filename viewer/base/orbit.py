@@ -137,6 +137,20 @@ class Orbit:
     def zoom(self, steps: float) -> None:
         self.distance = min(FARTHEST, max(CLOSEST, self.distance * 0.88**steps))
 
+    def pixel_at(self, point: np.ndarray, height: float) -> float:
+        """The size in the frame of a pixel of a picture of this height, at the distance of a point of the frame."""
+        depth = max(0.0, float((self.eye - point) @ self.outward))
+        return 2.0 * math.tan(FOV / 2) * depth / height
+
+    def direction_to(self, point: np.ndarray) -> tuple[float, float] | None:
+        """The unit vector, to the right and down, from the picture's centre towards a point of the frame, which may be
+        behind the camera: there one would have to turn. None if the point is straight ahead or straight behind.
+        """
+        right, up = self.axes
+        x, y = float((point - self.eye) @ right), float((point - self.eye) @ up)
+        far = math.hypot(x, y)
+        return (x / far, -y / far) if far > 1e-9 * float(np.linalg.norm(point - self.eye)) else None
+
     def matrix(self, aspect: float) -> np.ndarray:
         """The matrix (4, 4) from the frame to clip coordinates, for column vectors. `aspect` is width over height."""
         right, up = self.axes

@@ -74,14 +74,16 @@ NOTHING_DASH = (1.6, 5.0)
 HALO = 1.6  # pixels of background colour on either side of a ray, so that it is visible on any image
 HIDDEN = 0.30  # opacity of what is behind or inside an opaque object
 DIMMED = 0.4  # opacity of rays that are not on the path of the selected one
+QUIET, QUIET_WIDTH = 0.55, 0.6  # opacity of shadow rays whose hit is not selected, and the share of their width
+GLOW, GLOW_WIDTH = 0.55, 7.0  # opacity of what lies under the ray that is pointed at, and its additional width
 ARROW = 11.0  # pixels
 ARROW_AT = 0.58  # of the ray's length: at the end, an arrow would be hidden by the surface
 ESCAPE = 0.9  # of the scene's radius: length of a ray that leaves the scene
 NORMAL = 0.16  # of the scene's radius: length of a normal
 NORMAL_WIDTH = 1.5
-FRAME_WIDTH = 1.2  # the camera's frustum
-EDGE_WIDTH = 1.0  # edges of cut glass: thinner than any ray
-EDGE_OPACITY = 0.5
+FRAME_WIDTH, FRAME_OPACITY = 1.2, 0.75  # the camera's frustum
+EDGE_WIDTH, EDGE_OPACITY = 1.1, 0.55  # edges of cut glass: thinner than any ray
+OUTLINE_OPACITY = 0.8  # outline of curved glass
 
 # Colours of curves in a plot, in turn. Curves also differ by marker.
 CURVES = (("#F2C14E", "#B0127B"), ("#56B4E9", "#0072B2"), ("#7FD6A2", "#11723F"), ("#FF8A80", "#B35C00"),
@@ -126,6 +128,11 @@ class Theme:
         if self.mono:
             return self.text
         return rgb("#7FD6A2") if self.dark else rgb("#11723F")
+
+    @property
+    def glass(self) -> Color:
+        """Clear glass and water in the 3D view."""
+        return rgb("#78C8E6") if self.dark else rgb("#2E86B0")
 
     @property
     def sun(self) -> Color:

@@ -7,18 +7,29 @@ import moderngl
 import numpy as np
 from imgui_bundle import imgui
 
+from tracer.tree.raytree import RayTree
 from viewer.base.cached import Cached, Changed
 from viewer.base.colormap import colorize
 from viewer.explain.interfaces import Interface
 from viewer.explain.sections import Part
 from viewer.figures.layout.tree_plan import TreePlan
 from viewer.figures.marks import Mark
-from viewer.figures.ray_lines import RayLine, drawn_rows, ray_lines, relatives
+from viewer.figures.ray_lines import NO_LINES, RayLines, drawn_rows, ray_lines, relatives
 from viewer.figures.steps import Step
+from viewer.gl.interface import Name, hit_of, interface_lines, interface_names
+from viewer.gl.lines import NO_ROWS
 from viewer.gl.magnified import NEAR, Place, magnify
 from viewer.gl.picture_texture import PictureTexture
 from viewer.gl.stage import ImagePlane, Stage
-from viewer.gl.stage_lines import StageLines, frustum_lines, glass_edges, image_plane, normal_lines, style_rays
+from viewer.gl.stage_lines import (
+    StageLines,
+    frustum_lines,
+    glass_edges,
+    glow_lines,
+    image_plane,
+    normal_lines,
+    style_rays,
+)
 from viewer.session.image_renderer import Picture
 from viewer.session.session import Session
 
@@ -42,9 +53,13 @@ class Canvas:
         self.session = session
         self.stage = Stage(ctx)
         self.image = PictureTexture(ctx)
-        self.lines: list[RayLine] = []  # rays in the 3D view
+        self.tree: RayTree | None = None  # whose rays are in the 3D view
+        self.lines: RayLines = NO_LINES  # these rays
+        self.names: list[Name] = []  # at the selected hit
         self.kept: set[int] | None = None  # rows of these rays that stay bright beside the selected one; None: all
         self.drawn = 0  # rows of the tree that the 3D view draws, of all kinds
+        self.scene_marks: Cached[list[Mark]] = Cached()  # over the 3D view
+        self._under_mouse = ""  # the view that has set `Session.hovered`
         self.stage_place: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 1.0)  # left, top, width, height
         self.image_place: tuple[float, float, float] = (0.0, 0.0, 1.0)  # left, top, size of a pixel
         self.nodes: dict[int, tuple[float, float]] = {}  # of the tree: its boxes, and the signs of its shadow rays
@@ -61,10 +76,20 @@ class Canvas:
         self._map: Cached[moderngl.Texture | None] = Cached(_release)
         self._near: Cached[Seen | None] = Cached(lambda seen: _release(seen and seen.texture))
         self._view_changed = Changed()
+        self._lines_changed = Changed()
         self._world_changed = Changed()
         self._edges_changed = Changed()
         self._plane: np.ndarray | None = None
         self._throttle = _Throttle()
+
+    def hover(self, view: str, row: int | None) -> None:
+        """The mouse is over this view, and there over this row of the tree, which is highlighted in all views."""
+        self._under_mouse, self.session.hovered = view, row
+
+    def leave(self, view: str) -> None:
+        """The mouse is not over this view."""
+        if self._under_mouse == view:
+            self._under_mouse, self.session.hovered = "", None
 
     def picture(self) -> moderngl.Texture | None:
         """The rendered image as far as it is; its first row is the image's top."""
@@ -110,13 +135,17 @@ class Canvas:
 
     def view3d(self, size: tuple[int, int], scale: float) -> moderngl.Texture:
         """The 3D view, `size` in pixels, `scale` pixels per logical pixel; bottom row first, as OpenGL has it."""
-        session = self.session
+        session, theme = self.session, self.session.appearance.theme
         image = self.picture() if session.shown.camera else None
-        if self._view_changed(self._view_key(size, scale)):
+        lines, state = self._lines_key(), self._image_state()
+        if self._view_changed((size, scale, lines, session.hovered, self._eye(), state)):
             self._set_world()
-            self._set_lines()
-            plane = ImagePlane(self._plane, image) if image is not None and self._plane is not None else None
-            self.stage.draw(session.orbit, session.appearance.theme, size, scale, plane)
+            if self._lines_changed(lines):
+                self._set_lines()
+            self.stage.set_glow(glow_lines(self.lines, session.hovered, theme))
+            self._set_interface(size[1] / scale)
+            plane = ImagePlane(self._plane, image, state) if image is not None and self._plane is not None else None
+            self.stage.draw(session.orbit, theme, size, scale, plane)
             self._throttle.drawn = True
         return self.stage.target.texture
 
@@ -124,24 +153,19 @@ class Canvas:
         """Called after each frame of the window."""
         self._throttle.frame_took(seconds)
 
-    def _view_key(self, size: tuple[int, int], scale: float) -> tuple:
-        """All that the 3D view depends on."""
+    def _eye(self) -> tuple:
+        orbit = self.session.orbit
+        return (orbit.azimuth, orbit.elevation, orbit.distance, *orbit.target)
+
+    def _image_state(self) -> object:
         session = self.session
-        orbit, shown = session.orbit, session.shown
-        eye = (orbit.azimuth, orbit.elevation, orbit.distance, *orbit.target)
-        image = self._throttle.state(session.image.picture, self.image.state) if shown.camera else None
+        return self._throttle.state(session.image.picture, self.image.state) if session.shown.camera else None
+
+    def _lines_key(self) -> tuple:
+        """All that the lines of the 3D view depend on."""
+        session, shown = self.session, self.session.shown
         switches = (frozenset(shown.kinds), shown.camera, shown.normals)
-        return (
-            size,
-            scale,
-            eye,
-            image,
-            switches,
-            session.world,
-            session.tree,
-            session.selected,
-            session.appearance.theme.name,
-        )
+        return (switches, session.world, session.tree, session.step, session.selected, session.appearance.theme)
 
     def _set_world(self) -> None:
         session = self.session
@@ -153,25 +177,37 @@ class Canvas:
             self.stage.set_edges(glass_edges(session.world, session.frame, session.appearance.theme))
 
     def _set_lines(self) -> None:
-        session = self.session
-        marks = []
-        self.lines, self.kept = [], None
-        rays = []
-        self._plane = None
+        session, theme = self.session, self.session.appearance.theme
+        marks, rays = [NO_ROWS], (NO_ROWS, NO_ROWS)
+        self.tree, self.lines, self.kept, self._plane = session.tree, NO_LINES, None, None
         if session.world and session.shown.camera:
             view = session.world.view()
             self._plane = image_plane(view, session.frame, np.zeros(3))
-            marks += frustum_lines(view, session.frame, self._plane, session.appearance.theme)
+            marks.append(frustum_lines(view, session.frame, self._plane, theme))
         if session.tree:
-            tree, selected, theme = session.tree, session.selected, session.appearance.theme
+            tree, selected = session.tree, session.selected
             rows = drawn_rows(tree, selected)
             self.drawn = len(rows)
+            if session.step:
+                rows = [i for i in rows if i in session.step.rows]
             self.kept = kept = relatives(tree, selected, rows) if selected is not None else None
             self.lines = ray_lines(tree, rows, session.frame, session.shown.kinds)
-            rays = style_rays(self.lines, kept, selected, theme)
+            rays = style_rays(tree, self.lines, kept, selected, theme)
             if session.shown.normals:
-                marks += normal_lines(tree, rows, session.frame, kept, theme)
-        self.stage.set_lines(StageLines(marks, rays))
+                marks.append(normal_lines(tree, rows, session.frame, kept, theme))
+        self.stage.set_lines(StageLines(np.concatenate(marks), *rays))
+
+    def _set_interface(self, height: float) -> None:
+        """What decides at the end of the selected ray, in a picture of this height in logical pixels."""
+        session, self.names = self.session, []
+        rows = NO_ROWS
+        if session.tree and session.selected is not None:
+            hit = hit_of(session.tree, session.selected, session.frame)
+            length = hit.length(session.orbit.pixel_at(hit.foot, height)) if hit else 0.0
+            if hit and length > 0.0:
+                rows = interface_lines(hit, length, session.appearance.theme)
+                self.names = interface_names(hit, length)
+        self.stage.set_interface(rows)
 
     def release(self) -> None:
         self.stage.release()

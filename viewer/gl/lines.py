@@ -1,9 +1,8 @@
 """Lines of constant width with arrow heads, drawn as triangles, since not every driver draws wide lines."""
 
-from dataclasses import dataclass
-
 import moderngl
 import numpy as np
+from numpy.typing import ArrayLike
 
 from viewer.base.theme import ARROW, ARROW_AT, HALO, Arrow, Color
 from viewer.gl.float32 import float32
@@ -21,19 +20,28 @@ LINE = np.dtype(
         ("arrow", np.float32),
     ]
 )
+NO_ROWS = np.zeros(0, LINE)
+NO_COLOR = (0.0, 0.0, 0.0, 0.0)
 
 
-@dataclass(frozen=True)
-class Line:
-    """One line. Its ends are in the frame."""
-
-    start: np.ndarray
-    end: np.ndarray
-    color: Color
-    width: float
-    dash: tuple[float, float] = (0.0, 0.0)
-    fading: bool = False
-    arrow: Arrow = Arrow.NONE
+def line_rows(
+    starts: ArrayLike,
+    ends: ArrayLike,
+    tint: ArrayLike,
+    width: ArrayLike,
+    *,
+    dash: ArrayLike = (0.0, 0.0),
+    fading: ArrayLike = False,
+    arrow: ArrayLike = Arrow.NONE.value,
+) -> np.ndarray:
+    """Lines as an array (n,) of LINE. `starts` and `ends` (n, 3) are in the frame, `tint` is sRGB and opacity, `width`
+    and `dash` are logical pixels; each may be one value for all lines.
+    """
+    rows = np.zeros(len(np.asarray(starts)), LINE)
+    rows["from"], rows["to"] = float32(starts), float32(ends)
+    rows["tint"], rows["width"], rows["dash"] = tint, width, dash
+    rows["fading"], rows["at"], rows["arrow"] = fading, ARROW_AT, arrow
+    return rows
 
 
 class Lines:
@@ -51,12 +59,8 @@ class Lines:
         for thing in (self.strips, self.heads, self.buffer, self.line, self.arrow):
             thing.release()
 
-    def set(self, lines: list[Line]) -> None:
-        rows = np.zeros(len(lines), LINE)
-        for row, line in zip(rows, lines, strict=True):
-            row["from"], row["to"] = float32(line.start), float32(line.end)
-            row["tint"], row["width"], row["dash"] = line.color, line.width, line.dash
-            row["fading"], row["at"], row["arrow"] = line.fading, ARROW_AT, line.arrow.value
+    def set(self, rows: np.ndarray) -> None:
+        """Draw these lines (n,) of LINE from now on."""
         self.count = len(rows)
         content = rows.tobytes()
         if len(content) > self.buffer.size:
@@ -72,11 +76,13 @@ class Lines:
         matrix: np.ndarray,
         size: tuple[int, int],
         scale: float,
-        opacity: float = 1.0,
-        halo: Color | None = None,
+        hidden: float = 1.0,
+        seam: Color = NO_COLOR,
     ) -> None:
-        """Draw all lines. `size` in pixels, `scale` pixels per logical pixel. With `halo`, only their border in that
-        colour.
+        """Draw all lines. `size` in pixels, `scale` pixels per logical pixel. `seam` is the colour of their border.
+
+        `hidden` is their opacity behind opaque things. Unless it is 1, textures 0, 1 and 2 are those of
+        `shaders/veil.glsl`, and the depth test must be off.
         """
         if not self.count:
             return
@@ -84,9 +90,12 @@ class Lines:
             "world_to_clip": tuple(float32(matrix.T).ravel()),
             "size": size,
             "scale": scale,
-            "opacity": opacity,
-            "extra": HALO if halo else 0.0,
-            "seam": (*halo[:3], 1.0) if halo else (0.0, 0.0, 0.0, 0.0),
+            "extra": HALO if seam[3] else 0.0,
+            "seam": seam,
+            "hidden": hidden,
+            "solid": 0,
+            "front": 1,
+            "glass": 2,
         }
         put(self.line, **shared)
         put(self.arrow, **shared, length_px=ARROW)

@@ -15,7 +15,7 @@ from tracer.kernel.world import World
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.tessellation import SEGMENTS, unit_ball
 from viewer.base.orbit import Frame, Orbit
-from viewer.base.theme import Color
+from viewer.base.theme import OUTLINE_OPACITY, Theme, faded
 from viewer.gl.features import Features
 from viewer.gl.float32 import float32
 from viewer.gl.program import make_program, put
@@ -63,31 +63,41 @@ class Surfaces:
             thing.release()
         self.owned.clear()
 
-    def draw_opaque(self, orbit: Orbit, matrix: np.ndarray, edge: Color) -> None:
-        self._set_uniforms(orbit, matrix, edge)
+    def draw_opaque(self, orbit: Orbit, matrix: np.ndarray, theme: Theme) -> None:
+        self._set_uniforms(orbit, matrix, theme)
         chosen = [group for group in self.groups if not group.glass]
         for group in sorted(chosen, key=lambda group: group.infinite):
             self._draw_group(group, culled="back" if group.wall else None)
 
-    def draw_clear(self, orbit: Orbit) -> None:
-        """Draw transparent surfaces, after the opaque ones: glass, the farthest first, and walls from behind."""
-        walls = [group for group in self.groups if group.wall and not group.glass]
-        if not walls and "GLASS" not in self.features:
-            return
-        self._use_textures()  # other textures have been in use meanwhile
-        self.ctx.fbo.depth_mask = False
-        if "GLASS" in self.features:
-            self._draw_glass(orbit)
-        for group in walls:
-            self._draw_group(group, culled="front", ghost=GHOST)
-        self.ctx.fbo.depth_mask = True
+    @property
+    def has_glass(self) -> bool:
+        return "GLASS" in self.features
 
-    def _draw_glass(self, orbit: Orbit) -> None:
-        chosen = [group for group in self.groups if group.glass]
-        for group in sorted(chosen, key=lambda group: -float(np.linalg.norm(group.middle - orbit.eye))):
+    @property
+    def has_clear(self) -> bool:
+        """Whether there are transparent surfaces: glass, or walls seen from behind."""
+        return self.has_glass or any(group.wall for group in self.groups)
+
+    def draw_clear(self, orbit: Orbit) -> None:
+        """Draw the transparent surfaces, after the opaque ones: glass, the farthest first, and walls from behind."""
+        self._use_textures()  # other textures have been in use meanwhile
+        for group in self._glass(orbit):
             if not group.wall:
                 self._draw_group(group, culled="front")  # the far side first
                 self._draw_group(group, culled="back")
+        for group in self.groups:
+            if group.wall and not group.glass:
+                self._draw_group(group, culled="front", ghost=GHOST)
+
+    def draw_front(self, orbit: Orbit) -> None:
+        """Draw the glass once, for its depth. The uniforms are those of the last `draw_opaque`."""
+        for group in self._glass(orbit):
+            self._draw_group(group, culled=None)
+
+    def _glass(self, orbit: Orbit) -> list[Group]:
+        """The glass, the farthest first."""
+        chosen = [group for group in self.groups if group.glass] if self.has_glass else []
+        return sorted(chosen, key=lambda group: -float(np.linalg.norm(group.middle - orbit.eye)))
 
     def _draw_group(self, group: Group, culled: str | None, ghost: float = 0.0) -> None:
         if culled:
@@ -100,7 +110,7 @@ class Surfaces:
         if culled:
             self.ctx.disable(moderngl.CULL_FACE)
 
-    def _set_uniforms(self, orbit: Orbit, matrix: np.ndarray, edge: Color) -> None:
+    def _set_uniforms(self, orbit: Orbit, matrix: np.ndarray, theme: Theme) -> None:
         lights = np.zeros((MOST_LIGHTS, 4))
         colors = np.zeros((MOST_LIGHTS, 3))
         rows = self.world.arrays.lights[:MOST_LIGHTS]
@@ -120,7 +130,8 @@ class Surfaces:
             sky_top=tuple(background * 0.9 + 0.12),
             sky_bottom=tuple(background * 0.25 + 0.05),
             fade_center=(0.0, 0.0, 0.0),
-            edge=edge,
+            edge=faded(theme.text, OUTLINE_OPACITY),
+            tint=theme.glass[:3],
             origin=tuple(float32(self.frame.middle / self.frame.radius)),
         )
         self.program["lights"].write(float32(lights).tobytes())  # type: ignore[union-attr]

@@ -37,11 +37,14 @@ def draw(session: Session, canvas: Canvas) -> None:
     if imgui.is_item_hovered():
         mouse = imgui.get_mouse_pos()
         at = ((mouse.x - corner.x) / unit, (mouse.y - corner.y) / unit)
-        session.hovered = hovered = row_of(mark_at(marks, at, REACH))
+        hovered = row_of(mark_at(marks, at, REACH))
+        canvas.hover("hit", hovered)
         if hovered is not None:
             imgui.set_tooltip("\n".join(headline(tree, hovered)))
             if imgui.is_mouse_released(imgui.MouseButton_.left):
                 session.select(hovered)
+    else:
+        canvas.leave("hit")
     name = f"ray-{hovered}"
     shown = (with_line_width(mark, THICKER) if mark.name == name else mark for mark in marks)
     draw_marks(imgui.get_window_draw_list(), shown, (corner.x, corner.y), unit)

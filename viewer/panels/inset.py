@@ -12,16 +12,26 @@ HEIGHT = 0.36  # of its height, at most
 MARGIN = 10.0  # logical pixels
 
 
-def draw(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
-    """Draw the image into the lower left corner of a scene of this size, if it is not on show elsewhere."""
+def place(session: Session, room: imgui.ImVec2) -> tuple[float, float, float, float] | None:
+    """(left, top, right, bottom) of the inset in a scene of this size; None if the image is on show elsewhere."""
     if not session.appearance.is_lecture_size or Corner.TOP_RIGHT in session.layout.on_show or not session.world:
-        return
+        return None
     width, height = session.size
     scale = min(SHARE * room.x / width, HEIGHT * room.y / height)
-    size = (scale * width, scale * height)
     margin = MARGIN * d.unit()
+    bottom = room.y - margin
+    return (margin, bottom - scale * height, margin + scale * width, bottom)
+
+
+def draw(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+    """Draw the image into the lower left corner of a scene of this size, if it is not on show elsewhere."""
+    where = place(session, room)
+    if where is None:
+        return
+    left, top, right, bottom = where
+    size = (right - left, bottom - top)
     theme = session.appearance.theme
-    imgui.set_cursor_screen_pos((corner.x + margin, corner.y + room.y - size[1] - margin))
+    imgui.set_cursor_screen_pos((corner.x + left, corner.y + top))
     imgui.push_style_color(imgui.Col_.child_bg, theme.panel)
     imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))
     flags = imgui.WindowFlags_

@@ -61,7 +61,7 @@ def draw(session: Session, canvas: Canvas) -> None:
     draw_marks(pad, _glow(session, marks), origin, scale)
     draw_marks(pad, marks, origin, scale)
     pad.pop_clip_rect()
-    _handle_mouse(session, marks, origin, scale)
+    _handle_mouse(session, canvas, marks, origin, scale)
 
 
 def _hint(session: Session, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
@@ -158,7 +158,7 @@ def _glow(session: Session, marks: list[Mark]) -> list[Mark]:
     return found
 
 
-def _handle_mouse(session: Session, marks: list[Mark], origin: Point, scale: float) -> None:
+def _handle_mouse(session: Session, canvas: Canvas, marks: list[Mark], origin: Point, scale: float) -> None:
     io, look, button = imgui.get_io(), session.tree_view, imgui.MouseButton_
     hovered = imgui.is_item_hovered()
     if imgui.is_item_active() and (imgui.is_mouse_dragging(button.left) or imgui.is_mouse_dragging(button.right)):
@@ -168,12 +168,13 @@ def _handle_mouse(session: Session, marks: list[Mark], origin: Point, scale: flo
     if hovered and io.mouse_wheel != 0.0:
         look.zoom = min(LARGEST, max(SMALLEST, look.zoom * 1.12**io.mouse_wheel))
     if not hovered:
+        canvas.leave("tree")
         return
     assert session.tree
     mouse = imgui.get_mouse_pos()
     at = ((mouse.x - origin[0]) / scale, (mouse.y - origin[1]) / scale)
     row = row_of(mark_at(marks, at, REACH * d.unit() / scale, ("ray", "hit", "fold")))
-    session.hovered = row
+    canvas.hover("tree", row)
     if row is not None and not imgui.is_mouse_down(button.left):
         first, second = headline(session.tree, row)
         imgui.set_tooltip(f"{first}\n{second}")

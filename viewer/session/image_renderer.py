@@ -67,9 +67,10 @@ class ImageRenderer:
             self.picture = self.kept[key]
             return
         width, height = size
-        picture = Picture(
-            np.full((height, width, 4), BLACK, np.uint8), np.zeros((height, width, 3)), max_nodes=limits.max_nodes
-        )
+        # Until its first tiles are there, the image before is shown: a black one would flash.
+        before = self.picture.shown if self.picture else np.zeros(0)
+        shown = before.copy() if before.shape == (height, width, 4) else np.full((height, width, 4), BLACK, np.uint8)
+        picture = Picture(shown, np.zeros((height, width, 3)), max_nodes=limits.max_nodes)
         self.picture = picture
         self.running = self.runner.submit(self._render, picture, world, limits, key)
 

@@ -1,6 +1,11 @@
-"""The verification of the picked pixel's tree, in a thread of its own: a tree may take some tenths of a second."""
+"""The verification of the picked pixel's tree, in a thread of its own: a tree may take some tenths of a second.
+
+It starts once no other pixel has been picked for a moment. The thread runs Python, which takes turns with the window's
+thread: a pick would be shown later by some tens of milliseconds.
+"""
 
 import math
+import time
 from collections.abc import Callable
 from threading import Thread
 
@@ -12,6 +17,7 @@ from tracer.tree.verified.text import decisions_text
 from viewer.base.wording import format_number
 
 MOST_ROWS = 2000  # of a tree that the window verifies: about a second
+REST = 0.2  # seconds without another pick
 
 
 class Verification:
@@ -23,27 +29,34 @@ class Verification:
         self.found: VerifiedTree | None = None  # of `tree`
         self.failure = ""
         self._running: Thread | None = None
+        self._asked = (
+            math.inf
+        )  # when `tree` was asked for, on the clock time.monotonic; inf: it is started, or too large
 
     @property
     def is_running(self) -> bool:
-        return self._running is not None
+        """Whether a tree is being verified, or is about to be."""
+        return self._running is not None or self._asked < math.inf
 
     def wait(self) -> None:
         """Wait until the tree asked for is verified; the result comes with the next posted call."""
+        self._start()
         if self._running is not None:
             self._running.join()
 
     def ask(self, tree: RayTree) -> None:
-        """Verify this tree, unless it has been asked for. One tree is verified at a time, the last one asked for."""
-        if tree is self.tree:
-            return
-        self.tree, self.found = tree, None
-        self._start()
+        """Verify this tree. Called again and again; one tree is verified at a time, the last one asked for."""
+        if tree is not self.tree:
+            self.tree, self.found = tree, None
+            self._asked = time.monotonic() if len(tree) <= MOST_ROWS else math.inf
+        elif time.monotonic() - self._asked >= REST:
+            self._start()
 
     def _start(self) -> None:
         tree = self.tree
-        if self._running is not None or tree is None or len(tree) > MOST_ROWS:
+        if self._running is not None or tree is None or self._asked == math.inf:
             return
+        self._asked = math.inf
 
         def work() -> None:
             found, failure = None, "not verified: the verification has failed"
@@ -61,8 +74,6 @@ class Verification:
         self._running, self.failure = None, failure
         if tree is self.tree:
             self.found = found
-        elif not failure:
-            self._start()
 
     def text(self, row: int) -> str:
         """The state in a sentence, with what is not certain of this row."""

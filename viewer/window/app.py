@@ -191,7 +191,6 @@ class App:
         # In a window that is too small the panels are cut off.
         width = max(size.x, SMALLEST[0])
         height = max(size.y, SMALLEST[1]) - bar.height()
-        session.hovered = None
         self.tiles.draw((left, top, width, height))
         session.scroll = 0
         for request in session.take_requests():

@@ -35,7 +35,8 @@ class Tiles:
             self.places, borders = tile(arrangement, set(sharing), room, GAP * d.unit())
         layout.on_show = set(self.places)
         self.part("the borders", lambda: self._borders(arrangement, borders, room), closes=False)
-        for place, where in self.places.items():
+        # The scene comes last: it shows at once what is picked in the image, or selected in the tree.
+        for place, where in sorted(self.places.items(), key=lambda item: item[0] is Corner.TOP_LEFT):
             panels = [alone] if alone else sharing[place]
             front = alone or self._front(place)[1]
             frame.draw(

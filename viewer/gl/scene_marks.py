@@ -1,0 +1,282 @@
+"""Signs and names over the 3D view, as marks: lights, the eye, ends of blocked shadow rays, the selected hit, labels.
+
+No text covers another text or a sign. What is placed first has the first choice: signs, then what is said of the
+selected hit, then labels of rays, then names of lights and of the eye. Lengths are logical pixels from the top left of
+the view.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from tracer.formulas.vector import rescale, unit
+from tracer.kernel.nodes import KINDS, SHADOW
+from viewer.base.orbit import project
+from viewer.base.theme import DIMMED, QUIET, Color, faded
+from viewer.figures import signs
+from viewer.figures.font import text_box
+from viewer.figures.labels import ray_label
+from viewer.figures.marks import Disc, Line, Mark, Point, Rectangle, Shape, Stroke, Text, overlap, widened
+from viewer.gl.canvas import Canvas
+from viewer.session.session import Session
+
+TEXT = 12.5  # size of labels
+SUN, EYE, CROSS = 22.0, 17.0, 15.0  # sizes of signs
+DOT = 4.5  # radius of the selected hit's disc
+BORDER = 22.0  # from the border of the view to an arrow that points to what is outside
+ARROW = 17.0  # its length
+LABELS = 24  # rays that are named: the selected one, and the heaviest
+CROSSES = 60  # blocked shadow rays that end in a cross: those of the first hits
+SAMPLES = 25  # points of a ray at which its visibility is tested
+SPOTS = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)  # places for a label, as shares of the visible part of a ray
+SHORTEST = 10.0  # visible part of a ray that is named
+BACKING = 0.78  # opacity of the background behind a text
+FAR = 1e6  # the distance of a light at infinity, in radii of the scene
+NEAR = 2e-5  # in depth: what is on a surface is not hidden by it
+
+
+class SceneMarks:
+    """The marks over one picture. `size` is the view's, `depths` are those of `Stage.depths`, `covers` are rectangles
+    where other things lie over it.
+    """
+
+    def __init__(
+        self, session: Session, canvas: Canvas, size: Point, depths: np.ndarray, covers: Sequence[Rectangle] = ()
+    ) -> None:
+        self.session, self.canvas, self.size, self.depths = session, canvas, size, depths
+        self.theme = session.appearance.theme
+        self.where: Rectangle = (0.0, 0.0, *size)
+        self.matrix = session.orbit.matrix(size[0] / size[1])
+        self.signs: list[Mark] = []
+        self.texts: list[Mark] = []
+        self.taken: list[Rectangle] = list(covers)
+        self.names: list[tuple[str, Color, list[tuple[Point, str]]]] = []  # of lights and of the eye, placed last
+
+    def marks(self) -> list[Mark]:
+        """All marks, the last in front."""
+        session = self.session
+        if session.tree:
+            self._crosses()
+        if session.world and session.shown.lights:
+            self._lights()
+        if session.world and session.shown.camera:
+            self._eye()
+        if session.tree:
+            self._selected()
+        if session.shown.labels:
+            self._ray_labels()
+            for name, color, spots in self.names:
+                self._text("name", name, spots, color)
+        return [*self.signs, *self.texts]
+
+    # --- places -------------------------------------------------------------------------------------------------------
+
+    def at(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(places (n, 2), whether they are in the view) of points (n, 3) of the frame."""
+        places, depths = project(points, self.matrix, self.size)
+        inside = (places >= 0.0).all(axis=1) & (places <= self.size).all(axis=1)
+        return places, (depths > 0.0) & np.isfinite(places).all(axis=1) & inside
+
+    def seen(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The same, with only those points in view that no opaque thing hides."""
+        places, inside = self.at(points)
+        clip = np.c_[points, np.ones(len(points))] @ self.matrix.T
+        depth = 0.5 + 0.5 * clip[:, 2] / np.where(inside, clip[:, 3], 1.0)
+        height, width = self.depths.shape
+        shares = np.where(inside[:, None], places, 0.0) / self.size * (width, height)
+        x, y = np.minimum(shares.astype(int), (width - 1, height - 1)).T
+        return places, inside & (depth <= self.depths[y, x] + NEAR)
+
+    def _take(self, at: Point, wide: float) -> None:
+        self.taken.append(widened((*at, *at), 0.5 * wide))
+
+    def _text(self, name: str, content: str, spots: Iterable[tuple[Point, str]], color: Color, title: str = "") -> bool:
+        """Place a text at the first spot (position, anchor) with room. Returns whether there is one."""
+        for at, anchor in spots:
+            box = widened(text_box(at, content, TEXT, anchor), 2.0)
+            if _within(box, self.where) and not any(overlap(box, other) for other in self.taken):
+                self.taken.append(box)
+                left, top, right, bottom = box
+                corners = ((left, top), (right, top), (right, bottom), (left, bottom))
+                self.texts.append(Shape(f"{name}-label", corners, faded(self.theme.ground, BACKING), None))
+                self.texts.append(Text(f"{name}-label", at, content, TEXT, color, anchor, title=title))
+                return True
+        return False
+
+    # --- signs --------------------------------------------------------------------------------------------------------
+
+    def _crosses(self) -> None:
+        """Crosses at the ends of blocked shadow rays. They are as faint as their rays."""
+        lines, selected, tree = self.canvas.lines, self.session.selected, self.session.tree
+        assert tree
+        blocked = np.flatnonzero(lines.blocked)[:CROSSES]
+        places, inside = self.at(lines.ends[blocked])
+        for k, place in zip(blocked[inside].tolist(), places[inside].tolist(), strict=True):
+            row = int(lines.rows[k])
+            meant = selected is not None and selected in (row, int(tree.nodes["parent"][row]))
+            color = faded(self.theme.ray("shadow"), 1.0 if meant else QUIET)
+            behind = signs.cross(f"ray-{row}", (place[0], place[1]), CROSS, faded(self.theme.ground, color[3]))
+            self.signs += [_thick(mark, 2.0) for mark in behind]
+            self.signs += signs.cross(f"ray-{row}", (place[0], place[1]), CROSS, color)
+
+    def _lights(self) -> None:
+        session, theme = self.session, self.theme
+        assert session.world
+        scene = session.world.scene
+        for j, light in enumerate(scene.lights):
+            if light.direction:
+                point = session.orbit.eye - FAR * np.array(unit(rescale(light.direction)))
+            else:
+                assert light.position
+                point = session.frame.inside(light.position)
+            places, inside = self.at(point[None])
+            name = scene.light_name(j)
+            if not inside[0]:
+                self._way_out(f"light-{j}", point, name, theme.sun)
+                continue
+            x, y = places[0].tolist()
+            self.signs.append(Disc(f"light-{j}", (x, y), 0.5 * SUN, faded(theme.ground, 0.5), None))
+            self.signs += signs.sun(f"light-{j}", (x, y), SUN, theme.sun, title=name)
+            self._take((x, y), 0.8 * SUN)
+            self.names.append((name, theme.text, _beside((x, y), 0.5 * SUN)))
+
+    def _eye(self) -> None:
+        assert self.session.world
+        point = self.session.frame.inside(self.session.world.view().eye)
+        places, inside = self.at(point[None])
+        if not inside[0]:
+            self._way_out("eye", point, "eye", self.theme.text)
+            return
+        x, y = places[0].tolist()
+        self.signs += signs.eye((x, y), EYE, self.theme)
+        self._take((x, y), 1.4 * EYE)
+        self.names.append(("eye", self.theme.text, _beside((x, y), 0.9 * EYE)))
+
+    def _way_out(self, name: str, point: np.ndarray, content: str, color: Color) -> None:
+        """An arrow at the border that points to what is outside the view, with its name."""
+        towards = self.session.orbit.direction_to(point)
+        if towards is None or min(self.size) < 4.0 * BORDER:
+            return
+        dx, dy = towards
+        half = (0.5 * self.size[0] - BORDER, 0.5 * self.size[1] - BORDER)
+        reach = min(side / abs(step) if step else np.inf for side, step in zip(half, towards, strict=True))
+        middle = (0.5 * self.size[0], 0.5 * self.size[1])
+        # Of several arrows in one direction, the later ones stand further along the border.
+        for aside in (0.0, 1.0, -1.0, 2.0, -2.0):
+            tip = (middle[0] + reach * dx - aside * ARROW * dy, middle[1] + reach * dy + aside * ARROW * dx)
+            box = widened((*tip, *tip), 0.4 * ARROW)
+            if not any(overlap(box, other) for other in self.taken):
+                break
+        back = (tip[0] - ARROW * dx, tip[1] - ARROW * dy)
+        half_wide = 0.36 * ARROW
+        corners = (
+            (tip[0], tip[1]),
+            (back[0] - half_wide * dy, back[1] + half_wide * dx),
+            (back[0] + 0.28 * ARROW * dx, back[1] + 0.28 * ARROW * dy),
+            (back[0] + half_wide * dy, back[1] - half_wide * dx),
+        )
+        self.signs.append(Shape(name, corners, color, Stroke(self.theme.ground, 1.5), title=content))
+        center = (0.5 * (tip[0] + back[0]), 0.5 * (tip[1] + back[1]))
+        self._take(center, ARROW)
+        spots = [((center[0] - away * dx, center[1] - away * dy), "middle") for away in (20.0, 28.0, 36.0, 48.0)]
+        self.names.append((content, self.theme.text, [*_beside(center, 0.6 * ARROW), *spots]))
+
+    def _selected(self) -> None:
+        """The selected hit with its names."""
+        session, theme = self.session, self.theme
+        assert session.tree
+        if session.selected is None:
+            return
+        point = session.frame.inside(session.tree.nodes["point"][session.selected])
+        places, inside = self.at(point[None])
+        if not inside[0]:
+            return
+        x, y = places[0].tolist()
+        self.signs.append(Disc("hit", (x, y), DOT + 2.0, theme.ground, None))
+        self.signs.append(Disc("hit", (x, y), DOT, theme.accent, None))
+        self._take((x, y), 2.0 * DOT)
+        for name in self.canvas.names if session.shown.labels else ():
+            places, inside = self.at(name.points)
+            spots = [((p[0], p[1]), "middle") for p in places[inside].tolist()]
+            self._text("interface", name.content, spots, theme.normal if name.of_normal else theme.text)
+
+    # --- labels of rays -----------------------------------------------------------------------------------------------
+
+    def _ray_labels(self) -> None:
+        """The label of each ray beside the middle of its visible part: first the selected one, then the heaviest."""
+        tree, lines, selected = self.session.tree, self.canvas.lines, self.session.selected
+        if not tree or not len(lines):
+            return
+        rays = np.flatnonzero(lines.kinds != SHADOW)
+        weights = tree.nodes["weight"][lines.rows[rays]].max(axis=1)
+        order = rays[np.lexsort((lines.rows[rays], -weights, lines.rows[rays] != selected))][:LABELS]
+        shares = np.linspace(0.0, 1.0, SAMPLES)[None, :, None]
+        points = lines.starts[order, None] + shares * (lines.ends - lines.starts)[order, None]
+        places, seen = self.seen(points.reshape(-1, 3))
+        places, seen = places.reshape(-1, SAMPLES, 2), seen.reshape(-1, SAMPLES)
+        kept = self.canvas.kept
+        for k, way, visible in zip(order.tolist(), places, seen, strict=True):
+            piece = _longest(way, visible)
+            if piece is None or np.hypot(*(piece[1] - piece[0])) < SHORTEST:
+                continue
+            row = int(lines.rows[k])
+            color = self.theme.ray(KINDS[lines.kinds[k]])
+            if kept is not None and row not in kept:
+                color = faded(color, DIMMED)
+            label = ray_label(tree, row)
+            self._text(f"ray-{row}", label, _along(piece, label), color)
+
+
+def _longest(way: np.ndarray, visible: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """The ends of the longest visible part of a line that is given by points (n, 2)."""
+    steps = np.diff(np.r_[0, visible.astype(int), 0])
+    begins, ends = np.flatnonzero(steps == 1), np.flatnonzero(steps == -1) - 1
+    if not len(begins):
+        return None
+    k = int(np.argmax(np.hypot(*(way[ends] - way[begins]).T)))
+    return way[begins[k]], way[ends[k]]
+
+
+def _along(piece: tuple[np.ndarray, np.ndarray], label: str) -> list[tuple[Point, str]]:
+    """Places beside a line for a text, on either side: so far away that its box touches the line."""
+    start, end = piece
+    along = end - start
+    across = np.array([-along[1], along[0]]) / max(float(np.hypot(*along)), 1e-9)
+    if across[1] < 0.0:
+        across = -across  # below the line first
+    left, top, right, bottom = text_box((0.0, 0.0), label, TEXT, "middle")
+    away = 0.5 * (right - left) * abs(across[0]) + 0.5 * (bottom - top) * abs(across[1]) + 5.0
+    found = []
+    for share in SPOTS:
+        for side in (1.0, -1.0):
+            x, y = (start + share * along + side * away * across).tolist()
+            found.append(((x, y), "middle"))
+    return found
+
+
+def _beside(at: Point, away: float) -> list[tuple[Point, str]]:
+    """Places around a sign."""
+    x, y = at
+    gap = away + 4.0
+    low = away + 0.8 * TEXT
+    return [
+        ((x + gap, y), "start"),
+        ((x - gap, y), "end"),
+        ((x, y - low), "middle"),
+        ((x, y + low), "middle"),
+        ((x + gap, y - low), "start"),
+        ((x + gap, y + low), "start"),
+        ((x - gap, y - low), "end"),
+        ((x - gap, y + low), "end"),
+    ]
+
+
+def _within(a: Rectangle, b: Rectangle) -> bool:
+    return a[0] >= b[0] and a[1] >= b[1] and a[2] <= b[2] and a[3] <= b[3]
+
+
+def _thick(mark: Mark, by: float) -> Mark:
+    """A line, thicker on either side: the border of a sign."""
+    assert isinstance(mark, Line)
+    return replace(mark, stroke=replace(mark.stroke, width=mark.stroke.width + 2.0 * by))
