@@ -207,4 +207,4 @@ def _calls(session: Session, table: _Table) -> None:
             x += widths[k]
 
 
-PANEL = Panel("Recursion", draw, Corner.BOTTOM_RIGHT, request=Request.SHOW_RECURSION)
+PANEL = Panel("Recursion", draw, Corner.BOTTOM_RIGHT, short="Code", request=Request.SHOW_RECURSION)

@@ -186,10 +186,9 @@ def _head(session: Session, room: float) -> None:
     """The controls of the steps, while the tree is revealed step by step."""
     if session.step:
         draw_controls(session)
-    else:
-        imgui.new_line()
 
 
 PANEL = Panel(
-    "Ray tree", draw, Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT, fills=True, head=_head, is_covered=False, shows_ray=True
-)
+    "Ray tree", draw, Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT, fills=True, head=_head, short="Tree", is_covered=False,
+    shows_ray=True,
+)  # fmt: skip
