@@ -7,6 +7,7 @@ from pathlib import Path
 
 import tracer
 from tracer.kernel.world import World
+from tracer.tree.raytree import RayTree
 from viewer.base.files import Unusable, write_atomically
 from viewer.base.options import shell_line, words
 from viewer.base.orbit import STEEPEST, Frame, Orbit, ViewAngles, initial_orbit, orbit_beside
@@ -20,7 +21,7 @@ from viewer.figures.lights import many_lights
 from viewer.figures.marks import Figure, Text
 from viewer.figures.pages import pages
 from viewer.figures.ray_lines import MOST_IN_FIGURE
-from viewer.figures.steps import Step, by_color, by_depth, by_level, by_ray
+from viewer.figures.steps import Step, by_color, by_depth, by_level, by_ray, of_kinds
 from viewer.figures.subject import FigureStyle, Subject
 from viewer.figures.targets import Target, check_pages, grouped, mark_of, stem_of
 from viewer.figures.writers.png import PIXELS
@@ -138,7 +139,12 @@ def steps_of(world: World, options: ExportOptions, depths: range) -> Sequence[St
         "model": options.model,
     }
     trees = [tracer.trace(world, options.pixel, ray, depth=depth, **how) for depth in depths]
-    lights = not options.no_lights
+    steps = _all_steps(trees, options)
+    return [of_kinds(step, {*options.filter, "camera"}) for step in steps] if options.filter is not None else steps
+
+
+def _all_steps(trees: Sequence[RayTree], options: ExportOptions) -> Sequence[Step]:
+    lights = not options.no_lights and (options.filter is None or "shadow" in options.filter)
     match options.step:
         case "levels":
             return by_level(trees[-1], lights)
@@ -159,7 +165,20 @@ def style_of(options: ExportOptions, steps: Sequence[Step]) -> FigureStyle:
         ground=options.ground,
         node=hit_row(steps[-1].tree, options.node) if options.figure == "hit" else 0,
         eye=options.eye or "top",
+        selected=selected_row(options, steps[-1].tree),
+        levels=options.levels,
+        page=(float(options.paper[0]), float(options.paper[1])),
     )
+
+
+def selected_row(options: ExportOptions, tree: RayTree) -> int | None:
+    """The row of the ray that is to be emphasised. ValueError if the tree does not have it."""
+    if options.select is None:
+        return None
+    row = tree.find(options.select)
+    if row is None:
+        raise ValueError(f"--select {options.select}: this tree has no such ray")
+    return row
 
 
 def orbit_of(numbers: tuple[float, ...] | None, world: World, view: ViewAngles | None) -> Orbit:
