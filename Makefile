@@ -17,7 +17,7 @@ OFFICE := soffice:libreoffice-impress pdflatex:texlive-latex-extra kpsewhich:tex
 # Two processes, each with whole files of tests. The kernels are compiled before, so that not both do it.
 SIDE_BY_SIDE := -n 2 --dist loadfile
 
-.PHONY: run test test-all check bench bench-quick bench-stable picture gallery clean
+.PHONY: run test test-all check bench bench-quick bench-stable picture gallery formulas clean
 
 run: .venv/installed
 	@$(BIN)/raytree
@@ -60,6 +60,10 @@ picture: .venv/installed
 # The gallery of figures: docs/figures.md with its pictures.
 gallery: .venv/installed
 	$(BIN)/python -m docs.gallery docs
+
+# The lecture's formulas as outlines, in viewer/figures/formula/outlines.json: after a change in viewer/explain/formulas.py.
+formulas: .venv/installed
+	$(BIN)/python -m viewer.figures.formula.shipping
 
 .venv/installed: pyproject.toml
 	@test -n "$(PYTHON)" || { echo "raytree needs Python 3.11 or later: no python3 of that version was found"; exit 1; }

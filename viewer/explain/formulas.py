@@ -46,12 +46,9 @@ class Lecture(StrEnum):
     THETA_C = r"\theta_c"
     INDEX_1 = r"n_1"
     INDEX_2 = r"n_2"
-    SINE_1 = r"n_1 \sin\theta_1"
-    SINE_2 = r"n_2 \sin\theta_2"
     TOO_LARGE_SINE = r"\sin\theta_2"
     INDICES = r"n_1 \to n_2"
     ANGLES = r"\theta_1 \to \theta_2"
-    DISTANCE = r"t"
 
     COLOR = r"C"
     COEFFICIENTS = r"k_a \quad k_d \quad k_s \quad p"

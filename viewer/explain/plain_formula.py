@@ -6,6 +6,7 @@ formula may be broken.
 """
 
 import re
+import string
 from collections.abc import Iterator
 from functools import lru_cache
 
@@ -22,6 +23,10 @@ SIGNS = {
 }  # fmt: skip
 STYLES = ("mathbf", "mathrm", "vec")
 COMMANDS = (*FUNCTIONS, *GREEK, *SIGNS, *STYLES, "frac", "sqrt")
+
+LETTERS = (
+    " " + string.ascii_letters + string.digits + "+-=<>()[]{}_^/|.,:;!'*"
+)  # no other has a meaning in TeX's formulas
 
 # Letters of which the fonts have no such form stay as they are: θc, kd.
 LOWERED = str.maketrans("0123456789sp", "₀₁₂₃₄₅₆₇₈₉ₛₚ")
@@ -67,7 +72,10 @@ class _Reader:
         """Commands, with their backslash, and single characters."""
         for found in _TOKEN.finditer(source):
             if (command := found["command"]) is None:
-                yield " " if found["other"].isspace() else found["other"]
+                letter = " " if found["other"].isspace() else found["other"]
+                if letter not in LETTERS:
+                    raise FormulaError(f"formula {source!r}: {letter!r} is not allowed; allowed are {LETTERS}")
+                yield letter
                 continue
             name = command.strip()
             if name not in COMMANDS:
@@ -119,6 +127,8 @@ class _Reader:
         match token:
             case "":
                 raise FormulaError(f"formula {self.source!r}: its end is missing")
+            case "_" | "^":
+                raise FormulaError(f"formula {self.source!r}: a {token} has nothing before it that it could belong to")
             case "}":
                 raise FormulaError(f"formula {self.source!r}: a }} has no {{")
             case "{":

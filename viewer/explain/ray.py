@@ -98,7 +98,6 @@ def ray_numbers(tree: RayTree, i: int) -> Section:
         section.add(Lecture.ANGLES, format_pair(format_angle(row["theta1"], turn), format_angle(row["theta2"], turn)))
         if not math.isnan(row["radicand"]):
             section.add(Lecture.RADICAND, format_number(row["radicand"]))
-    section.add("closest decision", margin_text(tree, i))
     section.add("factor", format_weight(row["factor"], row["factor_error"]))
     section.add("weight", format_weight(row["weight"], row["weight_error"]))
     section.add("radiance", format_color(row["radiance"], row["radiance_error"]))

@@ -26,6 +26,7 @@ NUMBER_ROOM = 3.9  # for a number with five digits
 FARTHEST = 13.0  # from a symbol to the next beside it
 VALUE = 2.2  # from a symbol to its value, if the symbol is short
 VECTOR = 4.4  # from one number of a vector to the next
+TALL = 3.0  # no row reaches farther from its baseline
 BESIDE = 0.6  # the largest share of the width for names that have their value beside them
 
 Cell = tuple[str, float, float]  # a text, its left and its right end from the left of the column
@@ -151,13 +152,21 @@ class Card:
 
     def _symbol(self, source: str, size: float, indent: float, baseline: float, color: Color) -> None:
         mark = Formula("card", source, (self.x + indent, baseline), size * self.em, color, "start")
-        draw_formula(self.pad, mark, (0.0, 0.0), 1.0)
+        if self._is_seen(baseline):
+            draw_formula(self.pad, mark, (0.0, 0.0), 1.0)
         self.right = max(self.right, mark.box()[2])
 
     def _put(self, content: str, indent: float, baseline: float, color: Color | None = None) -> None:
         at = (round(self.x + indent), round(baseline - self.ascent))
-        self.pad.add_text(at, d.u32(color or self.theme.text), content)
+        if self._is_seen(baseline):
+            self.pad.add_text(at, d.u32(color or self.theme.text), content)
         self.right = max(self.right, at[0] + self._text_width(content))
+
+    def _is_seen(self, baseline: float) -> bool:
+        """Whether a row can be seen where the panel is scrolled to; formulas of others are not even made images of."""
+        return (
+            self.pad.get_clip_rect_min().y - TALL * self.em < baseline < self.pad.get_clip_rect_max().y + TALL * self.em
+        )
 
     def _name_width(self, line: Line) -> float:
         return self._wide(line.symbol, SYMBOL) if line.symbol else self._text_width(line.name)

@@ -68,9 +68,11 @@ def _ends(card: Card, ends: list[Interface]) -> None:
         column.text(end.title, card.theme.muted, bold=True)
         if end.formula:
             column.formula(end.formula)
-        column.pairs(((Lecture.INDEX_1, end.n1), (Lecture.INDEX_2, end.n2)))
-        column.pairs(((Lecture.THETA_1, end.theta1), (Lecture.THETA_2, end.theta2)))
-        if end.is_clear:
+        if not end.is_clear:
+            column.pairs(((Lecture.INDEX_1, end.n1), (Lecture.THETA_1, end.theta1)))
+        else:
+            column.pairs(((Lecture.INDEX_1, end.n1), (Lecture.INDEX_2, end.n2)))
+            column.pairs(((Lecture.THETA_1, end.theta1), (Lecture.THETA_2, end.theta2)))
             column.pairs(((Lecture.THETA_C, end.critical), (Lecture.RADICAND, end.radicand)))
         column.skip(0.4)
         card.y, card.right = max(card.y, column.y), max(card.right, column.right)

@@ -78,6 +78,9 @@ def test_the_plain_text_of_a_formula(source: str, text: str) -> None:
         ("a}", "a } has no {"),
         (r"\frac{a}", "its end is missing"),
         ("a_", "its end is missing"),
+        ("a__b", "a _ has nothing before it"),
+        ("50 % of $a$", "'%' is not allowed"),
+        ("π", "'π' is not allowed"),
     ],
 )
 def test_what_is_not_in_our_part_of_latex_is_named(source: str, message: str) -> None:
@@ -95,6 +98,13 @@ def test_any_source_has_a_plain_text_or_one_line_about_its_fault(tokens: list[st
         assert "\n" not in str(fault)
     else:
         assert "\\" not in text and "{" not in text and "_" not in text
+
+
+@pytest.mark.parametrize("source", ("", " ", r"\quad", r"\left(", r"\right)", "x_1_2"))
+def test_what_cannot_be_typeset_is_one_line(source: str) -> None:
+    with pytest.raises(FormulaError, match=r"^[^\n]*$") as caught:
+        typeset(source)
+    assert repr(source.strip()) in str(caught.value)
 
 
 def test_figures_have_the_letters_of_all_formulas() -> None:

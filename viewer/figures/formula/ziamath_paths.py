@@ -28,13 +28,18 @@ def paths(source: str) -> tuple[float, list[str]]:
             drawn = made.svgxml()
             width = float(made.node.bbox.xmax)
         except Exception as error:  # of no type of its own
-            raise FormulaError(f"formula {source!r} cannot be typeset: {error}") from None
+            raise FormulaError(f"formula {source!r} cannot be typeset: {_reason(error)}") from None
         finally:
             config.svg2 = before
     found = [path for element in drawn.iter() if (path := _path(element))]
     if not found:
         raise FormulaError(f"formula {source!r} is empty")
     return width, found
+
+
+def _reason(error: Exception) -> str:
+    """An exception in one line."""
+    return " ".join(str(error).split()) or type(error).__name__
 
 
 def _spaced(source: str) -> str:
