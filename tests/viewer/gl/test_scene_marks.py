@@ -122,7 +122,7 @@ def test_an_arrow_points_to_each_light_outside_the_view() -> None:
                     suns += any(isinstance(mark, Disc) for mark in found)
                     if in_view:
                         continue
-                    tip, left, back, _ = (np.array(corner) for corner in arrow[0].corners)
+                    tip, _, back, _ = (np.array(corner) for corner in arrow[0].corners)
                     step = (tip - back) / np.linalg.norm(tip - back)
                     to_light = (point - eye) / np.linalg.norm(point - eye)
                     turns = np.linspace(0.0, 2.0 * math.pi, 90)
