@@ -77,7 +77,7 @@ def fragments(room: Driver) -> int:
     stage = room.canvas.stage
     assert stage.surfaces
     query = stage.ctx.query(samples=True)
-    stage.target.use()
+    stage.target.sampled.use()
     stage.ctx.enable_only(moderngl.BLEND)
     with query:
         stage.surfaces.draw_clear(room.session.orbit)
