@@ -10,6 +10,7 @@ from typing import Any
 from tracer.formats import READERS
 
 MAX_PIXELS = 16384  # across an image
+PAPER_LEAST, PAPER_MOST = 200, 4000  # points: the sides of a figure's page
 SMALLEST_ZOOM, LARGEST_ZOOM = 0.01, 1000.0  # of a picture in its panel
 NEAREST, FARTHEST = 1e-9, 1e9  # distance of the 3D view, in radii of the scene
 FAR = 1e6  # limit of the coordinates of a picture's middle
@@ -63,6 +64,14 @@ def _size(text: str) -> tuple[int, int]:
     if not (1 <= width <= MAX_PIXELS and 1 <= height <= MAX_PIXELS):
         raise Unreadable(f'a size from 1x1 to {MAX_PIXELS}x{MAX_PIXELS}, got "{text}"')
     return width, height
+
+
+def _paper(text: str) -> tuple[int, int]:
+    width, height = _size(text)
+    if not (PAPER_LEAST <= width <= PAPER_MOST and PAPER_LEAST <= height <= PAPER_MOST):
+        allowed = f"{PAPER_LEAST}x{PAPER_LEAST} to {PAPER_MOST}x{PAPER_MOST}"
+        raise Unreadable(f'a page from {allowed} points, got "{text}"')
+    return (width, height)
 
 
 def _ray(text: str) -> tuple[float, ...]:
@@ -127,6 +136,7 @@ TEXT = Value(str)
 FILE = Value(Path, metavar="FILE")
 PIXEL = Value(lambda text: _two(text, ","), lambda pixel: f"{pixel[0]},{pixel[1]}", "X,Y")
 SIZE = Value(_size, lambda size: f"{size[0]}x{size[1]}", "WxH")
+PAPER = Value(_paper, lambda size: f"{size[0]}x{size[1]}", "WxH")  # of a figure
 RAY = Value(_ray, _show_numbers, "ox,oy,oz,dx,dy,dz")  # origin and direction
 RAY_NAME = Value(_ray_name, metavar="PATH")
 RAY_PATH = Value(_ray_path, metavar="PATH")

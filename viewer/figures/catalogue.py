@@ -27,8 +27,13 @@ class FigureKind:
 
 
 FIGURES = (
-    FigureKind("both", "Scene and tree", "viewer.figures.figure.both:pages", ("view", "swatches", "fold", "eye")),
-    FigureKind("tree", "Ray tree", "viewer.figures.figure.tree:pages", ("swatches", "fold", "eye")),
+    FigureKind(
+        "both",
+        "Scene and tree",
+        "viewer.figures.figure.both:pages",
+        ("view", "swatches", "levels", "select", "fold", "eye"),
+    ),
+    FigureKind("tree", "Ray tree", "viewer.figures.figure.tree:pages", ("swatches", "levels", "select", "fold", "eye")),
     FigureKind("scene", "Scene", "viewer.figures.figure.scene:pages", ("view",)),
     FigureKind("hit", "Selected hit", "viewer.figures.figure.hit:pages", ("node",)),
 )

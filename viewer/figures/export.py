@@ -7,6 +7,7 @@ from pathlib import Path
 
 import tracer
 from tracer.kernel.world import World
+from tracer.tree.raytree import RayTree
 from viewer.base.files import Unusable, write_atomically
 from viewer.base.options import shell_line, words
 from viewer.base.orbit import STEEPEST, Frame, Orbit, ViewAngles, initial_orbit, orbit_beside
@@ -20,7 +21,7 @@ from viewer.figures.lights import many_lights
 from viewer.figures.marks import Figure, Text
 from viewer.figures.pages import pages
 from viewer.figures.ray_lines import MOST_IN_FIGURE
-from viewer.figures.steps import Step, by_color, by_depth, by_level, by_ray
+from viewer.figures.steps import Step, by_color, by_depth, by_level, by_ray, of_kinds
 from viewer.figures.subject import FigureStyle, Subject
 from viewer.figures.targets import Target, check_pages, grouped, mark_of, stem_of
 from viewer.figures.writers.png import PIXELS
@@ -76,12 +77,16 @@ def make(
     """
     depth = world.scene.tracing.depth
     depths = options.depth or range(depth, depth + 1)
-    steps = steps_of(world, options, depths)
+    every = steps_of(world, options, depths)
+    steps = chosen(every, options.page)
     check_pages(target, steps)
-    subject = Subject(steps, world, orbit_of(options.view, world, view))
+    # One page is laid out with the last one, the fullest, so that it is the same as among all pages.
+    laid_out = steps if options.page is None else [*steps, every[-1]]
+    subject = Subject(laid_out, world, orbit_of(options.view, world, view))
     style = style_of(options, steps)
     stem = stem_of(scene, options.pixel)
     drawn = pages(options.figure, subject, style) if any(FORMATS[name].figures for name in target.formats) else []
+    drawn = drawn[: len(steps)]
     notes = ray_notes(drawn, options.figure, subject) + fold_notes(drawn, options.figure, subject, style)
     notes += size_notes(drawn, options.figure, style) + sum_notes(drawn, options.figure, subject, style)
     carried, left_out = pack(embedded) if embedded and carries(target) else (b"", [])
@@ -94,13 +99,22 @@ def make(
         for k, group in enumerate(grouped(kind, steps, options.step)):
             progress(len(files) / (len(target.formats) * len(steps)))
             if kind.figures:
-                mark = mark_of(group, steps, options.step, depths)
+                mark = mark_of(group, every, options.step, depths)
                 content = kind.write(figures if kind.many_pages else figures[k : k + 1], options.width or PIXELS)
                 files.append((target.file(f"{stem}_{options.figure}_{mark}", kind.suffix), content))
             else:
                 one = group[-1].tree
                 files.append((target.file(f"{stem}_d{one.depth}", kind.suffix), kind.text(one).encode("utf-8")))
     return Made(files, notes)
+
+
+def chosen(steps: Sequence[Step], page: int | None) -> Sequence[Step]:
+    """All pages, or the one that is asked for. Unusable if there is no such page."""
+    if page is None:
+        return list(steps)
+    if page >= len(steps):
+        raise Unusable(f"raytree export: --page must be within 0 .. {len(steps) - 1}, got {page}")
+    return [steps[page]]
 
 
 def command_line(options: ExportOptions, format_name: str) -> str:
@@ -115,7 +129,7 @@ def carries(target: Target) -> bool:
     return any(FORMATS[name].suffix in CARRYING for name in target.formats)
 
 
-def steps_of(world: World, options: ExportOptions, depths: range) -> list[Step]:
+def steps_of(world: World, options: ExportOptions, depths: range) -> Sequence[Step]:
     """Trace the trees, and divide them into pages."""
     ray = (options.ray[:3], options.ray[3:]) if options.ray else None
     how = {
@@ -125,14 +139,19 @@ def steps_of(world: World, options: ExportOptions, depths: range) -> list[Step]:
         "model": options.model,
     }
     trees = [tracer.trace(world, options.pixel, ray, depth=depth, **how) for depth in depths]
-    lights = not options.no_lights
+    steps = _all_steps(trees, options)
+    return [of_kinds(step, {*options.filter, "camera"}) for step in steps] if options.filter is not None else steps
+
+
+def _all_steps(trees: Sequence[RayTree], options: ExportOptions) -> Sequence[Step]:
+    lights = not options.no_lights and (options.filter is None or "shadow" in options.filter)
     match options.step:
         case "levels":
-            return list(by_level(trees[-1], lights))
+            return by_level(trees[-1], lights)
         case "rays":
-            return list(by_ray(trees[-1], options.order, lights))
+            return by_ray(trees[-1], options.order, lights)
         case "colour":
-            return list(by_color(trees[-1], options.order, lights))
+            return by_color(trees[-1], options.order, lights)
     return by_depth(trees, lights)
 
 
@@ -146,7 +165,20 @@ def style_of(options: ExportOptions, steps: Sequence[Step]) -> FigureStyle:
         ground=options.ground,
         node=hit_row(steps[-1].tree, options.node) if options.figure == "hit" else 0,
         eye=options.eye or "top",
+        selected=selected_row(options, steps[-1].tree),
+        levels=options.levels,
+        page=(float(options.paper[0]), float(options.paper[1])),
     )
+
+
+def selected_row(options: ExportOptions, tree: RayTree) -> int | None:
+    """The row of the ray that is to be emphasised. ValueError if the tree does not have it."""
+    if options.select is None:
+        return None
+    row = tree.find(options.select)
+    if row is None:
+        raise ValueError(f"--select {options.select}: this tree has no such ray")
+    return row
 
 
 def orbit_of(numbers: tuple[float, ...] | None, world: World, view: ViewAngles | None) -> Orbit:
@@ -197,7 +229,7 @@ def sum_notes(drawn: Sequence[Figure], figure: str, subject: Subject, style: Fig
     if not drawn or figure not in ("both", "tree"):
         return []
     sizes = []
-    for step, page in zip(subject.steps, drawn, strict=True):
+    for step, page in zip(subject.steps, drawn, strict=False):
         if any(mark.name == f"hit-{step.sum}" for mark in page.marks):  # not in a folded branch
             texts = [mark.size for mark in page.marks if mark.name == f"sum-{step.sum}" and isinstance(mark, Text)]
             sizes.append(min(texts, default=0.0))

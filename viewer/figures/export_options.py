@@ -11,6 +11,7 @@ from viewer.base.values import (
     FIGURE_TOO,
     MAX_RAYS_HELP,
     ORBIT,
+    PAPER,
     PIXEL,
     PIXELS,
     POINTS,
@@ -23,6 +24,7 @@ from viewer.base.values import (
     UP_HELP,
     WEIGHT,
     Unreadable,
+    none_or_some_of,
     one_of,
     some_of,
     whole,
@@ -30,6 +32,7 @@ from viewer.base.values import (
 from viewer.figures.catalogue import FIGURE_NAMES, FORMATS, ORDERS, STEPS
 from viewer.reopen.view_state import KINDS, VIEW_WORDS, ViewState, merged
 
+SLIDE = (960, 540)  # points: 16 to 9
 TEXT_SIZE = 18.0  # points: readable in the last row if the figure fills a slide
 EYES = ("top", "left")  # of a tree
 
@@ -59,6 +62,7 @@ class ExportOptions:
         "rays, colour: breadth-first as the kernel does it, or depth-first as a recursion does",
         ORDERS[0],
     )
+    page: int | None = option(whole(0), "of the steps, only this page, from 0")
     model: str | None = option(one_of(MODELS), "the scene's own by default")
     min_weight: float = option(WEIGHT, "do not follow rays of a smaller weight", 0.0)
     max_rays: int | None = option(whole(1), MAX_RAYS_HELP)
@@ -66,10 +70,16 @@ class ExportOptions:
     up: str = option(one_of(UP_AXES), UP_HELP, UP_AXES[0])
     format: tuple[str, ...] = option(some_of(tuple(FORMATS)), f"of {', '.join(FORMATS)}; svg by default", ())
     theme: str = option(one_of(tuple(THEMES)), "light by default", "light")
+    paper: tuple[int, int] = option(PAPER, "width and height of the page in points, a slide by default", SLIDE)
     swatches: bool = switch("show the radiance of each ray in its box")
+    levels: bool = switch("tree: lines with the depths")
+    select: str | None = option(RAY_PATH, "tree: emphasise this ray; what is neither above nor below it is dimmed")
     fold: float = option(SHARE, "fold branches of a smaller weight into one box", 0.0)
     text_size: float = option(POINTS, f"points on a slide; {TEXT_SIZE:g} by default", TEXT_SIZE)
     eye: str | None = option(one_of(EYES), f"tree: the side of the eye; {EYES[0]} by default")
+    filter: tuple[str, ...] | None = option(
+        none_or_some_of(KINDS, "KINDS"), f"draw these kinds of rays only, and none below others: {','.join(KINDS)}"
+    )
     no_lights: bool = switch("leave out the rays to the lights")
     ground: bool = switch("on the theme's background; transparent by default")
     width: int | None = option(PIXELS, "PNG: pixels across; 1920 by default")
@@ -91,12 +101,14 @@ class ExportOptions:
             up=self.up,
             select=self._selected(),
             camera=self.view,
-            filter=tuple(kind for kind in KINDS if kind != "shadow") if self.no_lights else None,
+            filter=tuple(k for k in KINDS if k != "shadow") if self.no_lights else self.filter,
         )
         return merged(own, self.reopen) if self.reopen else own
 
     def _selected(self) -> str | None:
-        """The path of the ray that a figure of a hit is about, if it was given as a path."""
+        """The path of the ray that is emphasised, or that a figure of a hit is about, if it was given as a path."""
+        if self.select:
+            return self.select
         try:
             return RAY_PATH.read(self.node.upper()) if self.node else None
         except Unreadable:

@@ -5,7 +5,7 @@ lights.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from viewer.base.theme import STYLES, Theme
+from viewer.base.theme import STYLES, Color, Theme
 from viewer.figures import signs
 from viewer.figures.font import text_width
 from viewer.figures.layout.free_space import FreeSpace
@@ -72,6 +72,13 @@ def row_width(entries: Sequence[Entry], size: float) -> float:
     return sum(entry.width(size) + APART * size for entry in entries)
 
 
+def ray_sample(kind: str, at: Point, length: float, color: Color) -> Line:
+    """A piece of a ray of this kind, from its left end."""
+    style = STYLES[kind]
+    end = (at[0] + length, at[1])
+    return Line(f"legend-{kind}", at, end, Stroke(color, style.width, style.dash), style.arrow, 0.65)
+
+
 def _take(vacant: FreeSpace, block: Sequence[Entry], corners: Sequence[str], size: float) -> Point | None:
     """The place of a block's first line."""
     wide = max((entry.width(size) for entry in block), default=0.0)
@@ -97,9 +104,7 @@ def _entry(entry: Entry, at: Point, size: float, theme: Theme) -> list[Mark]:
     if entry.what == "lights":
         return [words]
     if entry.what in STYLES:
-        style = STYLES[entry.what]
-        stroke = Stroke(theme.ray(entry.what), style.width, style.dash)
-        return [Line(name, (x, y), (x + 2.0 * size, y), stroke, style.arrow, 0.65), words]
+        return [ray_sample(entry.what, (x, y), 2.0 * size, theme.ray(entry.what)), words]
     if entry.what == CUT:
         return [*signs.cut(name, (x + 0.5 * size, y), size, theme.muted), words]
     if not entry.stub:

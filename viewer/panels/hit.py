@@ -4,13 +4,13 @@ from imgui_bundle import imgui
 
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
-from viewer.base.theme import FONT_SIZE
+from viewer.base.theme import PANEL_TEXT
 from viewer.explain.ray import headline
 from viewer.figures.figure.hit import hit_marks
 from viewer.figures.marks import Mark, with_line_width
 from viewer.figures.picking import mark_at, row_of
 from viewer.figures.steps import Step
-from viewer.figures.writers.imgui import EM, draw_marks
+from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.panel import Panel
@@ -32,6 +32,7 @@ def draw(session: Session, canvas: Canvas) -> None:
         return
     imgui.invisible_button("hit", room)
     size = (round(room.x / unit), round(room.y / unit))
+    session.layout.papers["hit"] = size
     marks = canvas.hit.get(_key(session, row, size), lambda: _marks(session, tree, row, size))
     hovered = session.hovered
     if imgui.is_item_hovered():
@@ -71,7 +72,7 @@ def _marks(session: Session, tree: RayTree, row: int, size: tuple[int, int]) -> 
     rows = frozenset(i for i in (row, *tree.children[row]) if i == row or tree.kind(i) in kinds)
     step = Step(tree, rows, frozenset())
     where = (0.0, 0.0, float(size[0]), float(size[1]))
-    return hit_marks(step, row, EM * FONT_SIZE, session.appearance.theme, session.world, where)
+    return hit_marks(step, row, PANEL_TEXT, session.appearance.theme, session.world, where)
 
 
-PANEL = Panel("Hit", draw, Corner.BOTTOM_RIGHT, fills=True, shows_ray=True)
+PANEL = Panel("Hit", draw, Corner.BOTTOM_RIGHT, fills=True, figure="hit", shows_ray=True)

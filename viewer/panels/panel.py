@@ -20,7 +20,9 @@ class Panel:
     fills: bool = False  # its picture fills the panel, its title lies on it; otherwise it is text, which scrolls
     head: Callable[[Session, float], None] | None = None  # beside the title; it may be so many pixels wide
     is_named: bool = True  # whether its title is shown, where it stands alone
+    short: str = ""  # its title where there is little room
     is_covered: bool = True  # whether the title may cover a part of the picture
+    figure: str | None = None  # that it shows, or that is like it: its name in `viewer.figures.catalogue`
     shows_ray: bool = False  # whether it shows what is selected
     request: Request | None = None  # that brings it to the front
     exists: Callable[[Session], bool] = lambda session: True

@@ -95,4 +95,4 @@ def _details(card: Card, parts: list[Part]) -> None:
         card.y, card.right = max(card.y, column.y), max(card.right, column.right)
 
 
-PANEL = Panel("Selected ray", draw, Corner.BOTTOM_RIGHT, request=Request.SHOW_RAY)
+PANEL = Panel("Selected ray", draw, Corner.BOTTOM_RIGHT, short="Ray", request=Request.SHOW_RAY)

@@ -33,6 +33,7 @@ def draw(session: Session, canvas: Canvas) -> None:
     if not session.world:
         return
     _handle_mouse(session, canvas, corner, room)
+    session.layout.papers["scene"] = (int(room.x / d.unit()), int(room.y / d.unit()))
     canvas.stage_place = (corner.x, corner.y, room.x, room.y)
     pixels = imgui.get_io().display_framebuffer_scale
     size = (int(room.x * pixels.x), int(room.y * pixels.y))
@@ -114,4 +115,4 @@ def _head(session: Session, room: float) -> None:
     imgui.text(session.world.scene.caption if session.world else "Scene")
 
 
-PANEL = Panel("Scene", draw, Corner.TOP_LEFT, fills=True, head=_head, is_named=False)
+PANEL = Panel("Scene", draw, Corner.TOP_LEFT, fills=True, head=_head, is_named=False, figure="scene")

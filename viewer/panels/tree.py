@@ -10,7 +10,7 @@ from imgui_bundle import imgui
 
 from tracer.tree.raytree import RayTree
 from tracer.tree.text import cut_summary
-from viewer.base.theme import SMALL, TREE_TEXT
+from viewer.base.theme import PANEL_TEXT, SMALL
 from viewer.base.wording import format_number
 from viewer.explain.ray import headline
 from viewer.figures.figure.tree import plan_pages, plan_steps
@@ -28,6 +28,7 @@ from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.panel import Panel
+from viewer.panels.reveal import draw_controls
 from viewer.session.layout import Corner
 from viewer.session.session import Session
 
@@ -51,7 +52,8 @@ def draw(session: Session, canvas: Canvas) -> None:
     look, unit = session.tree_view, d.unit()
     # Zoomed out, the same panel is a larger page: it has room for more rays, in smaller text.
     scale, wide = unit * look.zoom, max(1.0, 1.0 / look.zoom)
-    page = (room.x / unit * wide, room.y / unit * wide)
+    page = (float(int(room.x / unit * wide)), float(int(room.y / unit * wide)))
+    session.layout.papers["tree"] = (int(page[0]), int(page[1]))
     marks = _marks(session, canvas, page)
     middle = (corner.x + 0.5 * room.x + look.center[0] * unit, corner.y + 0.5 * room.y + look.center[1] * unit)
     origin = (middle[0] - 0.5 * scale * page[0], middle[1] - 0.5 * scale * page[1])
@@ -75,7 +77,7 @@ def _marks(session: Session, canvas: Canvas, page: tuple[float, float]) -> list[
     full, kinds, selected = session.full_tree, frozenset(session.shown.kinds), session.selected
     assert full
     style = FigureStyle(
-        session.appearance.theme, TREE_TEXT, swatches=True, selected=selected, levels=True, legend=False, page=page
+        session.appearance.theme, PANEL_TEXT, swatches=True, selected=selected, levels=True, legend=False, page=page
     )
 
     def plan_for(selected: int | None):
@@ -115,7 +117,6 @@ def _note(tree: RayTree, marks: Sequence[Mark], style: FigureStyle) -> list[Mark
         return []
     size, (width, height) = SMALL * style.text_size, style.page
     vacant = FreeSpace((EDGE, EDGE, width - EDGE, height - EDGE), marks)
-    vacant.take((0.0, 0.0, 8.0 * style.text_size, 2.5 * style.text_size))  # the panel's title
     weight, most = format_number(tree.residual, 3), tree.bound
     bound = f"at most {format_number(most, 3)} missing" if most < math.inf else "no bound on the missing light"
     for words in (cut_summary(tree), f"cut: {weight} of the weight, {bound}", f"cut: {weight} of the weight"):
@@ -182,4 +183,13 @@ def _handle_mouse(session: Session, canvas: Canvas, marks: list[Mark], origin: P
         session.select(row)
 
 
-PANEL = Panel("Ray tree", draw, Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT, fills=True, shows_ray=True)
+def _head(session: Session, room: float) -> None:
+    """The controls of the steps, while the tree is revealed step by step."""
+    if session.step:
+        draw_controls(session)
+
+
+PANEL = Panel(
+    "Ray tree", draw, Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT, fills=True, head=_head, short="Tree", is_covered=False,
+    figure="tree", shows_ray=True,
+)  # fmt: skip

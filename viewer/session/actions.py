@@ -81,6 +81,12 @@ def open_lesson(session: Session, name: str) -> None:
     session.loader.open(lesson.scene, lesson)
 
 
+def step_line(session: Session, by: int) -> None:
+    """Go to the next line of the recursion, or the one before, and show it."""
+    session.recursion.go(by)
+    session.requests.append(Request.SHOW_RECURSION)
+
+
 def toggle_granularity(session: Session) -> None:
     """Reveal the tree by level, or by ray."""
     session.reveal.toggle_granularity()

@@ -19,6 +19,7 @@ from viewer.figures.export_options import ExportOptions
 from viewer.reopen.scene_files import SceneFiles
 from viewer.session.restore.command import embedded
 
+SHOWN = ""  # in place of a figure's name: that of the panel under the mouse, or scene and tree
 HINT = "(Ctrl+Shift+C copies its command line)"
 
 
@@ -32,6 +33,7 @@ class Shown:
     scene: str  # its name in file names
     view: ViewAngles | None
     files: SceneFiles | None  # carried by the figure
+    step: str = ""  # the name of the step in file names
 
     @property
     def size(self) -> tuple[int, int]:
@@ -44,7 +46,7 @@ class FigureExport:
 
     def __init__(self, post: Callable[[Callable[[], object]], object]) -> None:
         self.post = post  # posts a call to the window's thread
-        self.figure = "both"
+        self.figure = SHOWN
         self.format = "svg"
         self.theme = ""  # empty: the window's
         self.command = ""  # that makes the last figure again
@@ -56,7 +58,11 @@ class FigureExport:
         self.kept = path
         try:
             found = json.loads(read_text(path))
-            if found["figure"] in FIGURE_NAMES and found["format"] in PICTURES and found["theme"] in ("", *THEMES):
+            if (
+                found["figure"] in (SHOWN, *FIGURE_NAMES)
+                and found["format"] in PICTURES
+                and found["theme"] in ("", *THEMES)
+            ):
                 self.figure, self.format, self.theme = found["figure"], found["format"], found["theme"]
         except (OSError, Fault, ValueError, KeyError, TypeError, RecursionError):
             return  # there is no such file, or it is not ours
@@ -78,7 +84,8 @@ class FigureExport:
         self.command = shell_line(["raytree", "export", *words(options, leave_out=("output",))])
         self._keep()
         depth = options.depth[-1] if options.depth else 0
-        stem = f"{stem_of(shown.scene, options.pixel)}_{self.figure}_d{depth}"
+        step = f"_{shown.step}" if shown.step else ""
+        stem = f"{stem_of(shown.scene, options.pixel)}_{options.figure}_d{depth}{step}"
         target = Target(free_path(Path.cwd() / (stem + FORMATS[name].suffix)), is_folder=False, formats=(name,))
         say("copying the figure ..." if copied else f"exporting {target.path.name} ...")
 

@@ -64,6 +64,8 @@ class Layout:
     lecture: Arrangement = field(default_factory=in_a_lecture)
     maximised: str | None = None  # its title
     on_show: set[Corner] = field(default_factory=set)  # places of the last frame
+    papers: dict[str, tuple[int, int]] = field(default_factory=dict)  # sizes of the figures in panels, in points
+    pointed: str | None = None  # the figure in the panel under the mouse, or in the one that has all of the room
 
     def reset(self) -> None:
         """Put all panels back in place."""

@@ -53,9 +53,14 @@ class Reveal:
     # --- the current step ---------------------------------------------------------------------------------------------
 
     @property
+    def tree(self) -> RayTree | None:
+        """The tree on show."""
+        return self._tree()
+
+    @property
     def steps(self) -> Steps | None:
         """All steps of the tree on show."""
-        tree, lights = self._tree(), self._has_lights()
+        tree, lights = self.tree, self._has_lights()
         if tree is None:
             return None
 
@@ -107,6 +112,12 @@ class Reveal:
         if steps:
             step = steps[min(max(position, 0), len(steps) - 1)]
             self.place = Place(steps.tree.path(max(step.current)), step.sum is not None)
+
+    def show(self, row: int, sums: bool) -> None:
+        """Go to the step that adds a row of the tree on show, or with `sums` to the one that sums it up."""
+        self.pause()
+        if self.tree:
+            self.place = Place(self.tree.path(row), sums)
 
     def first(self) -> None:
         self.pause()

@@ -2,12 +2,15 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from viewer.base.clipboard import copy_to_clipboard
 from viewer.base.files import Unusable, free_path
 from viewer.base.pictures import write_picture
+from viewer.base.theme import PANEL_TEXT
+from viewer.figures.catalogue import ORDERS, STEPS
 from viewer.figures.export_options import ExportOptions
-from viewer.reopen.view_state import UNCHANGED, differing
+from viewer.reopen.view_state import KINDS, UNCHANGED, differing
 from viewer.session.figure_export import Shown
 from viewer.session.restore.command import scene_word, view_command
 from viewer.session.restore.figure_scene import save_copy
@@ -21,7 +24,9 @@ def export_figure(session: Session, copied: bool = False) -> None:
     if not tree or not session.world or not session.opening:
         session.notice.say("nothing to export yet: pick a pixel")
         return
-    figure, lesson, opening = session.export.figure, session.lesson, session.opening
+    lesson, opening = session.lesson, session.opening
+    figure = session.export.figure or session.layout.pointed or "both"
+    step = session.step if figure != "hit" else None  # a hit has no steps
     options = ExportOptions(
         scene=scene_word(opening.path, lesson, opening.figure),
         pixel=session.pixel,
@@ -29,8 +34,12 @@ def export_figure(session: Session, copied: bool = False) -> None:
         view=session.orbit.view(session.frame) if figure in ("both", "scene") else None,
         node=tree.path(session.selected) if figure == "hit" and session.selected is not None else None,
         depth=range(session.depth, session.depth + 1),
+        step=session.reveal.granularity if step else STEPS[0],
+        order=session.reveal.order if step else ORDERS[0],
+        page=session.reveal.position if step else None,
         model=session.model,
-        no_lights="shadow" not in session.shown.kinds,
+        filter=None if session.shown.kinds == set(KINDS) else tuple(k for k in KINDS if k in session.shown.kinds),
+        **_as_on_show(session, figure),
         up=session.up,
         output=".",
     )
@@ -39,8 +48,21 @@ def export_figure(session: Session, copied: bool = False) -> None:
     more = differing(state, options.state(session.size))
     options = replace(options, reopen=more if more != UNCHANGED else None)
     name, angles = (lesson.name, lesson.view) if lesson else (opening.path.stem, None)
-    shown = Shown(options, session.appearance.theme.name, session.world, name, angles, opening.files)
+    part = step.name if step else ""
+    shown = Shown(options, session.appearance.theme.name, session.world, name, angles, opening.files, part)
     session.export.start(shown, copied, session.notice.say, session.show_faults)
+
+
+def _as_on_show(session: Session, figure: str) -> dict[str, Any]:
+    """The options with which a figure is the one in its panel."""
+    paper = session.layout.papers.get(figure)
+    trees = figure in ("tree", "both")
+    found: dict[str, Any] = {"paper": paper, "text_size": PANEL_TEXT} if paper else {}
+    if trees:
+        found |= {"swatches": True, "select": session.selection if session.selected is not None else None}
+    if figure == "tree":
+        found["levels"] = True
+    return found
 
 
 def copy_command(session: Session) -> None:

@@ -27,6 +27,7 @@ from viewer.session.figure_export import FigureExport
 from viewer.session.guard import Guard
 from viewer.session.history import History, Place
 from viewer.session.image_renderer import ImageRenderer
+from viewer.session.recursion import Recursion
 from viewer.session.refinement import Refinement
 from viewer.session.restore.view import restore
 from viewer.session.reveal import Reveal
@@ -53,6 +54,7 @@ class Session(Looks):
         self.export = FigureExport(self.calls.post)
         self.verification = Verification(self.calls.post)
         self.reveal = Reveal(lambda: self.tree, lambda: "shadow" in self.shown.kinds)
+        self.recursion = Recursion(self.reveal, self.calls.post)
         # The scene on show.
         self.faults: list[str] = []  # of the last opened scene or the last action; the last good scene stays on show
         self.faults_in_files = False  # whether they are of the scene's files
@@ -69,8 +71,7 @@ class Session(Looks):
         self.selection: str | None = None  # the path of the selected ray, if the tree has it
         self.history = History()
         self._selected: Cached[int | None] = Cached()
-        if NOTE:
-            self.notice.say(NOTE)
+        self.notice.say(NOTE)
 
     # --- the scene ----------------------------------------------------------------------------------------------------
 

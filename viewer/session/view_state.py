@@ -19,6 +19,7 @@ class Request(Enum):
     SHOW_LESSON = auto()  # bring this panel to the front
     SHOW_RAY = auto()
     SHOW_ERROR = auto()
+    SHOW_RECURSION = auto()
     MAXIMISE = auto()  # the panel under the mouse; again: give the room back
     NEXT_PANEL = auto()  # of those at the lower right
     OPEN_DIALOG = auto()

@@ -3,12 +3,15 @@
 from imgui_bundle import imgui
 
 from tracer.choices import MODELS
-from viewer.base.theme import STYLES, faded
+from viewer.base.theme import STYLES, blend, faded
+from viewer.figures.legend import ray_sample
+from viewer.figures.writers.imgui import draw_marks
 from viewer.panels import draw as d
 from viewer.panels.image import waiting_lines
 from viewer.session.session import Session
 
 NAME = "##bar"
+SAMPLE_LENGTH = 28.0  # logical pixels
 SAMPLE = 44  # logical pixels of a legend entry beside its name
 GAP = 6  # between two entries
 
@@ -100,7 +103,8 @@ def _legend(session: Session, right: float) -> None:
             pad.add_rect_filled(at, (at.x + size[0], at.y + size[1]), d.u32(theme.hover), 4 * unit)
         opacity = 1.0 if on else 0.32
         middle = at.y + 0.5 * size[1]
-        d.sample(pad, (at.x + 5 * unit, middle), 28 * unit, style, faded(theme.ray(kind), opacity), unit)
+        sample = ray_sample(kind, (0.0, 0.0), SAMPLE_LENGTH, blend(theme.ray(kind), opacity, theme.ground))
+        draw_marks(pad, [sample], (at.x + 5 * unit, middle), unit)
         text_at = (at.x + 38 * unit, middle - 0.5 * imgui.get_font_size())
         d.text(pad, text_at, faded(theme.text, opacity), label, imgui.get_font_size())
         if not on:

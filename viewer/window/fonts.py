@@ -9,14 +9,15 @@ from viewer.base.theme import FONT_SIZE
 
 
 def load_fonts() -> None:
-    """Roboto, regular and bold, and from DejaVu Sans the arrows and subscripts that it lacks. Panels take the fonts in
-    this order: `viewer.panels.draw`.
+    """Roboto, regular and bold, with the arrows and subscripts of DejaVu Sans that it lacks, and Inconsolata for source
+    text. Panels take the fonts in this order: `viewer.panels.draw`.
     """
-    roboto = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "Roboto"
+    shipped = Path(imgui_bundle.__file__).parent / "assets" / "fonts"
     symbols = Path(__file__).parent.parent / "fonts" / "DejaVuSans-symbols.ttf"
     fonts = imgui.get_io().fonts
     for weight in ("Regular", "Bold"):
-        fonts.add_font_from_file_ttf(str(roboto / f"Roboto-{weight}.ttf"), FONT_SIZE)
+        fonts.add_font_from_file_ttf(str(shipped / "Roboto" / f"Roboto-{weight}.ttf"), FONT_SIZE)
         config = imgui.ImFontConfig()
         config.merge_mode = True
         fonts.add_font_from_file_ttf(str(symbols), 0.86 * FONT_SIZE, config)
+    fonts.add_font_from_file_ttf(str(shipped / "Inconsolata-Medium.ttf"), FONT_SIZE)

@@ -4,7 +4,7 @@ A title on a picture stands on a plate. A click on a title brings its panel to t
 the room.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from imgui_bundle import imgui
 
@@ -69,16 +69,18 @@ def _row(session: Session, sharing: Sequence[Panel], front: Panel, head: Callabl
     imgui.set_cursor_pos((1.5 * MARGIN * unit, 0.75 * MARGIN * unit))
     imgui.begin_group()
     titles = sharing if len(sharing) > 1 or front.is_named else ()
+    is_short = _row_width(panel.title for panel in titles) > imgui.get_content_region_avail().x
     for k, panel in enumerate(titles):
         if k:
             imgui.same_line(0.0, BETWEEN * unit)
-        _title(session, panel, panel is front, len(sharing) > 1)
+        _title(
+            session, panel, panel is front, len(sharing) > 1, panel.short if is_short and panel.short else panel.title
+        )
     if front.head:
         if titles:
             imgui.same_line(0.0, BETWEEN * unit)
         head(imgui.get_content_region_avail().x)
     imgui.end_group()
-    imgui.dummy((0.0, 0.25 * MARGIN * unit))
 
 
 def _plate(session: Session, panel: Panel, head: Callable[[float], object]) -> None:
@@ -114,15 +116,20 @@ def _is_doubly_clicked() -> bool:
     return over and imgui.is_mouse_double_clicked(imgui.MouseButton_.left)
 
 
-def _title(session: Session, panel: Panel, is_front: bool, is_choice: bool) -> None:
-    theme = session.appearance.theme
+def _row_width(titles: Iterable[str]) -> float:
     with d.bold():
-        size = imgui.calc_text_size(panel.title)
+        return sum(imgui.calc_text_size(title).x + BETWEEN * d.unit() for title in titles)
+
+
+def _title(session: Session, panel: Panel, is_front: bool, is_choice: bool, words: str = "") -> None:
+    theme, words = session.appearance.theme, words or panel.title
+    with d.bold():
+        size = imgui.calc_text_size(words)
         at = imgui.get_cursor_screen_pos()
         pressed = imgui.invisible_button(f"title {panel.title}", size)
         color = theme.text if is_front else theme.text if imgui.is_item_hovered() else theme.muted
         pad = imgui.get_window_draw_list()
-        pad.add_text(at, d.u32(color), panel.title)
+        pad.add_text(at, d.u32(color), words)
         if is_front and is_choice:
             below = at.y + size.y + 1.0
             pad.add_line((at.x, below), (at.x + size.x, below), d.u32(theme.accent), 2.0 * d.unit())

@@ -17,6 +17,7 @@ from viewer.session.actions import (
     look_through_camera,
     nudge,
     step,
+    step_line,
     toggle_granularity,
     toggle_loop,
     toggle_model,
@@ -117,6 +118,16 @@ def _scroll(by: int) -> Act:
     return act
 
 
+def _page(by: int) -> Act:
+    def act(session: Session) -> None:
+        if imgui.get_io().key_shift or _just_released(SHIFT):
+            step_line(session, by)
+        else:
+            session.reveal.go(by)
+
+    return act
+
+
 def _speed(by: int) -> Act:
     return lambda session: change_speed(session, by)
 
@@ -147,8 +158,9 @@ BINDINGS = (
     ),
     Binding(
         "Page Down, Page Up", "reveal the tree: next step, the one before",
-        pressed={K.page_down: lambda s: s.reveal.go(1), K.page_up: lambda s: s.reveal.go(-1)},
+        pressed={K.page_down: _page(1), K.page_up: _page(-1)},
     ),
+    Binding("Shift+Page Down, Up", "the recursion: next line of its code, the one before"),
     Binding(
         "Home, End", "first step, last step",
         pressed={K.home: lambda s: s.reveal.first(), K.end: lambda s: s.reveal.last()},
@@ -158,12 +170,12 @@ BINDINGS = (
     ),
     Binding("<  >  E", "play slower, faster; endlessly", {"<": _speed(-1), ">": _speed(1), "e": toggle_loop}),
     Binding(
-        "G  O", "steps by level or by ray; breadth-first as the kernel, or depth-first as the recursive procedure",
+        "G  O", "steps: levels or rays; breadth-first as the kernel, or depth-first as the recursion",
         {"g": toggle_granularity, "o": toggle_order},
     ),
     Binding("J  K", "scroll the text or the numbers: down, up", {"j": _scroll(LINES), "k": _scroll(-LINES)}),
     Binding(
-        "P", "next panel at the lower right: lesson, numbers, error",
+        "P", "next panel at the lower right: lesson, numbers, error, recursion",
         {"p": lambda session: session.requests.append(Request.NEXT_PANEL)},
     ),
     Binding(

@@ -10,6 +10,7 @@ from viewer.base.theme import THEMES
 from viewer.figures.catalogue import FIGURES, FORMATS, PICTURES
 from viewer.lessons import lesson as lessons
 from viewer.session.actions import go, look_through_camera, open_lesson
+from viewer.session.figure_export import SHOWN
 from viewer.session.saving import copy_command, export_figure, save_image, save_scene
 from viewer.session.session import Session
 from viewer.session.view_state import Pointer, Request
@@ -61,6 +62,8 @@ def _figure_menu(session: Session) -> None:
     if imgui.menu_item_simple("Copy its command line", "Ctrl+Shift+C", False, bool(export.command)):
         copy_command(session)
     imgui.separator()
+    if imgui.menu_item_simple("The panel under the mouse", "", export.figure == SHOWN):
+        export.figure = SHOWN
     for kind in FIGURES:
         if imgui.menu_item_simple(kind.title, "", export.figure == kind.name):
             export.figure = kind.name

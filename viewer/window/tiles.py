@@ -34,6 +34,8 @@ class Tiles:
         else:
             self.places, borders = tile(arrangement, set(sharing), room, GAP * d.unit())
         layout.on_show = set(self.places)
+        pointed = alone or self._under_mouse()
+        layout.pointed = pointed.figure if pointed else None
         self.part("the borders", lambda: self._borders(arrangement, borders, room), closes=False)
         # The scene comes last: it shows at once what is picked in the image, or selected in the tree.
         for place, where in sorted(self.places.items(), key=lambda item: item[0] is Corner.TOP_LEFT):
@@ -118,10 +120,15 @@ class Tiles:
 
     def maximise(self) -> None:
         """Give the panel under the mouse all of the room, or give it back."""
-        layout, mouse = self.session.layout, imgui.get_mouse_pos()
+        layout, panel = self.session.layout, self._under_mouse()
         if layout.maximised:
             layout.maximise(layout.maximised)
-            return
+        elif panel:
+            layout.maximise(panel.title)
+
+    def _under_mouse(self) -> Panel | None:
+        mouse = imgui.get_mouse_pos()
         for place, (left, top, width, height) in self.places.items():
             if left <= mouse.x < left + width and top <= mouse.y < top + height:
-                layout.maximise(self._front(place)[1].title)
+                return self._front(place)[1]
+        return None

@@ -93,6 +93,10 @@ def test_a_ray_by_hand(tmp_path: Path) -> None:
             "raytree export: --order recursion is for --step rays and colour, got levels",
         ),
         (
+            ["-o", "{}/a.svg", "--step", "rays", "--page", "20"],
+            "raytree export: --page must be within 0 .. 19, got 20",
+        ),
+        (
             ["-o", "{}/a.svg", "--order", "recursion"],
             "raytree export: --order recursion is for --step rays and colour, got depth",
         ),

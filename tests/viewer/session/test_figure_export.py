@@ -1,6 +1,7 @@
 """Ctrl+S in the window: the figure on show, and a command line that makes the same bytes."""
 
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -56,6 +57,38 @@ def test_the_command_line_makes_the_same_file(room: Driver, figure: str, tmp_pat
     assert command[0] == "raytree"
     assert main.main([*command[1:], "-o", "again.svg"]) == 0
     assert Path("again.svg").read_bytes() == path.read_bytes()
+
+
+@pytest.mark.parametrize("figure", ("both", "tree"))
+@pytest.mark.parametrize(("order", "keys"), (("breadth", ""), ("breadth", "g"), ("recursion", "o")))
+def test_a_step_on_show_is_the_exported_page(room: Driver, figure: str, order: str, keys: str) -> None:
+    """Ctrl+S writes the step on show, its command line the same bytes, and all pages at once have the same marks."""
+    room.open("mirror-balls")
+    session, reveal = room.session, room.session.reveal
+    session.export.figure = figure
+    room.type(keys)
+    granularity, count = reveal.granularity, len(reveal.steps or ())
+    of_pixel = ["mirror-balls", "--pixel", "{},{}".format(*session.pixel or ()), "--depth", str(session.depth)]
+    steps = ["--figure", figure, "--step", granularity, "--order", order, "--theme", "dark"]
+    if figure == "both":
+        view = ",".join(map(repr, session.orbit.view(session.frame)))
+        steps.append(f"--view={view}")
+    assert main.main(["export", *of_pixel, *steps, "-o", "all/"]) == 0
+    pages = sorted(Path("all").iterdir())
+    assert len(pages) == count
+    for k in range(0, count, 3):
+        reveal.go_to(k)
+        path = save(room)
+        assert session.step and path.stem.endswith(f"_{session.step.name}") and path.name == pages[k].name
+        command = shlex.split(session.export.command)
+        assert main.main([*command[1:], "-o", "again.svg"]) == 0
+        assert Path("again.svg").read_bytes() == path.read_bytes()
+        assert drawn(path) == drawn(pages[k])
+
+
+def drawn(path: Path) -> str:
+    """An SVG without the command that makes it."""
+    return re.sub(r"<metadata>.*?</metadata>", "", path.read_text("utf-8"), flags=re.DOTALL)
 
 
 def test_an_earlier_figure_is_never_lost(room: Driver) -> None:

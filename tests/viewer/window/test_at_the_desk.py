@@ -15,7 +15,8 @@ from tests.viewer.screen import hand
 from viewer.base.theme import FONT_SIZE, LECTURE_ZOOM
 from viewer.figures.catalogue import BREADTH, RECURSION
 from viewer.figures.steps import by_level
-from viewer.panels import ray, tree
+from viewer.panels import PANELS, ray, tree
+from viewer.session.layout import Corner
 from viewer.session.reveal import LEVELS, RAYS
 from viewer.window import bar
 from viewer.window.app import FASTEST
@@ -103,12 +104,12 @@ def test_lessons_and_panels_by_keys(desk: Desk) -> None:
     desk.until(lambda: desk.session.lesson is not None and desk.session.lesson.name == "underwater", "the lesson")
     desk.until(desk.is_quiet, "its image")
     seen = []
-    for _ in range(4):
+    titles = {panel.title for panel in PANELS if panel.place is Corner.BOTTOM_RIGHT}
+    for _ in range(len(titles) + 1):
         hand("key", "p")
         key(desk)
-        shown = [title for title in ("Selected ray", "Error", "Lesson") if is_on_show(title)]
-        seen += shown
-    assert len(seen) == 4 and set(seen) == {"Selected ray", "Error", "Lesson"} and seen[0] == seen[3]
+        seen += [title for title in titles if is_on_show(title)]
+    assert len(seen) == len(titles) + 1 and set(seen) == titles and seen[0] == seen[-1]
 
 
 def is_on_show(title: str) -> bool:
@@ -189,6 +190,23 @@ def test_a_remote_reveals_the_tree(desk: Desk) -> None:
     assert session.selection == shown[1]
     hand("key", "Escape")
     desk.until(lambda: session.selection is None, "no selected ray")
+
+
+def test_shift_and_page_down_go_line_by_line(desk: Desk) -> None:
+    session, lines = desk.session, desk.session.recursion
+    hand("key", "shift+Next")
+    desk.until(lambda: lines.moment == 0 and is_on_show("Recursion"), "the first line")
+    assert session.reveal.order == RECURSION and session.reveal.position == 0
+    hand("key", "shift+Next", "shift+Next", "shift+Next")
+    desk.until(lambda: lines.moment == 3, "three lines on")
+    assert session.reveal.position == 1  # the shadow rays have been sent
+    hand("key", "shift+Prior", "shift+Prior")
+    desk.until(lambda: lines.moment == 1, "two lines back")
+    assert session.reveal.position == 0
+    hand("key", "Next", "Next")
+    desk.until(lambda: session.reveal.position == 2, "a step of the tree")
+    recording = lines.recording
+    assert recording and session.step and lines.moment == recording.find(max(session.step.current), False)
 
 
 def test_order_granularity_speed_and_loop_by_keys(desk: Desk) -> None:

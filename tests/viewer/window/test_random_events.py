@@ -21,7 +21,7 @@ from viewer.window import keys
 K = imgui.Key
 EVENTS = 500  # a seed
 NAMED = [K(k) for k in range(K.named_key_begin, K.mouse_left) if K(k) not in (K.q, K.left_super, K.right_super)]
-OFTEN = (K.escape, K.page_down, K.page_up, K.tab, K.left_arrow, K.s, K.c) * 8
+OFTEN = (K.escape, K.page_down, K.page_up, K.f5, K.home, K.end, K.tab, K.left_arrow, K.s, K.c) * 8
 MODIFIERS = (K.mod_ctrl, K.mod_shift, K.mod_alt)
 CHARACTERS = [*keys.TYPED, "я", "é", "\0", "𝄞", "Q", " ", "\x1b"]
 SIZES = ((1280, 720), (1920, 1080), (640, 400), (200, 150), (1, 1), (3000, 300))

@@ -57,10 +57,11 @@ def pages(subject: Subject, style: FigureStyle) -> Pages:
     """One hit in its plane of incidence. The page is empty before the step with the hit."""
     if style.text_size > LARGEST:
         raise ValueError(f"a hit has room for text of {LARGEST:g} points at most, got {style.text_size:g}")
-    return [
-        hit_marks(step, style.node, style.text_size, style.theme, subject.world) if style.node in step.rows else []
-        for step in subject.steps
-    ]
+    return [_marks(step, style, subject.world) if style.node in step.rows else [] for step in subject.steps]
+
+
+def _marks(step: Step, style: FigureStyle, world: World | None) -> list[Mark]:
+    return hit_marks(step, style.node, style.text_size, style.theme, world, style.canvas)
 
 
 def hit_marks(
