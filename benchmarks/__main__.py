@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from benchmarks import adaptive, against_embree, against_povray, click, flat, growth, lessons, start, window
+from benchmarks import adaptive, against_embree, against_povray, click, flat, growth, lessons, pick, start, window
 from benchmarks.results.against_before import changes
 from benchmarks.results.figure import Figure
 from benchmarks.results.machine import machine
@@ -33,6 +33,7 @@ PARTS: dict[str, Callable[[Options], list[Task]]] = {
     "click": click.clicks,
     "start": start.starts,
     "window": window.window,
+    "pick": pick.picks,
 }
 
 

@@ -14,7 +14,7 @@ MET, MISSED, PLAIN, LINE = "#3b78b5", "#c8651b", "#a3acb5", "#1d1d1f"
 LABELS = {
     "povray": "Images against POV-Ray", "lessons": "Lessons against POV-Ray",
     "embree": "First hits against Embree", "growth": "Larger meshes", "click": "A click",
-    "flat": "Boxes for a few surfaces", "start": "Starts", "window": "The window",
+    "flat": "Boxes for a few surfaces", "start": "Starts", "window": "The window", "pick": "A pick in the window",
     "adaptive": "Samples where the error is, against everywhere",
 }  # fmt: skip
 

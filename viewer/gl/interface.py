@@ -24,6 +24,7 @@ BACK = 0.8  # the normal continued into the second medium
 RADIUS, RADIUS_2 = 0.46, 0.6  # of the arcs of theta 1 and theta 2
 CONE = 0.85  # the side of the cone
 AWAY = (0.2, 0.32, 0.45, 0.6, 0.85, 1.15, 1.5)  # distances of an angle's text from its arc
+PAST = math.radians(35.0)  # the angle past an arc's end at which its text may stand
 STEP = math.radians(4.0)  # between the corners of an arc
 SIDES = 4  # lines on the cone
 SMALLEST = math.radians(1.0)  # an angle below has no arc
@@ -135,21 +136,11 @@ def interface_names(hit: Hit, length: float) -> list[Name]:
 
     found = [name("n", (0.0, 1.12), (0.15, 1.12), (-0.15, 1.12), of_normal=True)]
     if hit.theta1 > SMALLEST:
-        middle = -0.5 * hit.theta1
-        found.append(
-            name(
-                f"θ₁ {format_angle(hit.theta1, hit.error)}",
-                *((middle, RADIUS + away) for away in AWAY),
-            )
-        )
+        ways = _beside_arc(-hit.theta1, 0.0, RADIUS)
+        found.append(name(f"θ₁ {format_angle(hit.theta1, hit.error)}", *ways))
     if hit.theta2 is not None and hit.theta2 > SMALLEST:
-        middle = math.pi - 0.5 * hit.theta2
-        found.append(
-            name(
-                f"θ₂ {format_angle(hit.theta2, hit.error)}",
-                *((middle, RADIUS_2 + away) for away in AWAY),
-            )
-        )
+        ways = _beside_arc(math.pi - hit.theta2, math.pi, RADIUS_2)
+        found.append(name(f"θ₂ {format_angle(hit.theta2, hit.error)}", *ways))
     if hit.n2 is not None:
         found.append(name(f"n₁ = {format_number(hit.n1)}", (1.1, 0.8), (1.1, 1.1), (1.3, 1.1), (-1.3, 1.1)))
         found.append(name(f"n₂ = {format_number(hit.n2)}", (-2.1, 0.8), (-2.1, 1.1), (-1.9, 1.1), (2.0, 1.1)))
@@ -157,6 +148,12 @@ def interface_names(hit: Hit, length: float) -> list[Name]:
         rim = cone_rim(hit, 1.12 * length)
         found.append(Name(f"critical {format_angle(hit.critical)}", rim[: len(rim) // 2 : 4]))
     return found
+
+
+def _beside_arc(begin: float, end: float, radius: float) -> list[tuple[float, float]]:
+    """Places (angle from the normal, distance) for the text of an arc: outside of its middle, or else past its ends."""
+    outside = [(0.5 * (begin + end), radius + away) for away in AWAY]
+    return outside + [(turn, away) for away in (0.9, 1.2, 1.5) for turn in (begin - PAST, end + PAST)]
 
 
 def _arc(hit: Hit, begin: float, end: float, radius: float) -> np.ndarray:

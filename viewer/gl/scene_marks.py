@@ -5,7 +5,8 @@ selected hit, then labels of rays, then names of lights and of the eye. Lengths 
 the view.
 """
 
-from collections.abc import Iterable, Sequence
+import math
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -215,44 +216,43 @@ class SceneMarks:
         points = lines.starts[order, None] + shares * (lines.ends - lines.starts)[order, None]
         places, seen = self.seen(points.reshape(-1, 3))
         places, seen = places.reshape(-1, SAMPLES, 2), seen.reshape(-1, SAMPLES)
+        begins, ends = longest_runs(seen)
+        which = np.arange(len(order))
+        starts, stops = places[which, begins].tolist(), places[which, ends].tolist()
         kept = self.canvas.kept
-        for k, way, visible in zip(order.tolist(), places, seen, strict=True):
-            piece = _longest(way, visible)
-            if piece is None or np.hypot(*(piece[1] - piece[0])) < SHORTEST:
+        for k, start, stop in zip(order.tolist(), starts, stops, strict=True):
+            if math.dist(start, stop) < SHORTEST:
                 continue
             row = int(lines.rows[k])
             color = self.theme.ray(KINDS[lines.kinds[k]])
             if kept is not None and row not in kept:
                 color = faded(color, DIMMED)
             label = ray_label(tree, row)
-            self._text(f"ray-{row}", label, _along(piece, label), color)
+            self._text(f"ray-{row}", label, _along((start[0], start[1]), (stop[0], stop[1]), label), color)
 
 
-def _longest(way: np.ndarray, visible: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-    """The ends of the longest visible part of a line that is given by points (n, 2)."""
-    steps = np.diff(np.r_[0, visible.astype(int), 0])
-    begins, ends = np.flatnonzero(steps == 1), np.flatnonzero(steps == -1) - 1
-    if not len(begins):
-        return None
-    k = int(np.argmax(np.hypot(*(way[ends] - way[begins]).T)))
-    return way[begins[k]], way[ends[k]]
+def longest_runs(seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(first, last): the columns of the longest run of True in each row (n, m); the same column if there is none."""
+    count, columns = seen.shape
+    run = np.zeros(count, int)
+    longest, last = np.zeros(count, int), np.zeros(count, int)
+    for k in range(columns):
+        run = (run + 1) * seen[:, k]
+        longer = run > longest
+        longest[longer], last[longer] = run[longer], k
+    return last - np.maximum(longest - 1, 0), last
 
 
-def _along(piece: tuple[np.ndarray, np.ndarray], label: str) -> list[tuple[Point, str]]:
+def _along(start: Point, end: Point, label: str) -> Iterator[tuple[Point, str]]:
     """Places beside a line for a text, on either side: so far away that its box touches the line."""
-    start, end = piece
-    along = end - start
-    across = np.array([-along[1], along[0]]) / max(float(np.hypot(*along)), 1e-9)
-    if across[1] < 0.0:
-        across = -across  # below the line first
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    far = max(math.hypot(dx, dy), 1e-9)
+    across = (-dy / far, dx / far) if dx >= 0.0 else (dy / far, -dx / far)  # below the line first
     left, top, right, bottom = text_box((0.0, 0.0), label, TEXT, "middle")
     away = 0.5 * (right - left) * abs(across[0]) + 0.5 * (bottom - top) * abs(across[1]) + 5.0
-    found = []
     for share in SPOTS:
-        for side in (1.0, -1.0):
-            x, y = (start + share * along + side * away * across).tolist()
-            found.append(((x, y), "middle"))
-    return found
+        for side in (away, -away):
+            yield (start[0] + share * dx + side * across[0], start[1] + share * dy + side * across[1]), "middle"
 
 
 def _beside(at: Point, away: float) -> list[tuple[Point, str]]:

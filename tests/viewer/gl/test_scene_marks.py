@@ -12,7 +12,7 @@ from viewer.base.orbit import Frame, Orbit, project
 from viewer.base.theme import DARK
 from viewer.figures.marks import Disc, Shape, Text, overlap
 from viewer.gl.interface import CONE, RADIUS, RADIUS_2, Hit, cone_rim, hit_of, interface_lines, interface_names
-from viewer.gl.scene_marks import SceneMarks
+from viewer.gl.scene_marks import SceneMarks, longest_runs
 from viewer.lessons import lesson
 
 VIEWS = ((0.3, 0.2, 2.0), (2.6, 0.9, 4.0), (-1.9, -0.3, 1.2), (4.0, 0.1, 0.4))  # azimuth, elevation, distance
@@ -222,3 +222,14 @@ def test_the_ray_under_the_mouse_is_highlighted_in_both_views() -> None:
         driver.frames()
         assert session.hovered is None
         assert (driver.canvas.stage.target.pixels() == plain).all()
+
+
+def test_longest_runs() -> None:
+    for size in (1, 5, 24):
+        seen = np.random.default_rng(size).random((200, size)) < 0.6
+        first, last = longest_runs(seen)
+        for row, begin, end in zip(seen.tolist(), first.tolist(), last.tolist(), strict=True):
+            runs = [len(run) for run in "".join("x" if one else " " for one in row).split()]
+            assert begin <= end
+            assert (end - begin + 1 if any(row) else 0) == max(runs, default=0)
+            assert not any(row) or all(row[begin : end + 1])
