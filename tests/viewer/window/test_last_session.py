@@ -105,7 +105,7 @@ def test_the_window_comes_back_as_it_was(tmp_path: Path) -> None:
         hand("windowmove", "--sync", first.window, 123, 145)
         for key in ("t", "Tab", "2", "Right"):
             first.press(key)
-        first.until_kept("two-lights 2 light")
+        first.until_kept("two-lights 2 light.*x=123, y=145")
         place = first.geometry()
         first.quit()
     last = kept_in(tmp_path)
@@ -140,7 +140,7 @@ def test_full_screen_and_back(tmp_path: Path, manager: bool) -> None:
     with program(tmp_path, "view", "plates", "--size", "900x600", display=None if manager else bare_screen()) as first:
         first.until_kept("plates 3 dark")
         hand("windowmove", "--sync", first.window, 123, 145)
-        first.until_kept("full_screen=False")
+        first.until_kept("x=123, y=145.*full_screen=False")
         before = first.geometry()
         for _ in range(2):
             first.press("F11")
