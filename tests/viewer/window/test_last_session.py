@@ -51,16 +51,20 @@ class Running:
 
     def __init__(self, process: subprocess.Popen[str]) -> None:
         self.process = process
-        title = "raytree$"
-        self.window = hand("search", "--sync", "--onlyvisible", "--name", title).splitlines()[-1]
+        self.ahead = [self._read()]  # its window is there then
+        self.window = hand("search", "--onlyvisible", "--name", "raytree$").splitlines()[-1]
 
     def until_kept(self, pattern: str) -> str:
         """Wait until it keeps a session that matches."""
-        assert self.process.stdout
-        for line in self.process.stdout:
-            if re.search(pattern, line):
-                return line
-        raise AssertionError(f"ended without {pattern!r}")
+        while not re.search(pattern, line := self.ahead.pop() if self.ahead else self._read()):
+            pass
+        return line
+
+    def _read(self) -> str:
+        assert self.process.stdout and self.process.stderr
+        line = self.process.stdout.readline()
+        assert line, self.process.stderr.read()
+        return line
 
     def press(self, key: str) -> None:
         hand("windowfocus", "--sync", self.window, "key", key)
