@@ -1,5 +1,6 @@
 """Reading PDF with PDFium: a page as pixels, and attached files. PDFium must not run in two threads at once."""
 
+import ctypes
 import threading
 from typing import TYPE_CHECKING, Any
 
@@ -22,16 +23,23 @@ def render_page(pdf: bytes, scale: float) -> "Image":
     return picture
 
 
-def attachment(pdf: bytes, name: str) -> bytes | None:
-    """The content of an attached file; None if there is none of this name. ValueError if this is no PDF."""
+def attachment(pdf: bytes, name: str, most: int) -> bytes | None:
+    """The content of an attached file; None if there is none of this name. ValueError if this is no PDF, or the file
+    has more than `most` bytes.
+    """
     import pypdfium2
 
     try:
         with ONE_AT_A_TIME, pypdfium2.PdfDocument(pdf) as document:
             for k in range(min(document.count_attachments(), MOST_ATTACHMENTS)):
                 found = document.get_attachment(k)
-                if found.get_name() == name:
-                    return bytes(found.get_data())
+                if found.get_name() != name:
+                    continue
+                size = ctypes.c_ulong()
+                pypdfium2.raw.FPDFAttachment_GetFile(found, None, 0, size)  # unpacks it, to a gigabyte at most
+                if size.value > most:
+                    raise ValueError(f"{name} must have at most {most} bytes, got {size.value}")
+                return bytes(found.get_data())
     except (pypdfium2.PdfiumError, UnicodeDecodeError) as error:
         raise ValueError(str(error)) from None
     return None

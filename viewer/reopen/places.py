@@ -20,10 +20,10 @@ from xml.parsers import expat
 from xml.sax.saxutils import escape
 
 from tracer.formats.source import Fault, read_bytes
-from tracer.printable import shown_path
+from tracer.printable import printable, shown_path
 from viewer.base.files import Unusable
 from viewer.base.pdfium import attachment
-from viewer.reopen.embedded import Damaged, Embedded, unpack
+from viewer.reopen.embedded import MOST_PACKED, Damaged, Embedded, unpack
 
 NAMESPACE = "urn:raytree:view"  # of the element in XML
 ELEMENT = "view"
@@ -122,9 +122,9 @@ def _from_png(content: bytes) -> bytes | None:
 
 def _from_pdf(content: bytes) -> bytes | None:
     try:
-        return attachment(content, ATTACHMENT)
-    except ValueError:
-        raise Damaged("not a PDF that can be read") from None
+        return attachment(content, ATTACHMENT, MOST_PACKED)
+    except ValueError as error:
+        raise Damaged(f"not a PDF that can be read: {printable(str(error))}") from None
 
 
 def _from_pptx(content: bytes) -> bytes | None:

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from fpdf import FPDF
 from hypothesis import HealthCheck, given, settings, strategies as st
 
 import tracer
@@ -17,7 +18,7 @@ from viewer.cli.main import main
 from viewer.lessons import lesson
 from viewer.reopen import embedded
 from viewer.reopen.embedded import Damaged, Embedded, pack, unpack
-from viewer.reopen.places import CARRYING, NAMESPACE, as_xml, read_figure
+from viewer.reopen.places import ATTACHMENT, CARRYING, NAMESPACE, as_xml, read_figure
 from viewer.reopen.scene_files import SceneFile, SceneFiles, scene_files
 from viewer.reopen.view_state import ViewState
 from viewer.session.restore.figure_scene import FigureScenes
@@ -135,7 +136,7 @@ def test_no_file_leaves_the_temporary_folder(tmp_path: Path, name: str) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["a.svg"]
 
 
-def test_bombs_are_refused_before_they_are_unpacked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_bombs_are_refused_before_they_are_unpacked(tmp_path: Path) -> None:
     zeros = archive_of({"format": "raytree-view/1"}, {"0": bytes(embedded.MOST_UNPACKED)})
     assert len(zeros) < 200_000
     assert "must have at most 67108864 bytes unpacked" in refused(figure_of(tmp_path / "a.svg", zeros))
@@ -149,6 +150,10 @@ def test_bombs_are_refused_before_they_are_unpacked(tmp_path: Path, monkeypatch:
     with zipfile.ZipFile(tmp_path / "a.pptx", "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("customXml/item1.xml", bytes(70 * 2**20))
     assert "customXml/item1.xml must have at most" in refused(tmp_path / "a.pptx")
+    deck = FPDF()
+    deck.embed_file(bytes=bytes(8 * 2**20), basename=ATTACHMENT, compress=True)
+    deck.output(str(tmp_path / "a.pdf"))
+    assert "raytree-view.zip must have at most 4194304 bytes, got 8388608" in refused(tmp_path / "a.pdf")
 
 
 @pytest.mark.parametrize("suffix", CARRYING)
@@ -163,8 +168,6 @@ def test_a_file_without_a_view_says_so(tmp_path: Path, suffix: str, figures: dic
 
         Image.new("RGB", (3, 3)).save(path)
     elif suffix == ".pdf":
-        from fpdf import FPDF
-
         FPDF().output(str(path))
     else:
         from pptx import Presentation

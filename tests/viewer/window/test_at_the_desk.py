@@ -4,6 +4,7 @@ import math
 import subprocess
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 from imgui_bundle import imgui
@@ -359,7 +360,8 @@ def test_tree_and_image_fit_again(desk: Desk, way: str) -> None:
         hand("mousemove", *on_tree, "click", "--repeat", 2, "--delay", 20, 1)
         desk.until(lambda: session.tree_view.zoom == 1.0, "the double click on the tree")
     else:
-        session.loader.load(session.opening._replace(path=LESSON))  # type: ignore[union-attr]
+        assert session.opening
+        session.loader.load(replace(session.opening, path=LESSON))
         desk.until(lambda: session.path == LESSON and desk.is_quiet(), "the lesson")
     assert (session.tree_view.zoom, session.tree_view.center) == (1.0, (0.0, 0.0))
     assert (session.image_view.zoom, session.image_view.center) == (1.0, (0.5, 0.5))

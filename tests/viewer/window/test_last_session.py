@@ -51,16 +51,20 @@ class Running:
 
     def __init__(self, process: subprocess.Popen[str]) -> None:
         self.process = process
-        title = "raytree$"
-        self.window = hand("search", "--sync", "--onlyvisible", "--name", title).splitlines()[-1]
+        self.ahead = [self._read()]  # its window is there then
+        self.window = hand("search", "--onlyvisible", "--name", "raytree$").splitlines()[-1]
 
     def until_kept(self, pattern: str) -> str:
         """Wait until it keeps a session that matches."""
-        assert self.process.stdout
-        for line in self.process.stdout:
-            if re.search(pattern, line):
-                return line
-        raise AssertionError(f"ended without {pattern!r}")
+        while not re.search(pattern, line := self.ahead.pop() if self.ahead else self._read()):
+            pass
+        return line
+
+    def _read(self) -> str:
+        assert self.process.stdout and self.process.stderr
+        line = self.process.stdout.readline()
+        assert line, self.process.stderr.read()
+        return line
 
     def press(self, key: str) -> None:
         hand("windowfocus", "--sync", self.window, "key", key)
@@ -105,7 +109,7 @@ def test_the_window_comes_back_as_it_was(tmp_path: Path) -> None:
         hand("windowmove", "--sync", first.window, 123, 145)
         for key in ("t", "Tab", "2", "Right"):
             first.press(key)
-        first.until_kept("two-lights 2 light")
+        first.until_kept("two-lights 2 light.*x=123, y=145")
         place = first.geometry()
         first.quit()
     last = kept_in(tmp_path)
@@ -140,7 +144,7 @@ def test_full_screen_and_back(tmp_path: Path, manager: bool) -> None:
     with program(tmp_path, "view", "plates", "--size", "900x600", display=None if manager else bare_screen()) as first:
         first.until_kept("plates 3 dark")
         hand("windowmove", "--sync", first.window, 123, 145)
-        first.until_kept("full_screen=False")
+        first.until_kept("x=123, y=145.*full_screen=False")
         before = first.geometry()
         for _ in range(2):
             first.press("F11")
