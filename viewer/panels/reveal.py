@@ -7,8 +7,8 @@ from imgui_bundle import imgui
 from viewer.figures.catalogue import ORDERS
 from viewer.panels import draw as d
 from viewer.session.actions import change_speed
-from viewer.session.reveal import GRANULARITIES, ORDER_WORDS
 from viewer.session.session import Session
+from viewer.session.stepping.reveal import GRANULARITIES, ORDER_WORDS
 
 GRANULARITY_WORDS = {
     name: f"one step per {name[:-1]}, then one per hit as the colour is summed up" for name in GRANULARITIES

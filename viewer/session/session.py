@@ -27,11 +27,11 @@ from viewer.session.figure_export import FigureExport
 from viewer.session.guard import Guard
 from viewer.session.history import History, Place
 from viewer.session.image_renderer import ImageRenderer
-from viewer.session.recursion import Recursion
 from viewer.session.refinement import Refinement
 from viewer.session.restore.view import restore
-from viewer.session.reveal import Reveal
 from viewer.session.scene_loader import Opening, SceneLoader
+from viewer.session.stepping.recursion import Recursion
+from viewer.session.stepping.reveal import Reveal
 from viewer.session.verification import Verification
 from viewer.session.view_state import Looks, Request
 from viewer.session.warmup import Warmup

@@ -15,7 +15,7 @@ from viewer.panels import PANELS
 from viewer.session.saving import copy_view
 from viewer.session.session import Session
 from viewer.session.view_state import Request
-from viewer.window import bar, blank, help, keys, menu, messages, notice, open_dialog, pointer, style
+from viewer.window import bar, bindings, blank, help, keys, menu, messages, notice, open_dialog, pointer, style
 from viewer.window.backend import Offscreen, Window
 from viewer.window.tiles import Tiles
 
@@ -184,7 +184,7 @@ class App:
         self._part("the menu", lambda: menu.draw(session))
         self._part("the dialog", lambda: open_dialog.draw(session))
         self._part("the messages", lambda: messages.draw(session))
-        self._part("the help", lambda: help.draw(session, keys.HELP))
+        self._part("the help", lambda: help.draw(session, bindings.HELP))
         # In lecture mode, the menu lies over the panels.
         is_lecture = session.appearance.is_lecture_size
         (left, top), size = (room.pos, room.size) if is_lecture else (room.work_pos, room.work_size)

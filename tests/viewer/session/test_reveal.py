@@ -11,7 +11,7 @@ from tracer.tree.raytree import RayTree
 from viewer.figures.catalogue import BREADTH, ORDERS, RECURSION
 from viewer.figures.steps import by_level, by_ray
 from viewer.lessons import lesson
-from viewer.session.reveal import GRANULARITIES, LEVELS, RAYS, SPEEDS, Reveal
+from viewer.session.stepping.reveal import GRANULARITIES, LEVELS, RAYS, SPEEDS, Reveal
 
 HOW = [(LEVELS, BREADTH), (RAYS, BREADTH), (RAYS, RECURSION)]
 

@@ -18,7 +18,7 @@ from viewer.figures.catalogue import BREADTH, RECURSION
 from viewer.figures.steps import by_level
 from viewer.panels import PANELS, ray, tree
 from viewer.session.layout import Corner
-from viewer.session.reveal import LEVELS, RAYS
+from viewer.session.stepping.reveal import LEVELS, RAYS
 from viewer.window import bar
 from viewer.window.app import FASTEST
 

@@ -14,7 +14,7 @@ from viewer.panels import PANELS, error
 from viewer.panels.panel import Panel
 from viewer.session import saving
 from viewer.session.session import Session
-from viewer.window import bar, help, keys, menu, messages
+from viewer.window import bar, bindings, help, menu, messages
 
 SCENE = """
 format = 1
@@ -110,7 +110,7 @@ def test_other_parts_of_a_frame(part: object, room: Driver, monkeypatch: pytest.
 
 
 def test_a_key_that_fails_works_again(room: Driver, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(keys.TYPED, "t", breaking)
+    monkeypatch.setitem(bindings.TYPED, "t", breaking)
     for _ in range(3):
         room.type("t")
     assert len(room.session.guard.caught) == 3 and not room.session.guard.closed

@@ -16,14 +16,14 @@ from tests.viewer.driver import Driver, viewer
 from tracer.kernel.world import World
 from viewer.lessons import lesson
 from viewer.reopen.view_state import ViewState
-from viewer.window import keys
+from viewer.window import bindings
 
 K = imgui.Key
 EVENTS = 500  # a seed
 NAMED = [K(k) for k in range(K.named_key_begin, K.mouse_left) if K(k) not in (K.q, K.left_super, K.right_super)]
 OFTEN = (K.escape, K.page_down, K.page_up, K.f5, K.home, K.end, K.tab, K.left_arrow, K.s, K.c) * 8
 MODIFIERS = (K.mod_ctrl, K.mod_shift, K.mod_alt)
-CHARACTERS = [*keys.TYPED, "я", "é", "\0", "𝄞", "Q", " ", "\x1b"]
+CHARACTERS = [*bindings.TYPED, "я", "é", "\0", "𝄞", "Q", " ", "\x1b"]
 SIZES = ((1280, 720), (1920, 1080), (640, 400), (200, 150), (1, 1), (3000, 300))
 MESH = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 SCENE = """format = 1

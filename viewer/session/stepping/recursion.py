@@ -11,7 +11,7 @@ from tracer.tree.raytree import RayTree
 from viewer.base.cached import Changed
 from viewer.explain.recursion import Recording, record
 from viewer.figures.catalogue import RECURSION
-from viewer.session.reveal import Place, Reveal
+from viewer.session.stepping.reveal import Place, Reveal
 
 
 @dataclass(frozen=True)
