@@ -15,8 +15,9 @@ from viewer.panels import PANELS
 from viewer.session.saving import copy_view
 from viewer.session.session import Session
 from viewer.session.view_state import Request
-from viewer.window import bar, bindings, blank, help, keys, menu, messages, notice, open_dialog, pointer, style
+from viewer.window import bar, bindings, keys, menu, style
 from viewer.window.backend import Offscreen, Window
+from viewer.window.overlays import blank, help, messages, notice, open_dialog, pointer
 from viewer.window.tiles import Tiles
 
 IDLE = 0.3  # seconds of sleep between polls of the scene's file

@@ -14,7 +14,8 @@ from viewer.panels import PANELS, error
 from viewer.panels.panel import Panel
 from viewer.session import saving
 from viewer.session.session import Session
-from viewer.window import bar, bindings, help, menu, messages
+from viewer.window import bar, bindings, menu
+from viewer.window.overlays import help, messages
 
 SCENE = """
 format = 1
