@@ -10,6 +10,7 @@ from typing import Any
 from tracer.formats import READERS
 
 MAX_PIXELS = 16384  # across an image
+LEAST_SHARE = 0.15  # of a panel in the window
 PAPER_LEAST, PAPER_MOST = 200, 4000  # points: the sides of a figure's page
 SMALLEST_ZOOM, LARGEST_ZOOM = 0.01, 1000.0  # of a picture in its panel
 NEAREST, FARTHEST = 1e-9, 1e9  # distance of the 3D view, in radii of the scene
@@ -103,6 +104,14 @@ def _pan_zoom(text: str) -> tuple[float, ...]:
     return numbers
 
 
+def _shares(text: str) -> tuple[float, ...]:
+    numbers = _numbers(text)
+    if len(numbers) != 3 or not all(LEAST_SHARE <= number <= 1.0 - LEAST_SHARE for number in numbers):
+        allowed = f"three shares from {LEAST_SHARE:g} to {1.0 - LEAST_SHARE:g}, like 0.6,0.5,0.5"
+        raise Unreadable(f'{allowed}, got "{text}"')
+    return numbers
+
+
 def _orbit(text: str) -> tuple[float, ...]:
     numbers = _numbers(text)
     finite = all(map(math.isfinite, numbers))
@@ -140,6 +149,7 @@ PAPER = Value(_paper, lambda size: f"{size[0]}x{size[1]}", "WxH")  # of a figure
 RAY = Value(_ray, _show_numbers, "ox,oy,oz,dx,dy,dz")  # origin and direction
 RAY_NAME = Value(_ray_name, metavar="PATH")
 RAY_PATH = Value(_ray_path, metavar="PATH")
+SHARES = Value(_shares, _show_numbers, "C,L,R")  # of columns and rows
 PAN_ZOOM = Value(_pan_zoom, _show_numbers, "Z,X,Y")
 ORBIT = Value(_orbit, _show_numbers, "A,E,D[,X,Y,Z]")  # azimuth, elevation, distance, target
 DEPTHS = Value(_depths, _show_depths, "D|A..B")

@@ -11,7 +11,6 @@ from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.panel import Panel
 from viewer.session.actions import set_strategy, toggle_refinement
-from viewer.session.layout import Corner
 from viewer.session.refinement import DISPLAYS, STRATEGIES, Run, forecast
 from viewer.session.session import Session
 from viewer.session.view_state import Request
@@ -194,4 +193,4 @@ def _curve(session: Session, run: Run, reach: tuple[float, float]) -> None:
     implot.plot_line(name, np.array([p.seconds for p in points]), np.array([p.error for p in points]), spec)
 
 
-PANEL = Panel("Error", draw, Corner.BOTTOM_RIGHT, request=Request.SHOW_ERROR)
+PANEL = Panel("Error", draw, request=Request.SHOW_ERROR)

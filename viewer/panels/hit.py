@@ -14,7 +14,6 @@ from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.panel import Panel
-from viewer.session.layout import Corner
 from viewer.session.session import Session
 
 REACH = 6.0  # logical pixels from the mouse to a ray
@@ -75,4 +74,4 @@ def _marks(session: Session, tree: RayTree, row: int, size: tuple[int, int]) -> 
     return hit_marks(step, row, PANEL_TEXT, session.appearance.theme, session.world, where)
 
 
-PANEL = Panel("Hit", draw, Corner.BOTTOM_RIGHT, fills=True, figure="hit", shows_ray=True)
+PANEL = Panel("Hit", draw, fills=True, figure="hit", shows_ray=True)

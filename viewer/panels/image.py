@@ -12,7 +12,6 @@ from viewer.gl.canvas import Canvas, texture_ref
 from viewer.gl.magnified import Place
 from viewer.panels import draw as d
 from viewer.panels.panel import Panel
-from viewer.session.layout import Corner
 from viewer.session.session import Session
 
 
@@ -227,4 +226,4 @@ def waiting_lines(session: Session) -> list[str]:
     return ["Loading ..."]
 
 
-PANEL = Panel("Image", draw, Corner.TOP_RIGHT, fills=True, head=_head, is_named=False, is_covered=False)
+PANEL = Panel("Image", draw, fills=True, head=_head, is_named=False, is_covered=False)

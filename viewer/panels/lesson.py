@@ -5,7 +5,6 @@ from imgui_bundle import imgui
 from tracer.printable import printable
 from viewer.gl.canvas import Canvas
 from viewer.panels.panel import Panel
-from viewer.session.layout import Corner
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
@@ -28,6 +27,4 @@ def draw(session: Session, canvas: Canvas) -> None:
         imgui.spacing()
 
 
-PANEL = Panel(
-    "Lesson", draw, Corner.BOTTOM_RIGHT, request=Request.SHOW_LESSON, exists=lambda session: session.lesson is not None
-)
+PANEL = Panel("Lesson", draw, request=Request.SHOW_LESSON, exists=lambda session: session.lesson is not None)

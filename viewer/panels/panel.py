@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from viewer.gl.canvas import Canvas
-from viewer.session.layout import Corner
+from viewer.session.layout import Corner, place_of
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
@@ -15,8 +15,6 @@ class Panel:
 
     title: str
     draw: Callable[[Session, Canvas], None]
-    place: Corner  # at the desk
-    lecture_place: Corner | None = None  # in lecture mode, if it is another
     fills: bool = False  # its picture fills the panel, its title lies on it; otherwise it is text, which scrolls
     head: Callable[[Session, float], None] | None = None  # beside the title; it may be so many pixels wide
     is_named: bool = True  # whether its title is shown, where it stands alone
@@ -27,7 +25,15 @@ class Panel:
     request: Request | None = None  # that brings it to the front
     exists: Callable[[Session], bool] = lambda session: True
 
+    @property
+    def name(self) -> str:
+        """Its name in options and in `viewer.session.layout`: the last word of the title."""
+        return self.title.split()[-1].lower()
+
+    @property
+    def place(self) -> Corner:
+        """Its place at the desk."""
+        return place_of(self.name, is_lecture=False)
+
     def place_in(self, session: Session) -> Corner:
-        if session.appearance.is_lecture_size and self.lecture_place:
-            return self.lecture_place
-        return self.place
+        return place_of(self.name, session.appearance.is_lecture_size)

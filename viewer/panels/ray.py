@@ -13,7 +13,6 @@ from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.card import SMALL, Card
 from viewer.panels.panel import Panel
-from viewer.session.layout import Corner
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
@@ -97,4 +96,4 @@ def _details(card: Card, parts: list[Part]) -> None:
         card.y, card.right = max(card.y, column.y), max(card.right, column.right)
 
 
-PANEL = Panel("Selected ray", draw, Corner.BOTTOM_RIGHT, short="Ray", request=Request.SHOW_RAY)
+PANEL = Panel("Selected ray", draw, short="Ray", request=Request.SHOW_RAY)

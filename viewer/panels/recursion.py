@@ -16,7 +16,6 @@ from viewer.panels import draw as d
 from viewer.panels.panel import Panel
 from viewer.panels.reveal import draw_controls
 from viewer.session.actions import step_line
-from viewer.session.layout import Corner
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
@@ -207,4 +206,4 @@ def _calls(session: Session, table: _Table) -> None:
             x += widths[k]
 
 
-PANEL = Panel("Recursion", draw, Corner.BOTTOM_RIGHT, short="Code", request=Request.SHOW_RECURSION)
+PANEL = Panel("Recursion", draw, short="Code", request=Request.SHOW_RECURSION)

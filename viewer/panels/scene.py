@@ -14,7 +14,6 @@ from viewer.gl.canvas import Canvas, texture_ref
 from viewer.gl.scene_marks import SceneMarks
 from viewer.panels import draw as d, inset
 from viewer.panels.panel import Panel
-from viewer.session.layout import Corner
 from viewer.session.session import Session
 
 TITLE = 26.0  # logical pixels around the title
@@ -115,4 +114,4 @@ def _head(session: Session, room: float) -> None:
     imgui.text(session.world.scene.caption if session.world else "Scene")
 
 
-PANEL = Panel("Scene", draw, Corner.TOP_LEFT, fills=True, head=_head, is_named=False, figure="scene")
+PANEL = Panel("Scene", draw, fills=True, head=_head, is_named=False, figure="scene")

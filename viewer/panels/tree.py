@@ -29,7 +29,6 @@ from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.panel import Panel
 from viewer.panels.reveal import draw_controls
-from viewer.session.layout import Corner
 from viewer.session.session import Session
 
 EDGE = 6.0  # points: from the border of the panel to the legend
@@ -190,6 +189,6 @@ def _head(session: Session, room: float) -> None:
 
 
 PANEL = Panel(
-    "Ray tree", draw, Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT, fills=True, head=_head, short="Tree", is_covered=False,
+    "Ray tree", draw, fills=True, head=_head, short="Tree", is_covered=False,
     figure="tree", shows_ray=True,
 )  # fmt: skip

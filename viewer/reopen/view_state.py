@@ -20,11 +20,13 @@ from viewer.base.values import (
     PAN_ZOOM,
     PIXEL,
     RAY_PATH,
+    SHARES,
     UP_HELP,
     Unreadable,
     Value,
     none_or_some_of,
     one_of,
+    some_of,
     whole,
 )
 
@@ -32,6 +34,7 @@ KINDS = tuple(STYLES)  # of rays
 SWITCHES = ("camera", "lights", "normals", "labels")  # what else is drawn, or hidden
 THEMES = (DARK.name, LIGHT.name)  # of the window
 TYPE_SIZES = ("normal", "lecture")
+PANEL_NAMES = ("scene", "image", "tree", "ray", "hit", "lesson", "error", "recursion")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,6 +57,12 @@ class ViewState:
     )
     theme: str | None = option(one_of(THEMES), f"{THEMES[0]} by default")
     type_size: str | None = option(one_of(TYPE_SIZES), "lecture: everything larger, for the back row")
+    panels: tuple[str, ...] | None = option(
+        some_of(PANEL_NAMES), f"show these panels; a single one has all of the room: {','.join(PANEL_NAMES)}"
+    )
+    borders: tuple[float, float, float] | None = option(
+        SHARES, "shares of the left column, and of the upper panel in the left and in the right column"
+    )
     image_zoom: tuple[float, float, float] | None = option(
         PAN_ZOOM, "zoom of the image, and the point in the middle, as shares of width and height"
     )

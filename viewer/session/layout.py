@@ -4,14 +4,16 @@ Several panels can share a place; one of them is in front. At the desk, all four
 scene and one place beside it are open, since type is large, and the image is an inset of the scene.
 """
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+
+from viewer.base.values import LEAST_SHARE
+from viewer.reopen.view_state import PANEL_NAMES
 
 Rectangle = tuple[float, float, float, float]  # left, top, width, height
 
 GAP = 4.0  # between two places, in logical pixels
-LEAST = 0.15  # the smallest share of a place
 
 
 class Corner(Enum):
@@ -21,6 +23,18 @@ class Corner(Enum):
     TOP_RIGHT = "top right"
     BOTTOM_LEFT = "bottom left"
     BOTTOM_RIGHT = "bottom right"
+
+
+# The place of each panel at the desk, and in lecture mode. Of those that share a place, the first is in front at first.
+PLACES = dict.fromkeys(PANEL_NAMES, (Corner.BOTTOM_RIGHT, Corner.BOTTOM_RIGHT)) | {
+    "scene": (Corner.TOP_LEFT, Corner.TOP_LEFT),
+    "image": (Corner.TOP_RIGHT, Corner.TOP_RIGHT),
+    "tree": (Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT),
+}
+
+
+def place_of(name: str, is_lecture: bool) -> Corner:
+    return PLACES[name][is_lecture]
 
 
 COLUMNS = ((Corner.TOP_LEFT, Corner.BOTTOM_LEFT), (Corner.TOP_RIGHT, Corner.BOTTOM_RIGHT))
@@ -33,11 +47,11 @@ class Arrangement:
     columns: float = 0.6  # share of the left column
     rows: list[float] = field(default_factory=lambda: [0.56, 0.52])  # share of the upper place in each column
     closed: set[Corner] = field(default_factory=set)
-    front: dict[Corner, str] = field(default_factory=dict)  # title of the panel in front, where several share a place
+    front: dict[Corner, str] = field(default_factory=dict)  # name of the panel in front, where several share a place
 
     def split(self, which: int | None, share: float) -> None:
         """Move the border between the columns (None), or that between the two places of a column."""
-        share = min(1.0 - LEAST, max(LEAST, share))
+        share = min(1.0 - LEAST_SHARE, max(LEAST_SHARE, share))
         if which is None:
             self.columns = share
         else:
@@ -62,7 +76,7 @@ class Layout:
 
     desk: Arrangement = field(default_factory=at_the_desk)
     lecture: Arrangement = field(default_factory=in_a_lecture)
-    maximised: str | None = None  # its title
+    maximised: str | None = None  # its name
     on_show: set[Corner] = field(default_factory=set)  # places of the last frame
     papers: dict[str, tuple[int, int]] = field(default_factory=dict)  # sizes of the figures in panels, in points
     pointed: str | None = None  # the figure in the panel under the mouse, or in the one that has all of the room
@@ -74,9 +88,34 @@ class Layout:
     def current(self, is_lecture: bool) -> Arrangement:
         return self.lecture if is_lecture else self.desk
 
-    def maximise(self, title: str) -> None:
+    def maximise(self, name: str) -> None:
         """Give a panel all of the room; again: give it back."""
-        self.maximised = None if self.maximised == title else title
+        self.maximised = None if self.maximised == name else name
+
+    def shown(self, is_lecture: bool) -> tuple[str, ...]:
+        """The names of the panels on show."""
+        if self.maximised:
+            return (self.maximised,)
+        arrangement, found = self.current(is_lecture), {}
+        for name in PLACES:
+            place = place_of(name, is_lecture)
+            if place not in arrangement.closed:
+                found.setdefault(place, arrangement.front.get(place, name))
+        return tuple(found.values())
+
+    def show(self, names: Sequence[str], is_lecture: bool) -> None:
+        """Show these panels and no others; a single one has all of the room."""
+        self.maximised = names[0] if len(names) == 1 else None
+        if not self.maximised:
+            front = {place_of(name, is_lecture): name for name in reversed(names)}
+            arrangement = self.current(is_lecture)
+            arrangement.front |= front
+            arrangement.closed = set(Corner) - set(front)
+
+    def borders(self, is_lecture: bool) -> tuple[float, float, float]:
+        """The shares of the left column, and of the upper place in each column."""
+        arrangement = self.current(is_lecture)
+        return (arrangement.columns, arrangement.rows[0], arrangement.rows[1])
 
 
 def tile(
@@ -104,38 +143,3 @@ def tile(
         places[columns[k][1]] = (x, top + upper + gap, wide, height - upper - gap)
         borders[k] = (x, top + upper, wide, gap)
     return places, borders
-
-
-def stored(layout: Layout) -> dict[str, object]:
-    """The layout as data for a file."""
-    parts = {
-        name: {
-            "columns": part.columns,
-            "rows": list(part.rows),
-            "closed": sorted(place.value for place in part.closed),
-            "front": {place.value: title for place, title in part.front.items()},
-        }
-        for name, part in (("desk", layout.desk), ("lecture", layout.lecture))
-    }
-    return {"maximised": layout.maximised, **parts}
-
-
-def restored(data: Mapping[str, object]) -> Layout:
-    """The layout from such data. Raises ValueError, KeyError or TypeError if they are not a layout's."""
-
-    def arrangement(part: object) -> Arrangement:
-        if not isinstance(part, dict):
-            raise TypeError(part)
-        found = Arrangement(closed={Corner(name) for name in part["closed"]})
-        found.front = {Corner(name): str(title) for name, title in part["front"].items()}
-        found.split(None, float(part["columns"]))
-        upper_left, upper_right = (float(share) for share in part["rows"])
-        found.split(0, upper_left)
-        found.split(1, upper_right)
-        if not found.closed < set(Corner):
-            raise ValueError("all places are closed")
-        return found
-
-    maximised = data["maximised"]
-    title = maximised if isinstance(maximised, str) else None
-    return Layout(arrangement(data["desk"]), arrangement(data["lecture"]), title)

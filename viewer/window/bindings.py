@@ -82,8 +82,8 @@ def _blank(session: Session) -> None:
     session.is_blank = True
 
 
-def _maximise(title: str) -> Act:
-    return lambda session: session.layout.maximise(title)
+def _maximise(name: str) -> Act:
+    return lambda session: session.layout.maximise(name)
 
 
 def _point(session: Session) -> None:
@@ -171,7 +171,7 @@ BINDINGS = (
     Binding(
         "Z, F2 F3 F4, F6 ... F9", "all of the room for the panel under the mouse; for scene, image, tree, numbers, ...",
         {"z": lambda session: session.requests.append(Request.MAXIMISE)},
-        {key: _maximise(panel.title) for key, panel in zip(PANEL_KEYS, PANELS, strict=False)},
+        {key: _maximise(panel.name) for key, panel in zip(PANEL_KEYS, PANELS, strict=False)},
     ),
     Binding("X", "pointer, spotlight", {"x": _point}),
     Binding("M", "Whitted's model or Fresnel's", {"m": toggle_model}),

@@ -104,7 +104,7 @@ def _plate(session: Session, panel: Panel, head: Callable[[float], object]) -> N
             imgui.same_line(0.0, BETWEEN * unit)
         head(room - imgui.get_cursor_pos_x())
         if _is_doubly_clicked():
-            session.layout.maximise(panel.title)
+            session.layout.maximise(panel.name)
     imgui.end_child()
     imgui.pop_style_var(2)
     imgui.pop_style_color()
@@ -135,6 +135,6 @@ def _title(session: Session, panel: Panel, is_front: bool, is_choice: bool, word
             pad.add_line((at.x, below), (at.x + size.x, below), d.u32(theme.accent), 2.0 * d.unit())
     d.hint("double click, or Z: all of the room")
     if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
-        session.layout.maximise(panel.title)
+        session.layout.maximise(panel.name)
     elif pressed:
-        session.layout.current(session.appearance.is_lecture_size).front[panel.place_in(session)] = panel.title
+        session.layout.current(session.appearance.is_lecture_size).front[panel.place_in(session)] = panel.name

@@ -28,7 +28,7 @@ class Tiles:
         session = self.session
         layout, sharing = session.layout, self._sharing()
         arrangement = self._arrangement
-        alone = next((p for panels in sharing.values() for p in panels if p.title == layout.maximised), None)
+        alone = next((p for panels in sharing.values() for p in panels if p.name == layout.maximised), None)
         if alone:
             self.places, borders = {alone.place_in(session): room}, {}
         else:
@@ -100,7 +100,7 @@ class Tiles:
         """The panels of a place, and the one in front."""
         panels = self._sharing()[place]
         chosen = self._arrangement.front.get(place)
-        return panels, next((panel for panel in panels if panel.title == chosen), panels[0])
+        return panels, next((panel for panel in panels if panel.name == chosen), panels[0])
 
     @property
     def _arrangement(self) -> Arrangement:
@@ -111,12 +111,12 @@ class Tiles:
         place = panel.place_in(self.session)
         _, front = self._front(place)
         if panel.request is not Request.SHOW_RAY or not front.shows_ray:
-            self._arrangement.front[place] = panel.title
+            self._arrangement.front[place] = panel.name
 
     def show_next(self) -> None:
         """Of the panels that share a place at the lower right, show the one after that on show."""
         panels, front = self._front(Corner.BOTTOM_RIGHT)
-        self._arrangement.front[Corner.BOTTOM_RIGHT] = panels[(panels.index(front) + 1) % len(panels)].title
+        self._arrangement.front[Corner.BOTTOM_RIGHT] = panels[(panels.index(front) + 1) % len(panels)].name
 
     def maximise(self) -> None:
         """Give the panel under the mouse all of the room, or give it back."""
@@ -124,7 +124,7 @@ class Tiles:
         if layout.maximised:
             layout.maximise(layout.maximised)
         elif panel:
-            layout.maximise(panel.title)
+            layout.maximise(panel.name)
 
     def _under_mouse(self) -> Panel | None:
         mouse = imgui.get_mouse_pos()

@@ -30,10 +30,10 @@ def show(room: Driver, panel: Panel) -> None:
     session = room.session
     front = session.layout.current(session.appearance.is_lecture_size).front
     for _ in PANELS:
-        if front.get(panel.place_in(session)) != panel.title:
+        if front.get(panel.place_in(session)) != panel.name:
             room.type("p")
     room.frames(3)
-    assert front[panel.place_in(session)] == panel.title
+    assert front[panel.place_in(session)] == panel.name
 
 
 def inner(window: internal.Window) -> Rectangle:
@@ -169,7 +169,7 @@ def test_the_picture_of_a_hit_fills_its_panel_and_is_laid_out_once(room: Driver)
     first = marks(room)
     room.frames(3)
     assert marks(room) is first
-    room.session.layout.maximise(hit.PANEL.title)
+    room.session.layout.maximise(hit.PANEL.name)
     room.frames(3)
     assert marks(room) is not first
     _, _, width, height = room.app.tiles.places[hit.PANEL.place]

@@ -69,7 +69,7 @@ def test_a_panel_that_fails_twice_is_closed_and_the_others_go_on(
     if panel.request:  # so that it is on show
         room.session.requests.append(panel.request)
     front = room.session.layout.current(is_lecture=False).front
-    while panel.title == "Hit" and front.get(panel.place) != panel.title:
+    while panel.title == "Hit" and front.get(panel.place) != panel.name:
         room.type("p")
     room.frames()
     right = panel.draw

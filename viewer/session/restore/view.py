@@ -1,13 +1,16 @@
 """The state of the view on show, and a session that takes it over."""
 
 from dataclasses import replace
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from tracer.kernel.world import World
 from viewer.base.orbit import Frame, Orbit, orbit_beside
 from viewer.base.theme import DARK, LIGHT
 from viewer.reopen.view_state import KINDS, SWITCHES, TYPE_SIZES, ViewState
+from viewer.session.layout import Layout
 from viewer.session.view_state import Appearance, Notice, PanZoom, Request, Visibility
+
+T = TypeVar("T")
 
 
 class Viewed(Protocol):
@@ -17,6 +20,7 @@ class Viewed(Protocol):
     frame: Frame
     orbit: Orbit
     shown: Visibility
+    layout: Layout
     image_view: PanZoom
     tree_view: PanZoom
     appearance: Appearance
@@ -49,6 +53,8 @@ def state_of(viewed: Viewed) -> ViewState:
         hide=hidden or None,
         theme=look.theme.name,
         type_size=type_size_of(look),
+        panels=_unless_usual(viewed.layout.shown(look.is_lecture_size), Layout().shown(look.is_lecture_size)),
+        borders=_unless_usual(viewed.layout.borders(look.is_lecture_size), Layout().borders(look.is_lecture_size)),
         image_zoom=_pan_zoom(viewed.image_view),
         tree_zoom=_pan_zoom(viewed.tree_view),
     )
@@ -72,6 +78,7 @@ def restore(viewed: Viewed, state: ViewState, note: str = "") -> None:
     if note:
         viewed.notice.say(note)
     restore_appearance(viewed.appearance, state)
+    restore_layout(viewed.layout, viewed.appearance.is_lecture_size, state)
     if state.filter is not None:
         viewed.shown.kinds = set(state.filter)
     for name in SWITCHES if state.hide is not None else ():
@@ -92,6 +99,14 @@ def restore_appearance(look: Appearance, state: ViewState) -> None:
         look.toggle_lecture_size()
 
 
+def restore_layout(layout: Layout, is_lecture: bool, state: ViewState) -> None:
+    """Take over the panels on show, and the borders between them."""
+    if state.panels:
+        layout.show(state.panels, is_lecture)
+    for which, share in zip((None, 0, 1), state.borders or (), strict=False):
+        layout.current(is_lecture).split(which, share)
+
+
 def restore_camera(viewed: Viewed, state: ViewState) -> None:
     """Take over the 3D view: azimuth, elevation, distance, and if given the target. One that cannot be is a fault."""
     if state.camera and viewed.world:
@@ -104,6 +119,10 @@ def restore_camera(viewed: Viewed, state: ViewState) -> None:
 
 def type_size_of(look: Appearance) -> str:
     return TYPE_SIZES[look.is_lecture_size]
+
+
+def _unless_usual(value: T, usual: T) -> T | None:
+    return None if value == usual else value
 
 
 def _pan_zoom(look: PanZoom) -> tuple[float, float, float] | None:
