@@ -1,5 +1,6 @@
 """Drives the viewer without a screen: real GL, real panels, events put into imgui's own queue."""
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -147,7 +148,8 @@ class Driver:
 
 def body(title: str) -> internal.Window:
     """The part of a panel below its titles, which scrolls."""
-    found = [window for window in imgui.get_current_context().windows if window.name.startswith(f"{title}/body")]
+    name = re.compile(rf"{title}/body_[0-9A-F]{{8}}")
+    found = [window for window in imgui.get_current_context().windows if name.fullmatch(window.name)]
     assert len(found) == 1, title
     return found[0]
 

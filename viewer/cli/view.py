@@ -22,7 +22,7 @@ from viewer.session.restore.last_session import LastSession, SessionKeeper, read
 from viewer.session.restore.view import restore_appearance
 from viewer.session.scene_loader import Opening
 from viewer.session.session import Session
-from viewer.window.app import App
+from viewer.window.app import FRAMES_AFTER_EVENT, App
 from viewer.window.backend import NoWindow, Offscreen, Window
 
 SIZE = (1280, 720)
@@ -140,7 +140,7 @@ def take_screenshot(opening: Opening, options: ViewOptions, target: Path) -> Non
                     raise Unusable(*session.faults, *([fault] if fault else []))
                 progress.say(doing)
 
-            app.settle(say=say, progress=progress)
+            app.settle(FRAMES_AFTER_EVENT, say, progress)
             say("write the screenshot")
             if session.opening and session.opening.note:
                 progress.put(f"note: {session.opening.note}")

@@ -82,7 +82,7 @@ class Session(Looks):
         self.guard.open_all()
         self.image.forget()
         self.refinement.forget()
-        if opening.lesson and self.world and not again:
+        if opening.lesson and not again:
             self.requests.append(Request.SHOW_LESSON)
         self.world, self.opening = world, opening
         self.frame = Frame.of(world)

@@ -29,9 +29,7 @@ class Verification:
         self.found: VerifiedTree | None = None  # of `tree`
         self.failure = ""
         self._running: Thread | None = None
-        self._asked = (
-            math.inf
-        )  # when `tree` was asked for, on the clock time.monotonic; inf: it is started, or too large
+        self._asked = math.inf  # when `tree` was asked for, of time.monotonic; inf: it is started, or too large
 
     @property
     def is_running(self) -> bool:

@@ -69,13 +69,20 @@ def _row(session: Session, sharing: Sequence[Panel], front: Panel, head: Callabl
     imgui.set_cursor_pos((1.5 * MARGIN * unit, 0.75 * MARGIN * unit))
     imgui.begin_group()
     titles = sharing if len(sharing) > 1 or front.is_named else ()
-    is_short = _row_width(panel.title for panel in titles) > imgui.get_content_region_avail().x
+    room = imgui.get_content_region_avail().x
+    is_short = _row_width(panel.title for panel in titles) > room
+    hidden = 0
+    if is_short and _row_width(panel.short or panel.title for panel in titles) > room:
+        titles, hidden = [front], len(titles) - 1
     for k, panel in enumerate(titles):
         if k:
             imgui.same_line(0.0, BETWEEN * unit)
         _title(
             session, panel, panel is front, len(sharing) > 1, panel.short if is_short and panel.short else panel.title
         )
+    if hidden:
+        imgui.same_line(0.0, BETWEEN * unit)
+        imgui.text_colored(session.appearance.theme.muted, f"{hidden} more: P")
     if front.head:
         if titles:
             imgui.same_line(0.0, BETWEEN * unit)

@@ -7,7 +7,7 @@ import pytest
 from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
-from tests.viewer.driver import Driver, viewer
+from tests.viewer.driver import Driver, body, viewer
 from viewer.explain.recursion import source
 from viewer.figures.catalogue import RECURSION
 from viewer.panels import recursion
@@ -121,8 +121,8 @@ def test_nothing_is_cut_off_at_the_side(glass: Driver, size: tuple[int, int], la
     for k in range(0, len(recording.moments), 5):
         glass.session.recursion.go(k - (glass.session.recursion.moment or 0))
         glass.frames(3)
-        panel = window(recursion.PANEL.title)
-        assert not panel.hidden and panel.content_size.x <= panel.inner_rect.get_width()
+        panel = body(recursion.PANEL.title)
+        assert panel.content_size.x <= panel.inner_rect.get_width()
 
 
 def test_the_page_says_where_it_differs_from_the_kernel(glass: Driver) -> None:
@@ -166,8 +166,8 @@ def test_the_controls_of_the_steps(glass: Driver) -> None:
 
     reset()
     start, found = state(), set()
-    place = window(recursion.PANEL.title).inner_rect
-    for y in (place.min.y + 18, place.min.y + 48):
+    place = body(recursion.PANEL.title).inner_rect
+    for y in (place.min.y + 14, place.min.y + 44):
         for x in range(int(place.min.x) + 12, int(place.max.x), 14):
             reset()
             glass.move(x, y)

@@ -53,6 +53,8 @@ def still(driver: Driver) -> np.ndarray:
     """The picture without what depends on the clock: the notice, and the seconds that the image took. Without the
     scroll bar at the right: imgui's tables remember the widths of their columns, and so the height of a long text.
     """
+    driver.session.verification.wait()
+    driver.session.update()
     driver.session.notice.text = ""
     assert driver.session.image.picture
     driver.session.image.picture.seconds = 0.0

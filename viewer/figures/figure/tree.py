@@ -29,7 +29,7 @@ from viewer.figures.subject import FigureStyle, Pages, Subject
 
 LEVEL = "depth {}"  # the name of a level
 LEVEL_OPACITY = 0.35  # of its line
-STRONG = 1.6  # factor of the width of the ray that is selected, or that a step adds
+STRONG = 1.8  # factor of the width of the ray that is selected, or that a step adds
 COMPACT_ARROW = 0.3  # of an edge's length, so that it is clear of the label
 OF_A_ROW = ("ray", "hit", "lights", "bar", "fold")  # in names of marks, before the number of a row
 

@@ -61,13 +61,14 @@ def state_of(viewed: Viewed) -> ViewState:
 
 
 def complete(state: ViewState) -> ViewState:
-    """The state with the values of a new window for the kinds of rays and the parts shown, if it has none: a window
-    that takes it over may hide some.
+    """The state with the values of a new window for the kinds of rays, the parts and the panels shown, if it has none:
+    a window that takes it over may show others.
     """
     return replace(
         state,
         filter=KINDS if state.filter is None else state.filter,
         hide=() if state.hide is None else state.hide,
+        panels=Layout().shown(state.type_size == TYPE_SIZES[1]) if state.panels is None else state.panels,
     )
 
 
@@ -87,7 +88,9 @@ def restore(viewed: Viewed, state: ViewState, note: str = "") -> None:
         if zoom:
             look.zoom, look.center = zoom[0], (zoom[1], zoom[2])
     restore_camera(viewed, state)
-    if state.select:
+    if state.panels:
+        viewed.requests[:] = [request for request in viewed.requests if request is not Request.SHOW_LESSON]
+    elif state.select:
         viewed.requests.append(Request.SHOW_RAY)
 
 
