@@ -14,13 +14,12 @@ from viewer.base.theme import PANEL_TEXT, SMALL
 from viewer.base.wording import format_number
 from viewer.explain.ray import headline
 from viewer.figures.figure.tree import plan_pages, plan_steps
-from viewer.figures.font import text_width
-from viewer.figures.layout.free_space import FreeSpace
+from viewer.figures.layout.free_space import is_free
 from viewer.figures.layout.sizes import OUTLINE
 from viewer.figures.layout.tree_legend import sign_entries
 from viewer.figures.layout.tree_plan import TreePlan
 from viewer.figures.legend import legend_row, row_width
-from viewer.figures.marks import Box, Disc, Line, Mark, Point, Text
+from viewer.figures.marks import Box, Disc, Line, Mark, Point, Text, widened
 from viewer.figures.picking import mark_at, row_of
 from viewer.figures.steps import of_kinds, whole
 from viewer.figures.subject import FigureStyle
@@ -115,14 +114,15 @@ def _note(tree: RayTree, marks: Sequence[Mark], style: FigureStyle) -> list[Mark
     if tree.residual <= 0.0:
         return []
     size, (width, height) = SMALL * style.text_size, style.page
-    vacant = FreeSpace((EDGE, EDGE, width - EDGE, height - EDGE), marks)
     weight, most = format_number(tree.residual, 3), tree.bound
     bound = f"at most {format_number(most, 3)} missing" if most < math.inf else "no bound on the missing light"
     for words in (cut_summary(tree), f"cut: {weight} of the weight, {bound}", f"cut: {weight} of the weight"):
-        wide, high = text_width(words, size), 1.3 * size
-        at = vacant.place((wide, high), ("bottom right", "bottom left", "top right"))
-        if at:
-            return [Text("note", (at[0], at[1] + 0.5 * high), words, size, style.theme.muted, "start")]
+        note = Text("note", (0.0, 0.0), words, size, style.theme.muted, "end")
+        low, high = height - EDGE - size, EDGE + size + 1.6 * size
+        for x, y, anchor in ((width - EDGE, low, "end"), (EDGE, low, "start"), (width - EDGE, high, "end")):
+            found = replace(note, at=(x, y), anchor=anchor)
+            if is_free(widened(found.box(), 2.0), marks):
+                return [found]
     return []
 
 

@@ -5,10 +5,32 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from viewer.figures.marks import Box, Disc, Line, Mark, Point, Rectangle, Shape, Text
+from viewer.figures.marks import Box, Disc, Line, Mark, Point, Rectangle, Shape, Text, clip_shares, overlap
 
 CELL = 4.0  # points
 RANK = 90.0  # a corner is preferred to the one before it if it is nearer by this many points
+
+
+def is_free(box: Rectangle, marks: Iterable[Mark]) -> bool:
+    """Whether no mark touches a rectangle."""
+    return not any(_touches(mark, box) for mark in marks)
+
+
+def _touches(mark: Mark, box: Rectangle) -> bool:
+    match mark:
+        case Line():
+            return clip_shares((mark.start, mark.end), box) is not None
+        case Text():
+            return overlap(mark.box(), box)
+        case Box(center=(x, y), size=(w, h)):
+            return overlap((x - 0.5 * w, y - 0.5 * h, x + 0.5 * w, y + 0.5 * h), box)
+        case Disc(center=(x, y), radius=r):
+            return overlap((x - r, y - r, x + r, y + r), box)
+        case Shape(corners=corners):
+            across, down = zip(*corners, strict=True)
+            return overlap((min(across), min(down), max(across), max(down)), box)
+        case _:
+            return True
 
 
 class FreeSpace:

@@ -144,7 +144,8 @@ def _named(rays: PlannedRays, style: TreeStyle) -> TreePlan:
     """The plan in which names of lights are left to the legend, and names of objects cut, if more rays fit then."""
     best = _plan(rays, style)
     shorter = [replace(style, named=False)] if style.named and style.lights else []
-    if any(len(hit_label(rays.tree, i)) > SHORT for i in rays.rows):
+    _, met = np.unique(rays.tree.nodes["object"], return_index=True)  # one row for each object
+    if any(len(hit_label(rays.tree, int(i))) > SHORT for i in met):
         shorter.append(replace(style, named=False, longest=SHORT))
     for asked in shorter:
         if best.fits and not best.folds:
