@@ -103,7 +103,7 @@ class Orbit:
     @property
     def outward(self) -> np.ndarray:
         """Unit vector from the target to the eye."""
-        east = np.cross(self.up, self.north)
+        east = _cross(self.up, self.north)
         level = math.cos(self.azimuth) * self.north + math.sin(self.azimuth) * east
         return math.cos(self.elevation) * level + math.sin(self.elevation) * self.up
 
@@ -114,9 +114,9 @@ class Orbit:
     @property
     def axes(self) -> tuple[np.ndarray, np.ndarray]:
         """Unit vectors to the right and up in the picture."""
-        right = np.cross(self.up, self.outward)
+        right = _cross(self.up, self.outward)
         right /= np.linalg.norm(right)
-        return right, np.cross(self.outward, right)
+        return right, _cross(self.outward, right)
 
     def view(self, frame: Frame) -> tuple[float, ...]:
         """Azimuth and elevation in degrees, distance in radii of the scene, and the target in the world."""
@@ -209,6 +209,12 @@ def initial_orbit(world: World, frame: Frame, view: ViewAngles | None) -> Orbit:
     orbit.target = 0.35 * eye
     orbit.fit(np.stack([eye, np.zeros(3)]))
     return orbit
+
+
+def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """The cross product of two vectors. For single vectors, numpy's takes five times as long."""
+    (a0, a1, a2), (b0, b1, b2) = a.tolist(), b.tolist()
+    return np.array([a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0])
 
 
 def project(points: np.ndarray, matrix: np.ndarray, size: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:

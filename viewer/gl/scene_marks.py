@@ -92,11 +92,15 @@ class SceneMarks:
     def _take(self, at: Point, wide: float) -> None:
         self.taken.append(widened((*at, *at), 0.5 * wide))
 
+    def _is_taken(self, box: Rectangle) -> bool:
+        left, top, right, bottom = box
+        return any(left < x1 and x0 < right and top < y1 and y0 < bottom for x0, y0, x1, y1 in self.taken)
+
     def _text(self, name: str, content: str, spots: Iterable[tuple[Point, str]], color: Color, title: str = "") -> bool:
         """Place a text at the first spot (position, anchor) with room. Returns whether there is one."""
         for at, anchor in spots:
             box = widened(text_box(at, content, TEXT, anchor), 2.0)
-            if _within(box, self.where) and not any(overlap(box, other) for other in self.taken):
+            if _within(box, self.where) and not self._is_taken(box):
                 self.taken.append(box)
                 left, top, right, bottom = box
                 corners = ((left, top), (right, top), (right, bottom), (left, bottom))

@@ -112,11 +112,14 @@ def plan_tree(rays: PlannedRays, style: TreeStyle) -> TreePlan:
 
 def _plan_forms(rays: PlannedRays, style: TreeStyle) -> TreePlan:
     """The plan for a text size: with stubs to the lights, or compact if more is seen then."""
-    plan = _plan_lights(rays, style)
-    if plan.fits and not plan.folds and not plan.lights_left_out:
-        return plan
     low = replace(style, compact=True, named=False, line=SIGNS if style.lights else NO_LINE)
-    plans = [plan, _named(rays, low)]
+    plans = []
+    if style.eye != "top" or _levels(rays, style) >= _levels(rays, low):  # otherwise it shows fewer levels
+        plan = _plan_lights(rays, style)
+        if plan.fits and not plan.folds and not plan.lights_left_out:
+            return plan
+        plans.append(plan)
+    plans.append(_named(rays, low))
     if style.lights and many_lights(rays.tree):
         bare = _named(rays, replace(low, lights=0, line=NO_LINE))
         plans.append(replace(bare, lights_left_out=True))
@@ -124,6 +127,11 @@ def _plan_forms(rays: PlannedRays, style: TreeStyle) -> TreePlan:
     if right - left < NARROW * (bottom - top):
         plans.append(_named(rays, replace(low, eye=OUTLINE)))
     return max(plans, key=lambda plan: plan.seen)
+
+
+def _levels(rays: PlannedRays, style: TreeStyle) -> int:
+    """The number of the tree's levels for which there is room."""
+    return min(levels_down(style, hung=False), int(rays.tree.nodes["depth"].max()))
 
 
 def _plan_lights(rays: PlannedRays, style: TreeStyle) -> TreePlan:
