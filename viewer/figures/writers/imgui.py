@@ -17,6 +17,7 @@ from viewer.figures.writers.arrows import heads
 from viewer.figures.writers.imgui_formula import draw_formula
 
 EM = 2048 / 2400  # of the window's font, over its size for imgui, which is the distance from ascender to descender
+HALF = 0.5  # pixels by which imgui moves the outline of a rectangle inwards
 CORNERS = 24  # of the arcs of the smallest discs
 
 
@@ -29,6 +30,15 @@ def draw_marks(pad: imgui.ImDrawList, marks: Iterable[Mark], corner: Point, scal
 
 def _ink(color: Color) -> int:
     return imgui.get_color_u32(color)
+
+
+def _text_width(content: str, size: float) -> float:
+    """The width of a text at this size. It is not that at another size times a factor, since advances are rounded."""
+    style = imgui.get_style()
+    imgui.push_font(None, size / (style.font_scale_main * style.font_scale_dpi))
+    width = imgui.calc_text_size(content).x
+    imgui.pop_font()
+    return width
 
 
 class _Writer:
@@ -60,11 +70,11 @@ class _Writer:
     def _text(self, text: Text) -> None:
         size = text.size * self.scale / EM
         x, y = self._at(text.at)
-        width = imgui.calc_text_size(text.content).x * size / imgui.get_font_size()
-        font = imgui.get_font()
+        share, font = ANCHORS[text.anchor], imgui.get_font()
+        width = _text_width(text.content, size) if share else 0.0
         top = y + BASELINE * text.size * self.scale - font.get_font_baked(size).ascent
         # Between two pixels, letters blur.
-        place = (round(x - ANCHORS[text.anchor] * width), round(top))
+        place = (round(x - share * width), round(top))
         self.pad.add_text(font, size, place, _ink(text.color), text.content)
 
     def _line(self, line: Line) -> None:
@@ -104,6 +114,7 @@ class _Writer:
         if box.fill:
             self.pad.add_rect_filled(first, last, _ink(box.fill), radius)
         if box.stroke and not any(box.stroke.dash):
+            first, last = (first[0] - HALF, first[1] - HALF), (last[0] + HALF, last[1] + HALF)
             self.pad.add_rect(first, last, _ink(box.stroke.color), radius, max(1.0, box.stroke.width * self.scale))
         elif box.stroke:
             self._outline(_rounded(box), box.stroke)
@@ -152,10 +163,10 @@ class _Writer:
 
 
 def _rounded(box: Box) -> list[Point]:
-    """The outline of a box with round corners, clockwise from the top right."""
+    """The outline of a box with round corners, clockwise from the left end of its upper side."""
     (x, y), (w, h) = box.center, box.size
     r = min(box.radius, 0.5 * w, 0.5 * h)
-    outline = []
+    outline = [(x - 0.5 * w + r, y - 0.5 * h)]
     for quarter, (right, down) in enumerate(((1, -1), (1, 1), (-1, 1), (-1, -1))):
         middle = (x + right * (0.5 * w - r), y + down * (0.5 * h - r))
         outline += signs.arc(middle, r, 0.5 * math.pi * quarter, 0.5 * math.pi * (quarter + 1))
