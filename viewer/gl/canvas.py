@@ -15,7 +15,7 @@ from viewer.explain.sections import Part
 from viewer.figures.layout.tree_plan import TreePlan
 from viewer.figures.marks import Mark
 from viewer.figures.ray_lines import NO_LINES, RayLines, drawn_rows, ray_lines, relatives
-from viewer.figures.steps import Step
+from viewer.figures.steps import Step, of_kinds, whole
 from viewer.gl.interface import Name, hit_of, interface_lines, interface_names
 from viewer.gl.lines import NO_ROWS
 from viewer.gl.magnified import NEAR, Place, magnify
@@ -188,8 +188,8 @@ class Canvas:
             tree, selected = session.tree, session.selected
             rows = drawn_rows(tree, selected)
             self.drawn = len(rows)
-            if session.step:
-                rows = [i for i in rows if i in session.step.rows]
+            on_show = of_kinds(session.step or whole(tree), session.shown.kinds).rows
+            rows = [i for i in rows if i in on_show]
             self.kept = kept = relatives(tree, selected, rows) if selected is not None else None
             self.lines = ray_lines(tree, rows, session.frame, session.shown.kinds)
             rays = style_rays(tree, self.lines, kept, selected, theme)
@@ -201,7 +201,8 @@ class Canvas:
         """What decides at the end of the selected ray, in a picture of this height in logical pixels."""
         session, self.names = self.session, []
         rows = NO_ROWS
-        if session.tree and session.selected is not None:
+        is_there = not session.step or session.selected in session.step.rows
+        if session.tree and session.selected is not None and is_there:
             hit = hit_of(session.tree, session.selected, session.frame)
             length = hit.length(session.orbit.pixel_at(hit.foot, height)) if hit else 0.0
             if hit and length > 0.0:

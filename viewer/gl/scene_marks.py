@@ -191,7 +191,7 @@ class SceneMarks:
         """The selected hit with its names."""
         session, theme = self.session, self.theme
         assert session.tree
-        if session.selected is None:
+        if session.selected is None or (session.step and session.selected not in session.step.rows):
             return
         point = session.frame.inside(session.tree.nodes["point"][session.selected])
         places, inside = self.at(point[None])

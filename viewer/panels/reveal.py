@@ -13,7 +13,7 @@ from viewer.session.stepping.reveal import GRANULARITIES, ORDER_WORDS
 GRANULARITY_WORDS = {
     name: f"one step per {name[:-1]}, then one per hit as the colour is summed up" for name in GRANULARITIES
 }
-ORDER_LABELS = dict(zip(ORDERS, ("Breadth-first", "Depth-first"), strict=True))
+ORDER_LABELS: dict[str, str] = dict(zip(ORDERS, ("Breadth-first", "Depth-first"), strict=True))
 GAP, WIDE_GAP = 3.0, 14.0  # logical pixels, within a group of buttons and between groups
 
 
@@ -31,14 +31,7 @@ def draw_controls(session: Session) -> None:
             reveal.set_order(name)
     row.gap()
     play = "Pause" if reveal.is_playing else "Play"
-    buttons: tuple[tuple[str, str, Callable[[], object]], ...] = (
-        ("|<", "first step (Home)", reveal.first),
-        ("<", "the step before (Page Up)", lambda: reveal.go(-1)),
-        (play, f"{play.lower()} (Space, F5)", reveal.toggle_play),
-        (">", "next step (Page Down)", lambda: reveal.go(1)),
-        (">|", "last step (End)", reveal.last),
-    )
-    for label, hint, act in buttons:
+    for label, hint, act in _buttons(session, play):
         if row.button(label, hint):
             act()
     row.text(session, position_text(session))
@@ -54,12 +47,43 @@ def draw_controls(session: Session) -> None:
         reveal.leave()
 
 
+def draw_position(session: Session, room: float) -> None:
+    """The controls beside the title of the tree, in its line: no step changes the height of the panel. In lecture mode,
+    where a remote goes from step to step, only the position.
+    """
+    reveal = session.reveal
+    if not session.appearance.is_lecture_size:
+        play = "Pause" if reveal.is_playing else "Play"
+        for label, hint, act in _buttons(session, play):
+            if imgui.small_button(label):
+                act()
+            d.hint(hint)
+            imgui.same_line(0.0, GAP * d.unit())
+    left = room - imgui.get_cursor_pos_x()
+    for words in (f"{position_text(session)}  {ORDER_LABELS[reveal.order].lower()}", position_text(session)):
+        if imgui.calc_text_size(words).x <= left or words == position_text(session):
+            imgui.text_colored(session.appearance.theme.muted, words)
+            return
+
+
 def position_text(session: Session) -> str:
     """The number of the current step; the number of steps if the whole tree is on show."""
     steps, position = session.reveal.steps, session.reveal.position
     if not steps or position is None:
         return f"{len(steps or ())} steps"
     return f"{position + 1}/{len(steps)}"
+
+
+def _buttons(session: Session, play: str) -> tuple[tuple[str, str, Callable[[], object]], ...]:
+    """(label, hint, action) of the buttons that go through the steps."""
+    reveal = session.reveal
+    return (
+        ("|<", "first step (Home)", reveal.first),
+        ("<", "the step before (Page Up)", lambda: reveal.go(-1)),
+        (play, f"{play.lower()} (Space, F5)", reveal.toggle_play),
+        (">", "next step (Page Down)", lambda: reveal.go(1)),
+        (">|", "last step (End)", reveal.last),
+    )
 
 
 class _Row:

@@ -10,7 +10,7 @@ from imgui_bundle import imgui
 
 from tracer.tree.raytree import RayTree
 from tracer.tree.text import cut_summary
-from viewer.base.theme import PANEL_TEXT, SMALL
+from viewer.base.theme import PANEL_TEXT, SMALL, Arrow
 from viewer.base.wording import format_number
 from viewer.explain.ray import headline
 from viewer.figures.figure.tree import plan_pages, plan_steps
@@ -27,12 +27,12 @@ from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
 from viewer.panels.panel import Panel
-from viewer.panels.reveal import draw_controls
+from viewer.panels.reveal import draw_position
 from viewer.session.session import Session
 
 EDGE = 6.0  # points: from the border of the panel to the legend
 REACH = 6.0  # logical pixels: the largest distance of a click from a mark
-GLOW = 6.0  # logical pixels: width of the line around the ray under the mouse
+GLOW = 4.0  # logical pixels: width of the line around the ray under the mouse
 SMALLEST, LARGEST = 0.4, 6.0  # zoom
 
 
@@ -89,7 +89,10 @@ def _marks(session: Session, canvas: Canvas, page: tuple[float, float]) -> list[
     step = session.step or canvas.tree_step.get(session.tree, lambda tree=session.tree: whole(tree))
 
     def make() -> list[Mark]:
-        marks = [*_signs(plan, style), *plan_pages(plan, [of_kinds(step, kinds)], style)[0]]
+        marks = plan_pages(plan, [of_kinds(step, kinds)], style)[0]
+        if step.sum is not None:  # the sum needs the room
+            return marks
+        marks += _signs(plan, style)
         return [*marks, *_note(step.tree, marks, style)]
 
     return canvas.tree_marks.get((plan, step, selected, style.theme.name), make)
@@ -154,7 +157,7 @@ def _glow(session: Session, marks: list[Mark]) -> list[Mark]:
         if mark.name not in (f"ray-{row}", f"hit-{row}") or not stroke:
             continue
         wide = replace(stroke, color=ink, width=stroke.width + GLOW, dash=(0.0, 0.0))
-        found.append(replace(mark, stroke=wide))  # type: ignore[call-arg]
+        found.append(replace(mark, stroke=wide, **({"arrow": Arrow.NONE} if isinstance(mark, Line) else {})))  # type: ignore[call-arg]
     return found
 
 
@@ -185,7 +188,7 @@ def _handle_mouse(session: Session, canvas: Canvas, marks: list[Mark], origin: P
 def _head(session: Session, room: float) -> None:
     """The controls of the steps, while the tree is revealed step by step."""
     if session.step:
-        draw_controls(session)
+        draw_position(session, imgui.get_cursor_pos_x() + room)
 
 
 PANEL = Panel(

@@ -80,7 +80,9 @@ class FigureExport:
         from viewer.figures.targets import Target, stem_of
 
         name = "png" if copied and self.format != "tikz" else self.format
-        options = replace(shown.options, format=(name,), theme=self.theme or shown.theme)
+        theme = self.theme or shown.theme
+        # White ink on no ground would be lost on a white slide.
+        options = replace(shown.options, format=(name,), theme=theme, ground=THEMES[theme].dark)
         self.command = shell_line(["raytree", "export", *words(options, leave_out=("output",))])
         self._keep()
         depth = options.depth[-1] if options.depth else 0

@@ -28,7 +28,8 @@ class FileWatch:
 
     def follow_also(self, files: Iterable[Path]) -> None:
         """Look at these files, too: meshes, their materials and buffers. A file may be missing: it may come."""
-        self.known = {**{path: _stamp(path) for path in files}, **self.known}
+        more = {path: _stamp(path) for path in files if path not in self.known}
+        self.known, self.seen, self.agreed = {**self.known, **more}, {**self.seen, **more}, 0
 
     def changed(self) -> bool:
         """Whether a file has changed since it was read, and is not being written any more."""

@@ -13,7 +13,7 @@ from viewer.reopen.view_state import PANEL_NAMES
 
 Rectangle = tuple[float, float, float, float]  # left, top, width, height
 
-GAP = 4.0  # between two places, in logical pixels
+GAP = 6.0  # between two places, in logical pixels
 
 
 class Corner(Enum):
@@ -79,7 +79,7 @@ class Layout:
     maximised: str | None = None  # its name
     on_show: set[Corner] = field(default_factory=set)  # places of the last frame
     papers: dict[str, tuple[int, int]] = field(default_factory=dict)  # sizes of the figures in panels, in points
-    pointed: str | None = None  # the figure in the panel under the mouse, or in the one that has all of the room
+    pointed: str | None = None  # the figure in the panel that the mouse was over last, or that has all of the room
 
     def reset(self) -> None:
         """Put all panels back in place."""

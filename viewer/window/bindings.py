@@ -67,7 +67,7 @@ def _copy(session: Session) -> None:
 
 
 def _escape(session: Session) -> None:
-    """Close what is open; if nothing is, show the whole tree; if it is on show, unselect the ray."""
+    """Close what is open; if nothing is, show the whole tree, then all panels, then unselect the ray."""
     if session.shows_help:
         session.shows_help = False
     elif session.faults:
@@ -75,7 +75,10 @@ def _escape(session: Session) -> None:
     elif session.notes:
         session.notes = []
     elif not session.reveal.leave():
-        session.select(None)
+        if session.layout.maximised:
+            session.layout.maximise(session.layout.maximised)
+        else:
+            session.select(None)
 
 
 def _blank(session: Session) -> None:
@@ -169,7 +172,7 @@ BINDINGS = (
         {"c": _toggle("camera"), "l": _toggle("lights"), "n": _toggle("normals"), "a": _toggle("labels")},
     ),
     Binding(
-        "Z, F2 F3 F4, F6 ... F9", "all of the room for the panel under the mouse; for scene, image, tree, numbers, ...",
+        "Z, F2-F4, F6-F10", "all of the room: for the panel under the mouse, for scene, image, tree, ray, ...",
         {"z": lambda session: session.requests.append(Request.MAXIMISE)},
         {key: _maximise(panel.name) for key, panel in zip(PANEL_KEYS, PANELS, strict=False)},
     ),

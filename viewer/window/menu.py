@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from imgui_bundle import imgui
+from imgui_bundle.imgui import internal
 
 from tracer.printable import printable
 from viewer.base.files import Unusable
@@ -27,10 +28,16 @@ def draw(session: Session) -> None:
         imgui.end_main_menu_bar()
 
 
+EDGE = 3.0  # pixels at the top of the window, where the mouse calls the menu in lecture mode
+
+
 def _is_called() -> bool:
     """Whether the mouse is at the top of the window, or a menu is open. Otherwise there is no menu in lecture mode."""
     room, mouse = imgui.get_main_viewport(), imgui.get_mouse_pos()
-    at_top = imgui.is_mouse_pos_valid() and 0.0 <= mouse.y - room.pos.y < imgui.get_frame_height()
+    bar = internal.find_window_by_name("##MainMenuBar")
+    is_on_show = bar is not None and bar.active
+    reach = imgui.get_frame_height() if is_on_show else EDGE
+    at_top = imgui.is_mouse_pos_valid() and 0.0 <= mouse.y - room.pos.y < reach
     return at_top or imgui.is_popup_open("", imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level)
 
 

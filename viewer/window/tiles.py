@@ -35,7 +35,9 @@ class Tiles:
             self.places, borders = tile(arrangement, set(sharing), room, GAP * d.unit())
         layout.on_show = set(self.places)
         pointed = alone or self._under_mouse()
-        layout.pointed = pointed.figure if pointed else None
+        is_in_menu = imgui.is_popup_open("", imgui.PopupFlags_.any_popup)
+        if pointed and pointed.figure and not is_in_menu:
+            layout.pointed = pointed.figure
         self.part("the borders", lambda: self._borders(arrangement, borders, room), closes=False)
         # The scene comes last: it shows at once what is picked in the image, or selected in the tree.
         for place, where in sorted(self.places.items(), key=lambda item: item[0] is Corner.TOP_LEFT):

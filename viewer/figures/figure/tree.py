@@ -166,7 +166,7 @@ class _Drawing:
             end,
             stroke,
             style.arrow,
-            COMPACT_ARROW if self.plan.style.compact else 0.5,
+            COMPACT_ARROW if self.plan.style.compact and i else 0.5,
             leaves,
             f"hit-{i}",
             label.box() if label.on_line else None,

@@ -9,7 +9,7 @@ from viewer.explain.sums import sum_terms
 from viewer.figures.font import text_width
 from viewer.figures.layout.free_space import FreeSpace
 from viewer.figures.layout.sizes import MARGIN, SMALLEST
-from viewer.figures.marks import HEIGHT, WIDTH, Mark, Point, Rectangle, Text
+from viewer.figures.marks import HEIGHT, WIDTH, Line, Mark, Point, Rectangle, Text
 
 LINE = 1.28  # from line to line, in text sizes
 GAP = 0.7  # between the columns
@@ -69,7 +69,8 @@ def with_sum(
     for size in sizes:
         for signs, room in ((legend, where), (legend, canvas), ([], canvas)):
             drawn = [*signs, *marks]
-            found = replace(block, size=size).place(FreeSpace(room, [*drawn, *(beside or ())]))
+            solid = [m for m in (*drawn, *(beside or ())) if not (isinstance(m, Line) and m.name.startswith("level-"))]
+            found = replace(block, size=size).place(FreeSpace(room, solid))
             if found:
                 return [*drawn, *found]
     return [*legend, *marks]

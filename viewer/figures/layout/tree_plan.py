@@ -124,7 +124,8 @@ def _plan_forms(rays: PlannedRays, style: TreeStyle) -> TreePlan:
         bare = _named(rays, replace(low, lights=0, line=NO_LINE))
         plans.append(replace(bare, lights_left_out=True))
     left, top, right, bottom = style.where
-    if right - left < NARROW * (bottom - top):
+    too_deep = _levels(rays, low) < int(rays.tree.nodes["depth"].max())
+    if style.eye == "top" and (too_deep or right - left < NARROW * (bottom - top)):
         plans.append(_named(rays, replace(low, eye=OUTLINE)))
     return max(plans, key=lambda plan: plan.seen)
 

@@ -6,6 +6,7 @@ from viewer.base.theme import Arrow
 from viewer.figures.marks import Line, Point
 
 HEAD = 11.0  # points from tip to tail, on a line 2.4 wide
+WIDEST = 4.2  # of the lines whose heads grow with them
 SPREAD = 0.42  # of its length, to either side
 
 
@@ -17,7 +18,7 @@ def heads(line: Line) -> list[tuple[tuple[Point, Point, Point], bool]]:
     length = math.hypot(x1 - x0, y1 - y0)
     if length == 0.0:
         return []
-    size = HEAD * line.stroke.width / 2.4
+    size = HEAD * min(line.stroke.width, WIDEST) / 2.4
     dx, dy = (x1 - x0) / length, (y1 - y0) / length
     tip = line.at(min(1.0, line.arrow_at + 0.5 * size / length))
 

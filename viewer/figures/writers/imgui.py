@@ -33,10 +33,10 @@ def _ink(color: Color) -> int:
 
 
 def _text_width(content: str, size: float) -> float:
-    """The width of a text at this size. It is not that at another size times a factor, since advances are rounded."""
+    """The width of a text at this size. That at another size, times a factor, differs, since advances are rounded."""
     style = imgui.get_style()
     imgui.push_font(None, size / (style.font_scale_main * style.font_scale_dpi))
-    width = imgui.calc_text_size(content).x
+    width = imgui.calc_text_size(content).x * size / imgui.get_font_size()  # which is a whole number
     imgui.pop_font()
     return width
 
