@@ -20,14 +20,14 @@ from tracer.scene import Light, Material
 from tracer.tree.raytree import RayTree
 from viewer.base.orbit import Frame, initial_orbit
 from viewer.base.srgb import LUMINANCE
-from viewer.base.theme import DARK, LIGHT, MONO, Theme
+from viewer.base.theme import DARK, LIGHT, MONO, PANEL_TEXT, Theme
 from viewer.explain.ray import headline
 from viewer.figures.catalogue import RECURSION
 from viewer.figures.figure.tree import planned
 from viewer.figures.labels import ray_label
 from viewer.figures.layout.folds import percent
 from viewer.figures.layout.placing import EYES
-from viewer.figures.layout.sizes import TreeStyle
+from viewer.figures.layout.sizes import SMALLEST, TreeStyle
 from viewer.figures.layout.tree_plan import plan_tree
 from viewer.figures.lights import FATE, fate_of, many_lights, shadow_rays
 from viewer.figures.marks import Box, Disc, Figure, Line, Text
@@ -44,7 +44,9 @@ def hits(figure: Figure) -> dict[int, Box]:
 def folded(figure: Figure) -> int:
     """The number of rays that the figure says it has folded."""
     return sum(
-        int(m[1]) for t in figure.marks if isinstance(t, Text) and (m := re.fullmatch(r"\+(\d+) rays?", t.content))
+        int(m[1])
+        for t in figure.marks
+        if isinstance(t, Text) and (m := re.fullmatch(r"\+(\d+) rays?(, .* %)?", t.content))
     )
 
 
@@ -94,6 +96,25 @@ def test_random_trees(seed: int, most: int, lights: int, depth: int, swatches: b
     tree = random_tree(seed, most, lights, depth)
     (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle(swatches=swatches, text_size=size, eye=eye))
     check_whole(figure, tree, size)
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    st.integers(0, 2**32), st.integers(1, 100), st.sampled_from((0, 1, 2, 4, 9)), st.integers(0, 7),
+    st.sampled_from(((766, 258), (350, 370), (640, 320), (500, 900), (1280, 640), (300, 260))), st.booleans(),
+)  # fmt: skip
+def test_random_trees_in_any_panel(
+    seed: int, most: int, lights: int, depth: int, page: tuple[int, int], levels: bool
+) -> None:
+    """As in the window: low and wide, where the signs of shadow rays stand in the boxes, or narrow and high, where the
+    tree is an outline.
+    """
+    tree = random_tree(seed, most, lights, depth)
+    size = (float(page[0]), float(page[1]))
+    style = FigureStyle(swatches=True, text_size=PANEL_TEXT, levels=levels, page=size)
+    (figure,) = pages("tree", Subject(by_depth([tree])), style)
+    assert (figure.width, figure.height) == page
+    check_whole(figure, tree, SMALLEST)
 
 
 @pytest.mark.parametrize("depth", (3, 4))

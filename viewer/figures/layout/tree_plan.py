@@ -239,7 +239,7 @@ def _last_level(measured: HitSizes) -> int:
     if style.eye == "left":
         return levels_right(Sizes.of(measured, measured.rays.rows, {}, {}), style)
     if style.eye == OUTLINE:
-        return deepest
+        return deepest + 1  # no fold hangs under a hit
     whole = levels_down(style, hung=False)
     return whole if deepest <= whole else max(0, levels_down(style, hung=True))
 
