@@ -23,6 +23,7 @@ class Interface(NamedTuple):
     theta1: str
     theta2: str
     critical: str  # angle; only towards a medium of smaller index
+    dot: str  # n·v
     radicand: str  # 1 − η²(1 − c₁²), at a transparent surface; negative for total internal reflection
 
     @property
@@ -61,6 +62,7 @@ def _interface(tree: RayTree, hit: int, title: str, formula: str) -> Interface:
         format_angle(row["theta1"], turn),
         format_angle(row["theta2"], turn),
         format_angle(math.nan if critical is None else critical),
+        format_number(-math.cos(float(row["theta1"])), error=turn),
         _steady(float(row["radicand"])),
     )
 

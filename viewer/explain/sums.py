@@ -39,7 +39,7 @@ def sum_terms(tree: RayTree, i: int, luminance: bool = False) -> list[Term]:
         below = tree.nodes[child]
         factor = _factor(below["factor"], below["factor_error"], luminance)
         brought = _value(below["radiance"], below["radiance_error"], luminance)
-        found.append(Term(f"+ {factor} × {tree.label(child)}", brought, child))
+        found.append(Term(f"+ {tree.label(child)}: {factor} ×", brought, child))
     return [*found, Term(f"= {tree.label(i)}", total, i)]
 
 

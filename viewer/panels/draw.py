@@ -11,6 +11,7 @@ from viewer.base.theme import FONT_SIZE, SMALL, Color, Theme, faded
 
 Point = tuple[float, float]
 
+ROOMY = (1060.0, 560.0)  # a panel from this size on, in logical pixels, is large
 BOLD, SOURCE = 1, 2  # numbers of fonts, after the usual one
 
 
@@ -36,6 +37,11 @@ def bold(size: float = 0.0) -> Iterator[None]:
         yield
     finally:
         imgui.pop_font()
+
+
+def figure_scale(room: imgui.ImVec2) -> float:
+    """Pixels per point of a figure in a panel of this size: in a large panel, figures are larger than other text."""
+    return unit() * max(1.0, min(room.x / (ROOMY[0] * unit()), room.y / (ROOMY[1] * unit())))
 
 
 def small_text(content: str, color: Color) -> None:

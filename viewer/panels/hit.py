@@ -21,9 +21,10 @@ THICKER = 1.6  # factor of the line widths of the ray under the mouse
 
 
 def draw(session: Session, canvas: Canvas) -> None:
-    corner, room, unit = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail(), d.unit()
+    corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     if room.x < 8 or room.y < 8:
         return
+    unit = d.figure_scale(room)
     tree = session.tree
     row = shown_row(tree, session.selected or 0) if tree else None
     if tree is None or row is None:

@@ -36,4 +36,4 @@ class Panel:
         return place_of(self.name, is_lecture=False)
 
     def place_in(self, session: Session) -> Corner:
-        return place_of(self.name, session.appearance.is_lecture_size)
+        return session.layout.place_in(self.name, session.appearance.is_lecture_size)

@@ -67,7 +67,12 @@ def _ends(card: Card, ends: list[Interface]) -> None:
         column.text(end.title, card.theme.muted, bold=True)
         if end.formula:
             column.formula(end.formula)
-        if not end.is_clear:
+        if end.formula == Lecture.REFLECTION:
+            column.pairs(((Lecture.COSINE, end.dot), (Lecture.THETA_1, end.theta1)))
+            if end.is_clear:
+                column.pairs(((Lecture.INDEX_1, end.n1), (Lecture.INDEX_2, end.n2)))
+                column.pairs(((Lecture.THETA_C, end.critical), (Lecture.RADICAND, end.radicand)))
+        elif not end.is_clear:
             column.pairs(((Lecture.INDEX_1, end.n1), (Lecture.THETA_1, end.theta1)))
         else:
             column.pairs(((Lecture.INDEX_1, end.n1), (Lecture.INDEX_2, end.n2)))

@@ -47,10 +47,10 @@ def draw(session: Session, canvas: Canvas) -> None:
     if not session.tree or not session.full_tree:
         _hint(session, pad, corner, room)
         return
-    look, unit = session.tree_view, d.unit()
+    look, unit, fit = session.tree_view, d.unit(), d.figure_scale(room)
     # Zoomed out, the same panel is a larger page: it has room for more rays, in smaller text.
-    scale, wide = unit * look.zoom, max(1.0, 1.0 / look.zoom)
-    page = (float(int(room.x / unit * wide)), float(int(room.y / unit * wide)))
+    scale, wide = fit * look.zoom, max(1.0, 1.0 / look.zoom)
+    page = (float(int(room.x / fit * wide)), float(int(room.y / fit * wide)))
     session.layout.papers["tree"] = (int(page[0]), int(page[1]))
     marks = _marks(session, canvas, page)
     middle = (corner.x + 0.5 * room.x + look.center[0] * unit, corner.y + 0.5 * room.y + look.center[1] * unit)

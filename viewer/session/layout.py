@@ -37,6 +37,10 @@ def place_of(name: str, is_lecture: bool) -> Corner:
     return PLACES[name][is_lecture]
 
 
+# In lecture mode, the tree takes the place of the scene while this panel is in front: each explains the other.
+BESIDE_TREE = "recursion"
+
+
 COLUMNS = ((Corner.TOP_LEFT, Corner.BOTTOM_LEFT), (Corner.TOP_RIGHT, Corner.BOTTOM_RIGHT))
 
 
@@ -88,6 +92,22 @@ class Layout:
     def current(self, is_lecture: bool) -> Arrangement:
         return self.lecture if is_lecture else self.desk
 
+    def has_tree_beside(self, is_lecture: bool) -> bool:
+        return is_lecture and self.lecture.front.get(Corner.BOTTOM_RIGHT) == BESIDE_TREE
+
+    def place_in(self, name: str, is_lecture: bool) -> Corner:
+        """The place of a panel."""
+        if name == "tree" and self.has_tree_beside(is_lecture):
+            return Corner.BOTTOM_LEFT
+        return place_of(name, is_lecture)
+
+    def closed(self, is_lecture: bool) -> set[Corner]:
+        """The places that are closed."""
+        closed = self.current(is_lecture).closed
+        if self.has_tree_beside(is_lecture):
+            return (closed - {Corner.BOTTOM_LEFT}) | {Corner.TOP_LEFT, Corner.TOP_RIGHT}
+        return closed
+
     def maximise(self, name: str) -> None:
         """Give a panel all of the room; again: give it back."""
         self.maximised = None if self.maximised == name else name
@@ -98,8 +118,8 @@ class Layout:
             return (self.maximised,)
         arrangement, found = self.current(is_lecture), {}
         for name in PLACES:
-            place = place_of(name, is_lecture)
-            if place not in arrangement.closed:
+            place = self.place_in(name, is_lecture)
+            if place not in self.closed(is_lecture):
                 found.setdefault(place, arrangement.front.get(place, name))
         return tuple(found.values())
 
@@ -108,9 +128,12 @@ class Layout:
         self.maximised = names[0] if len(names) == 1 else None
         if not self.maximised:
             front = {place_of(name, is_lecture): name for name in reversed(names)}
+            if is_lecture and BESIDE_TREE in names:
+                front[Corner.BOTTOM_RIGHT] = BESIDE_TREE
             arrangement = self.current(is_lecture)
             arrangement.front |= front
-            arrangement.closed = set(Corner) - set(front)
+            if BESIDE_TREE not in names or not is_lecture:
+                arrangement.closed = set(Corner) - set(front)
 
     def borders(self, is_lecture: bool) -> tuple[float, float, float]:
         """The shares of the left column, and of the upper place in each column."""
@@ -119,12 +142,12 @@ class Layout:
 
 
 def tile(
-    arrangement: Arrangement, filled: set[Corner], room: Rectangle, gap: float
+    arrangement: Arrangement, closed: set[Corner], filled: set[Corner], room: Rectangle, gap: float
 ) -> tuple[dict[Corner, Rectangle], dict[int | None, Rectangle]]:
     """(rectangles of the open places that have a panel, rectangles of the borders that can be moved). Neighbours take
     the room of the others.
     """
-    open_places = filled - arrangement.closed
+    open_places = filled - closed
     left, top, width, height = room
     columns = [[place for place in column if place in open_places] for column in COLUMNS]
     places: dict[Corner, Rectangle] = {}

@@ -32,7 +32,9 @@ class Tiles:
         if alone:
             self.places, borders = {alone.place_in(session): room}, {}
         else:
-            self.places, borders = tile(arrangement, set(sharing), room, GAP * d.unit())
+            self.places, borders = tile(
+                arrangement, layout.closed(self.session.appearance.is_lecture_size), set(sharing), room, GAP * d.unit()
+            )
         layout.on_show = set(self.places)
         pointed = alone or self._under_mouse()
         is_in_menu = imgui.is_popup_open("", imgui.PopupFlags_.any_popup)

@@ -222,7 +222,7 @@ def check_sum(tree: RayTree, i: int, words: list[str]) -> None:
     if rays:
         assert len(names) == 2 + len(rays) and names[0] == "local" and same(values[0], row["local"])
         for child, term, value in zip(rays, names[1:-1], values[1:-1], strict=True):
-            factor, label = re.fullmatch(r"\+ (\S+) × (\S+)", term).groups()  # type: ignore[union-attr]
+            label, factor = re.fullmatch(r"\+ (\S+): (\S+) ×", term).groups()  # type: ignore[union-attr]
             assert label == tree.label(child) and same(value, tree.nodes["radiance"][child])
             assert float(factor) == pytest.approx(tree.nodes["factor"][child][0], rel=0.5e-2)
 

@@ -77,13 +77,14 @@ def test_selected_ray_comes_to_the_front_and_begins_at_its_top(room: Driver) -> 
 
 
 def test_lecture_size_and_back_leaves_no_trace(room: Driver) -> None:
-    room.frames(6)  # imgui's tables and scroll bars need some
-    before = room.picture()
+    """To within one of 255 levels: letters have another place in the atlas of glyphs, whose coordinates are rounded."""
+    room.frames(12)  # imgui's tables and scroll bars need some
+    before = room.picture().astype(int)
     for _ in range(5):
         room.press(Key.tab)
         room.press(Key.tab)
     room.frames(3)
-    assert (room.picture() == before).all()
+    assert np.abs(room.picture() - before).max() <= 1
 
 
 def test_however_many_faults_all_can_be_reached(room: Driver, tmp_path: Path) -> None:
