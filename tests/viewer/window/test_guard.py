@@ -13,6 +13,7 @@ from viewer.gl import surfaces
 from viewer.panels import PANELS, error
 from viewer.panels.panel import Panel
 from viewer.session import saving
+from viewer.session.figure_export import SHOWN
 from viewer.session.session import Session
 from viewer.window import bar, bindings, menu
 from viewer.window.overlays import help, messages
@@ -212,7 +213,7 @@ def test_a_file_of_settings_that_cannot_be_read_is_ignored(room: Driver, tmp_pat
     for k, make in enumerate((os.mkfifo, Path.mkdir, lambda path: path.write_bytes(b"\xff" * 99))):
         make(tmp_path / f"{k}.json")
         room.session.export.remember(tmp_path / f"{k}.json")
-        assert room.session.export.figure == "both"
+        assert room.session.export.figure == SHOWN
 
 
 def test_every_guarded_exception_fails_a_test(tmp_path: Path) -> None:
