@@ -17,7 +17,7 @@ OFFICE := soffice:libreoffice-impress pdflatex:texlive-latex-extra kpsewhich:tex
 # Two processes, each with whole files of tests. The kernels are compiled before, so that not both do it.
 SIDE_BY_SIDE := -n 2 --dist loadfile
 
-.PHONY: run test test-all check bench bench-quick bench-stable picture gallery formulas clean
+.PHONY: run test test-all check bench bench-quick bench-stable picture screens gallery formulas clean
 
 run: .venv/installed
 	@$(BIN)/raytree
@@ -56,6 +56,10 @@ bench-stable: .venv/installed-dev
 # The README's picture of the viewer, by the viewer.
 picture: .venv/installed
 	$(BIN)/raytree view glass-ball --screenshot docs/viewer.png
+
+# The window in every mode, theme and panel: docs/window.md with its pictures.
+screens: .venv/installed
+	$(BIN)/python -m docs.screens docs
 
 # The gallery of figures: docs/figures.md with its pictures.
 gallery: .venv/installed

@@ -157,7 +157,7 @@ BINDINGS = (
     ),
     Binding("J  K", "scroll the text or the numbers: down, up", {"j": _scroll(LINES), "k": _scroll(-LINES)}),
     Binding(
-        "P", "next panel at the lower right: lesson, numbers, error, recursion",
+        "P", "next of the panels that share a place: ray, hit, lesson, error, recursion; in lecture mode also the tree",
         {"p": lambda session: session.requests.append(Request.NEXT_PANEL)},
     ),
     Binding(

@@ -8,13 +8,16 @@ from imgui_bundle.imgui import internal
 from tracer.printable import printable
 from viewer.base.files import Unusable
 from viewer.base.theme import THEMES
-from viewer.figures.catalogue import FIGURES, FORMATS, PICTURES
+from viewer.figures.catalogue import FIGURES, FORMATS, ORDERS, PICTURES
 from viewer.lessons import lesson as lessons
+from viewer.panels import PANELS
 from viewer.session.actions import go, look_through_camera, open_lesson
 from viewer.session.figure_export import SHOWN
 from viewer.session.saving import copy_command, export_figure, save_image, save_scene
 from viewer.session.session import Session
+from viewer.session.stepping.reveal import GRANULARITIES, ORDER_WORDS
 from viewer.session.view_state import Pointer, Request
+from viewer.window.bindings import PANEL_KEYS
 
 
 def draw(session: Session) -> None:
@@ -119,6 +122,15 @@ def _view_menu(session: Session) -> None:
     if imgui.menu_item_simple("Through the scene's camera", "V"):
         look_through_camera(session)
     imgui.separator()
+    if imgui.begin_menu("All of the room"):
+        for key, panel in zip(PANEL_KEYS, PANELS, strict=False):
+            if imgui.menu_item_simple(panel.title, str(key.name).upper(), session.layout.maximised == panel.name):
+                session.layout.maximise(panel.name)
+        imgui.end_menu()
+    if imgui.begin_menu("Steps of the tree"):
+        _steps_menu(session)
+        imgui.end_menu()
+    imgui.separator()
     if imgui.menu_item_simple("Light theme", "T", not session.appearance.theme.dark):
         session.appearance.toggle_theme()
     if imgui.menu_item_simple("Lecture size", "Tab", session.appearance.is_lecture_size):
@@ -133,6 +145,26 @@ def _view_menu(session: Session) -> None:
     if imgui.menu_item_simple("Reset the panels"):
         session.layout.reset()
         session.guard.open_all()
+
+
+def _steps_menu(session: Session) -> None:
+    reveal = session.reveal
+    for label, key, act in (
+        ("Next", "Page Down", lambda: reveal.go(1)),
+        ("Back", "Page Up", lambda: reveal.go(-1)),
+        ("Play, pause", "F5", reveal.toggle_play),
+        ("Loop", "E", reveal.toggle_loop),
+        ("Whole tree", "Esc", reveal.leave),
+    ):
+        if imgui.menu_item_simple(label, key, label == "Loop" and reveal.loops):
+            act()
+    imgui.separator()
+    for name in GRANULARITIES:
+        if imgui.menu_item_simple(f"By {name}", "G", reveal.granularity == name):
+            reveal.set_granularity(name)
+    for name in ORDERS:
+        if imgui.menu_item_simple(ORDER_WORDS[name], "O", reveal.order == name):
+            reveal.set_order(name)
 
 
 def _help_menu(session: Session) -> None:

@@ -4,6 +4,7 @@ import itertools
 
 from hypothesis import given, strategies as st
 
+from viewer.panels import PANELS
 from viewer.reopen.view_state import PANEL_NAMES
 from viewer.session.layout import Arrangement, Corner, Layout, tile
 
@@ -41,6 +42,10 @@ def test_the_panels_that_are_to_be_shown_are_shown(names: list[str], is_lecture:
     assert set(layout.shown(is_lecture)) == set(first.values())
     layout.show(layout.shown(is_lecture), is_lecture)
     assert set(layout.shown(is_lecture)) == set(first.values())
+
+
+def test_the_names_are_those_of_the_panels_in_their_order() -> None:
+    assert tuple(panel.name for panel in PANELS) == PANEL_NAMES
 
 
 def test_a_panel_has_all_of_the_room_and_gives_it_back() -> None:
