@@ -204,10 +204,11 @@ class Canvas:
         is_there = not session.step or session.selected in session.step.rows
         if session.tree and session.selected is not None and is_there:
             hit = hit_of(session.tree, session.selected, session.frame)
-            length = hit.length(session.orbit.pixel_at(hit.foot, height)) if hit else 0.0
+            pixel = session.orbit.pixel_at(hit.foot, height) if hit else 0.0
+            length = hit.length(pixel) if hit else 0.0
             if hit and length > 0.0:
                 rows = interface_lines(hit, length, session.appearance.theme)
-                self.names = interface_names(hit, length)
+                self.names = interface_names(hit, length, hit.is_small(length, pixel))
         self.stage.set_interface(rows)
 
     def release(self) -> None:

@@ -48,6 +48,10 @@ class Hit:
     error: float  # bound on the rounding error of the angles
     reach: float  # length of the ray, in the frame
 
+    def is_small(self, length: float, pixel: float) -> bool:
+        """Whether the normal is shorter than usual, because the ray is short."""
+        return length < 0.99 * LENGTH * pixel
+
     def length(self, pixel: float) -> float:
         """The length of the normal in the frame, where a logical pixel has this size. It fits to the ray's length."""
         return max(SHORTEST * LENGTH * pixel, min(LENGTH * pixel, SHARE * self.reach))
@@ -126,27 +130,34 @@ def cone_rim(hit: Hit, length: float) -> np.ndarray:
     return hit.foot + CONE * length * side
 
 
-def interface_names(hit: Hit, length: float) -> list[Name]:
-    """The texts at a hit, the most important first."""
+def interface_names(hit: Hit, length: float, is_small: bool = False) -> list[Name]:
+    """The texts at a hit, the most important first. Where it `is_small`, they are symbols without numbers, since these
+    would cover it.
+    """
 
     def name(content: str, *places: tuple[float, float], of_normal: bool = False) -> Name:
         """Places by angle from the normal and distance, in lengths."""
         points = [hit.foot + share * length * hit.towards(angle) for angle, share in places]
         return Name(content, np.array(points), of_normal)
 
+    def valued(symbol: str, value: str) -> str:
+        return symbol if is_small else f"{symbol} {value}"
+
     found = [name("n", (0.0, 1.12), (0.15, 1.12), (-0.15, 1.12), of_normal=True)]
     if hit.theta1 > SMALLEST:
         ways = _beside_arc(-hit.theta1, 0.0, RADIUS)
-        found.append(name(f"θ₁ {format_angle(hit.theta1, hit.error)}", *ways))
+        found.append(name(valued("θ₁", format_angle(hit.theta1, hit.error)), *ways))
     if hit.theta2 is not None and hit.theta2 > SMALLEST:
         ways = _beside_arc(math.pi - hit.theta2, math.pi, RADIUS_2)
-        found.append(name(f"θ₂ {format_angle(hit.theta2, hit.error)}", *ways))
+        found.append(name(valued("θ₂", format_angle(hit.theta2, hit.error)), *ways))
     if hit.n2 is not None:
-        found.append(name(f"n₁ = {format_number(hit.n1)}", (1.1, 0.8), (1.1, 1.1), (1.3, 1.1), (-1.3, 1.1)))
-        found.append(name(f"n₂ = {format_number(hit.n2)}", (-2.1, 0.8), (-2.1, 1.1), (-1.9, 1.1), (2.0, 1.1)))
+        found.append(name(valued("n₁", f"= {format_number(hit.n1)}"), (1.1, 0.8), (1.1, 1.1), (1.3, 1.1), (-1.3, 1.1)))
+        found.append(
+            name(valued("n₂", f"= {format_number(hit.n2)}"), (-2.1, 0.8), (-2.1, 1.1), (-1.9, 1.1), (2.0, 1.1))
+        )
     if hit.critical is not None:
         rim = cone_rim(hit, 1.12 * length)
-        found.append(Name(f"critical {format_angle(hit.critical)}", rim[: len(rim) // 2 : 4]))
+        found.append(Name("θc" if is_small else f"critical {format_angle(hit.critical)}", rim[: len(rim) // 2 : 4]))
     return found
 
 
