@@ -18,7 +18,7 @@ from viewer.figures.layout.free_space import is_free
 from viewer.figures.layout.sizes import OUTLINE
 from viewer.figures.layout.tree_legend import sign_entries
 from viewer.figures.layout.tree_plan import TreePlan
-from viewer.figures.legend import legend_row, row_width
+from viewer.figures.legend import Entry, legend_row, row_width
 from viewer.figures.marks import Box, Disc, Line, Mark, Point, Text, widened
 from viewer.figures.picking import mark_at, row_of
 from viewer.figures.steps import of_kinds, whole
@@ -30,6 +30,7 @@ from viewer.panels.panel import Panel
 from viewer.panels.reveal import draw_position
 from viewer.session.session import Session
 
+ROW = 1.5  # from row to row of the legend, in its text sizes
 EDGE = 6.0  # points: from the border of the panel to the legend
 REACH = 6.0  # logical pixels: the largest distance of a click from a mark
 GLOW = 4.0  # logical pixels: width of the line around the ray under the mouse
@@ -102,14 +103,21 @@ def _signs(plan: TreePlan, style: FigureStyle) -> list[Mark]:
     """The legend of the signs, at the top right, beside the eye, or below an outline: as many as there is room for."""
     size, right = SMALL * style.text_size, style.page[0] - EDGE
     entries = [entry for entry in sign_entries(plan) if entry.what != "lights"]
-    left, middle = plan.places.eye[0] + 2.0 * style.text_size, EDGE + size
+    left, middle, most = plan.places.eye[0] + 2.0 * style.text_size, EDGE + size, 1
     if plan.style.eye == OUTLINE:
-        left, middle = EDGE, style.page[1] - EDGE - size
-        if middle - size < max(y for _, y in plan.at.values()) + plan.box[1]:
-            return []
-    while entries and right - row_width(entries, size) < left:
-        entries.pop()
-    return legend_row(entries, right - row_width(entries, size), middle, size, style.theme)
+        lowest = max(y for _, y in plan.at.values()) + plan.box[1]
+        left, most = EDGE, int((style.page[1] - EDGE - lowest) / (ROW * size))
+        middle = style.page[1] - EDGE - size
+    rows: list[list[Entry]] = [[]]
+    for entry in entries:
+        if rows[-1] and right - row_width([*rows[-1], entry], size) < left:
+            rows.append([])
+        rows[-1].append(entry)
+    found: list[Mark] = []
+    for k, row in enumerate(rows[:most]):
+        if right - row_width(row, size) >= left:
+            found += legend_row(row, right - row_width(row, size), middle - k * ROW * size, size, style.theme)
+    return found
 
 
 def _note(tree: RayTree, marks: Sequence[Mark], style: FigureStyle) -> list[Mark]:

@@ -180,15 +180,21 @@ BINDINGS = (
     Binding("M", "Whitted's model or Fresnel's", {"m": toggle_model}),
     Binding("R", "refine the image, pause", {"r": toggle_refinement}),
     Binding("T", "light or dark theme", {"t": lambda s: s.appearance.toggle_theme()}),
-    Binding("Tab", "lecture mode: large type, two panels", pressed={K.tab: lambda s: s.appearance.toggle_lecture_size()}),
+    Binding(
+        "Tab", "lecture mode: large type, two panels", pressed={K.tab: lambda s: s.appearance.toggle_lecture_size()}
+    ),
     Binding(
         "F11", "full screen, and back (Esc does not leave it)",
         pressed={K.f11: lambda session: session.requests.append(Request.FULL_SCREEN)},
     ),
     Binding("B or .", "black screen; any key or click brings the window back", {"b": _blank, ".": _blank}),
-    Binding("Esc", "close a message or the help; leave the steps; show all panels; unselect the ray", pressed={K.escape: _escape}),
     Binding(
-        "Ctrl+S", "export the figure of the panel under the mouse (the menu Figure selects another)", ctrl={K.s: export_figure}
+        "Esc", "close a message or the help; leave the steps; show all panels; unselect the ray",
+        pressed={K.escape: _escape},
+    ),
+    Binding(
+        "Ctrl+S", "export the figure of the panel under the mouse (the menu Figure selects another)",
+        ctrl={K.s: export_figure},
     ),
     Binding(
         "Ctrl+C", "copy that figure: a picture to paste onto a slide; with Shift its command line", ctrl={K.c: _copy}
