@@ -31,6 +31,8 @@ STRATEGIES: dict[Value, st.SearchStrategy] = {
     values.PIXELS: st.integers(16, values.MAX_PIXELS),
     values.POINTS: st.floats(8, 48),
     values.RAY_PATH: st.sampled_from(("E", "TRI", "T[3]R", "E.L(key)", "TR.L(a 'b' $c)[5]")),
+    values.PAPER: st.tuples(st.integers(200, 4000), st.integers(200, 4000)),
+    values.SHARES: st.tuples(*[st.floats(0.15, 0.85)] * 3),
     values.PAN_ZOOM: st.tuples(st.floats(0.01, 1000), st.floats(-1e6, 1e6), st.floats(-1e6, 1e6)),
     view_state.VIEW_WORDS: st.deferred(lambda: options(view_state.ViewState)).filter(
         lambda s: s != view_state.UNCHANGED

@@ -15,7 +15,7 @@ import tracer
 from tests.viewer.driver import Driver, viewer
 from viewer.cli import main
 from viewer.figures.catalogue import FIGURE_NAMES
-from viewer.session.figure_export import FigureExport, free_path
+from viewer.session.figure_export import SHOWN, FigureExport, free_path
 
 
 @pytest.fixture
@@ -68,12 +68,13 @@ def test_a_step_on_show_is_the_exported_page(room: Driver, figure: str, order: s
     session.export.figure = figure
     room.type(keys)
     granularity, count = reveal.granularity, len(reveal.steps or ())
-    of_pixel = ["mirror-balls", "--pixel", "{},{}".format(*session.pixel or ()), "--depth", str(session.depth)]
-    steps = ["--figure", figure, "--step", granularity, "--order", order, "--theme", "dark"]
-    if figure == "both":
-        view = ",".join(map(repr, session.orbit.view(session.frame)))
-        steps.append(f"--view={view}")
-    assert main.main(["export", *of_pixel, *steps, "-o", "all/"]) == 0
+    reveal.go_to(0)
+    save(room).unlink()
+    command = shlex.split(session.export.command)
+    place = command.index("--page")
+    assert command[place + 1] == "0" and {"--step", granularity} <= set(command)
+    assert ("--order" in command) == (order != "breadth")
+    assert main.main([*command[1:place], *command[place + 2 :], "-o", "all/"]) == 0
     pages = sorted(Path("all").iterdir())
     assert len(pages) == count
     for k in range(0, count, 3):
@@ -125,7 +126,7 @@ def test_the_choice_is_kept(room: Driver, tmp_path: Path) -> None:
         kept.write_text(text)
         fresh = FigureExport(room.session.calls.post)
         fresh.remember(kept)
-        assert (fresh.figure, fresh.format, fresh.theme) == ("both", "svg", "")
+        assert (fresh.figure, fresh.format, fresh.theme) == (SHOWN, "svg", "")
 
 
 def test_without_a_pixel_there_is_nothing_to_export(room: Driver, tmp_path: Path) -> None:
