@@ -146,6 +146,13 @@ class Driver:
         return self.app.surface.grab()
 
 
+def are_equal(one: np.ndarray, other: np.ndarray) -> bool:
+    """Whether two pictures of the window are equal, to one of 255 levels: a letter's place in the atlas of glyphs
+    depends on what was drawn before, and its coordinates there are rounded.
+    """
+    return one.shape == other.shape and bool((np.abs(one.astype(int) - other) <= 1).all())
+
+
 def body(title: str) -> internal.Window:
     """The part of a panel below its titles, which scrolls."""
     name = re.compile(rf"{title}/body_[0-9A-F]{{8}}")

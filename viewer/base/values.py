@@ -191,7 +191,7 @@ def one_of(names: Sequence[str]) -> Value:
     return Value(read, metavar="|".join(names))
 
 
-def some_of(names: Sequence[str]) -> Value:
+def some_of(names: Sequence[str], metavar: str = "A,B") -> Value:
     """Some of these names, separated by commas, as a tuple without repetitions."""
 
     def read(text: str) -> tuple[str, ...]:
@@ -201,7 +201,7 @@ def some_of(names: Sequence[str]) -> Value:
                 raise Unreadable(f'any of {",".join(names)}, got "{name}"')
         return chosen
 
-    return Value(read, ",".join, "A,B")
+    return Value(read, ",".join, metavar)
 
 
 def none_or_some_of(names: Sequence[str], metavar: str) -> Value:

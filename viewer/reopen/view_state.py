@@ -58,7 +58,7 @@ class ViewState:
     theme: str | None = option(one_of(THEMES), f"{THEMES[0]} by default")
     type_size: str | None = option(one_of(TYPE_SIZES), "lecture: everything larger, for the back row")
     panels: tuple[str, ...] | None = option(
-        some_of(PANEL_NAMES), f"show these panels; a single one has all of the room: {','.join(PANEL_NAMES)}"
+        some_of(PANEL_NAMES, "PANELS"), f"show these panels; a single one has all of the room: {','.join(PANEL_NAMES)}"
     )
     borders: tuple[float, float, float] | None = option(
         SHARES, "shares of the left column, and of the upper panel in the left and in the right column"

@@ -108,6 +108,13 @@ class Layout:
             return (closed - {Corner.BOTTOM_LEFT}) | {Corner.TOP_LEFT, Corner.TOP_RIGHT}
         return closed
 
+    def bring_to_front(self, name: str, is_lecture: bool) -> None:
+        """Show a panel in its place; if it has that place with the other size of type, too, also there."""
+        place = self.place_in(name, is_lecture)
+        for size in (False, True):
+            if size == is_lecture or place_of(name, size) is place:
+                self.current(size).front[place] = name
+
     def maximise(self, name: str) -> None:
         """Give a panel all of the room; again: give it back."""
         self.maximised = None if self.maximised == name else name

@@ -144,4 +144,4 @@ def _title(session: Session, panel: Panel, is_front: bool, is_choice: bool, word
     if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
         session.layout.maximise(panel.name)
     elif pressed:
-        session.layout.current(session.appearance.is_lecture_size).front[panel.place_in(session)] = panel.name
+        session.layout.bring_to_front(panel.name, session.appearance.is_lecture_size)

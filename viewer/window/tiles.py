@@ -115,12 +115,15 @@ class Tiles:
         place = panel.place_in(self.session)
         _, front = self._front(place)
         if panel.request is not Request.SHOW_RAY or not front.shows_ray:
-            self._arrangement.front[place] = panel.name
+            self._show(panel)
 
     def show_next(self) -> None:
         """Of the panels that share a place at the lower right, show the one after that on show."""
         panels, front = self._front(Corner.BOTTOM_RIGHT)
-        self._arrangement.front[Corner.BOTTOM_RIGHT] = panels[(panels.index(front) + 1) % len(panels)].name
+        self._show(panels[(panels.index(front) + 1) % len(panels)])
+
+    def _show(self, panel: Panel) -> None:
+        self.session.layout.bring_to_front(panel.name, self.session.appearance.is_lecture_size)
 
     def maximise(self) -> None:
         """Give the panel under the mouse all of the room, or give it back."""

@@ -39,6 +39,7 @@ STRATEGIES: dict[Value, st.SearchStrategy] = {
     ),
 }
 NAMES = {"KINDS": view_state.KINDS, "PARTS": view_state.SWITCHES}  # by the option's metavar
+LISTS = {"A,B": tuple(FORMATS), "PANELS": view_state.PANEL_NAMES}  # not empty, in any order
 
 
 def strategy(value: Value) -> st.SearchStrategy:
@@ -48,8 +49,8 @@ def strategy(value: Value) -> st.SearchStrategy:
     names = value.metavar.split("|")
     if len(names) > 1:
         return st.sampled_from(names)
-    if value.metavar == "A,B":
-        return st.lists(st.sampled_from(tuple(FORMATS)), min_size=1, unique=True).map(tuple)
+    if value.metavar in LISTS:
+        return st.lists(st.sampled_from(LISTS[value.metavar]), min_size=1, unique=True).map(tuple)
     if value.metavar in NAMES:
         known = NAMES[value.metavar]
         return st.sets(st.sampled_from(known)).map(lambda chosen: tuple(name for name in known if name in chosen))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from imgui_bundle import imgui
 
-from tests.viewer.driver import Driver, viewer
+from tests.viewer.driver import Driver, are_equal, viewer
 from tests.viewer.session.test_figure_export import save
 from tests.viewer.session.test_opening import saved, write_ball
 from viewer.base.theme import LIGHT
@@ -96,7 +96,7 @@ def test_a_dropped_figure_brings_the_view_back_exactly(room: Driver, name: str) 
     assert state_of(other.session) == state
     assert other.session.lesson and other.session.lesson.name == "glass-ball"
     assert not other.session.notice.text and other.session.opening and not other.session.opening.figure
-    assert (still(other) == picture).all()
+    assert are_equal(still(other), picture)
 
 
 def test_a_figure_of_the_scene_on_show_brings_its_own_view_back(room: Driver) -> None:
@@ -124,7 +124,7 @@ def test_without_its_file_the_scene_is_the_figures_copy(room: Driver, tmp_path: 
     drop(other, figure)
     assert other.session.notice.text == f"{path} has changed: this is the copy in {figure.name}"
     assert radius(other) == 1.0
-    assert (still(other) == picture).all()
+    assert are_equal(still(other), picture)
 
     path.unlink()
     other = fresh(room)
@@ -132,7 +132,7 @@ def test_without_its_file_the_scene_is_the_figures_copy(room: Driver, tmp_path: 
     session = other.session
     assert session.notice.text == f"{path} is gone: this is the copy in {figure.name}"
     copy = session.path
-    assert copy and copy.is_file() and copy != path and (still(other) == picture).all()
+    assert copy and copy.is_file() and copy != path and are_equal(still(other), picture)
     again = save(other)  # a figure of the copy: it leads to the file, if that comes back
     assert again.read_bytes().count(b"<raytree:view") == 1
     assert read_figure(again).files.folder == path.parent
@@ -185,7 +185,7 @@ def test_meshes_and_materials_are_carried(room: Driver, tmp_path: Path) -> None:
     other = fresh(room)
     drop(other, figure)
     assert other.session.tree and tree and other.session.tree.nodes.tobytes() == tree.nodes.tobytes()
-    assert (still(other) == picture).all()
+    assert are_equal(still(other), picture)
 
 
 @pytest.mark.parametrize("up", ["y", "z"])
@@ -251,7 +251,7 @@ def test_a_changed_lesson_opens_as_it_was(room: Driver, tmp_path: Path) -> None:
     drop(other, figure)
     assert other.session.lesson and other.session.lesson.text == text and other.session.lesson.name == "mine"
     assert other.session.notice.text.endswith(f"this is the copy in {figure.name}")
-    assert (still(other) == picture).all()
+    assert are_equal(still(other), picture)
 
 
 def test_the_user_can_save_the_copy(room: Driver, tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from tests.viewer.desk import LINUX_ONLY, Desk, start_screen
-from tests.viewer.driver import viewer
+from tests.viewer.driver import are_equal, viewer
 from tests.viewer.screen import bare_screen, hand
 from tests.viewer.session.test_opening import write_ball
 from tests.viewer.session.test_reopening import change_everything, fresh, still
@@ -189,7 +189,7 @@ def test_every_part_of_the_view_is_restored(tmp_path: Path, name: str) -> None:
         other.session.loader.load(opening)
         other.app.settle()
         assert state_of(other.session) == state
-        assert (still(other) == picture).all()
+        assert are_equal(still(other), picture)
 
 
 def opened(folder: Path, **given_options: object) -> tuple[str, ViewState, str]:

@@ -39,7 +39,8 @@ class Viewed(Protocol):
 
 
 def state_of(viewed: Viewed) -> ViewState:
-    """The state of the view on show. What is as in a new window is None, except for theme and size of type."""
+    """The state of the view on show. What is as in a new window is None, except for panels, theme
+    and size of type."""
     shown, look = viewed.shown, viewed.appearance
     hidden = tuple(name for name in SWITCHES if not getattr(shown, name))
     return ViewState(
@@ -53,7 +54,7 @@ def state_of(viewed: Viewed) -> ViewState:
         hide=hidden or None,
         theme=look.theme.name,
         type_size=type_size_of(look),
-        panels=_unless_usual(viewed.layout.shown(look.is_lecture_size), Layout().shown(look.is_lecture_size)),
+        panels=viewed.layout.shown(look.is_lecture_size),
         borders=_unless_usual(viewed.layout.borders(look.is_lecture_size), Layout().borders(look.is_lecture_size)),
         image_zoom=_pan_zoom(viewed.image_view),
         tree_zoom=_pan_zoom(viewed.tree_view),
@@ -61,14 +62,13 @@ def state_of(viewed: Viewed) -> ViewState:
 
 
 def complete(state: ViewState) -> ViewState:
-    """The state with the values of a new window for the kinds of rays, the parts and the panels shown, if it has none:
-    a window that takes it over may show others.
+    """The state with the values of a new window for the kinds of rays and the parts shown, if it has none: a window
+    that takes it over may show others.
     """
     return replace(
         state,
         filter=KINDS if state.filter is None else state.filter,
         hide=() if state.hide is None else state.hide,
-        panels=Layout().shown(state.type_size == TYPE_SIZES[1]) if state.panels is None else state.panels,
     )
 
 
