@@ -109,11 +109,8 @@ class Layout:
         return closed
 
     def bring_to_front(self, name: str, is_lecture: bool) -> None:
-        """Show a panel in its place; if it has that place with the other size of type, too, also there."""
-        place = self.place_in(name, is_lecture)
-        for size in (False, True):
-            if size == is_lecture or place_of(name, size) is place:
-                self.current(size).front[place] = name
+        """Show a panel in its place. Lecture mode keeps its own: it opens on the tree, whatever is read at the desk."""
+        self.current(is_lecture).front[self.place_in(name, is_lecture)] = name
 
     def maximise(self, name: str) -> None:
         """Give a panel all of the room; again: give it back."""
