@@ -46,11 +46,11 @@ def format_point(xyz: Sequence[float] | np.ndarray, error: float = 0.0) -> str:
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def format_rgb(xyz: Sequence[float] | np.ndarray, decimals: int = 4) -> str:
-    """Coordinates or a colour."""
+def format_rgb(xyz: Sequence[float] | np.ndarray, decimals: int = 4, gap: str = "  ") -> str:
+    """Coordinates or a colour, with this `gap` between the numbers."""
     if math.isnan(xyz[0]):
         return "–"
-    return "  ".join(_fixed(x, decimals) for x in xyz)
+    return gap.join(_fixed(x, decimals) for x in xyz)
 
 
 def _fixed(x: float, decimals: int) -> str:

@@ -81,7 +81,7 @@ class ViewOptions(ViewState):
 
     @property
     def state(self) -> ViewState:
-        """What is to be shown."""
+        """The state of the view that the options ask for."""
         return ViewState(**{item.name: getattr(self, item.name) for item in fields(ViewState)})
 
 

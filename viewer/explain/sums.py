@@ -56,4 +56,4 @@ def _value(rgb: Sequence[float] | np.ndarray, error: float, luminance: bool) -> 
         return NO_DIGITS
     if luminance:
         return f"{float(np.asarray(rgb) @ LUMINANCE):.{decimals}f}"
-    return f"({format_rgb(rgb, decimals).replace('  ', ' ')})"
+    return f"({format_rgb(rgb, decimals, gap=' ')})"

@@ -65,7 +65,6 @@ class Canvas:
         self.nodes: dict[int, tuple[float, float]] = {}  # of the tree: its boxes, and the signs of its shadow rays
         self.tree_plan: Cached[TreePlan] = Cached()
         self.tree_plan_of_ray: Cached[TreePlan] = Cached()  # in which a selected ray is seen that is folded otherwise
-        self.tree_step: Cached[Step] = Cached()
         self.tree_marks: Cached[list[Mark]] = Cached()
         self.ray_changed = Changed()  # the ray whose numbers are shown
         self.interfaces: Cached[list[Interface]] = Cached()  # at both ends of that ray
@@ -73,6 +72,7 @@ class Canvas:
         self.ray_ends: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # left, top, right, bottom of the same
         self.explanation: Cached[list[Part]] = Cached()  # of that ray
         self.hit: Cached[list[Mark]] = Cached()  # the marks of the hit on show
+        self._whole: Cached[Step] = Cached()
         self._map: Cached[moderngl.Texture | None] = Cached(_release)
         self._near: Cached[Seen | None] = Cached(lambda seen: _release(seen and seen.texture))
         self._view_changed = Changed()
@@ -90,6 +90,10 @@ class Canvas:
         """The mouse is not over this view."""
         if self._under_mouse == view:
             self._under_mouse, self.session.hovered = "", None
+
+    def step(self, tree: RayTree) -> Step:
+        """The step of this tree that is on show: all of it, if it is not revealed step by step."""
+        return self.session.step or self._whole.get(tree, lambda: whole(tree))
 
     def picture(self) -> moderngl.Texture | None:
         """The rendered image as far as it is; its first row is the image's top."""
@@ -188,7 +192,7 @@ class Canvas:
             tree, selected = session.tree, session.selected
             rows = drawn_rows(tree, selected)
             self.drawn = len(rows)
-            on_show = of_kinds(session.step or whole(tree), session.shown.kinds).rows
+            on_show = of_kinds(self.step(tree), session.shown.kinds).rows
             rows = [i for i in rows if i in on_show]
             self.kept = kept = relatives(tree, selected, rows) if selected is not None else None
             self.lines = ray_lines(tree, rows, session.frame, session.shown.kinds)
@@ -198,12 +202,12 @@ class Canvas:
         self.stage.set_lines(StageLines(np.concatenate(marks), *rays))
 
     def _set_interface(self, height: float) -> None:
-        """What decides at the end of the selected ray, in a picture of this height in logical pixels."""
+        """Normal, angles, media and cone at the end of the selected ray. `height` of the picture in logical pixels."""
         session, self.names = self.session, []
         rows = NO_ROWS
-        is_there = not session.step or session.selected in session.step.rows
-        if session.tree and session.selected is not None and is_there:
-            hit = hit_of(session.tree, session.selected, session.frame)
+        selected = session.selected_on_show
+        if session.tree and selected is not None:
+            hit = hit_of(session.tree, selected, session.frame)
             pixel = session.orbit.pixel_at(hit.foot, height) if hit else 0.0
             length = hit.length(pixel) if hit else 0.0
             if hit and length > 0.0:

@@ -1,4 +1,4 @@
-"""What decides at a hit, in 3D: the normal, the angles, the two media, and the cone of the critical angle.
+"""The interface at a hit, in 3D: the normal, the angles, the two media, and the cone of the critical angle.
 
 Everything lies in the plane of incidence, except for the cone. Its size is constant on the screen.
 """

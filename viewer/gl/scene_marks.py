@@ -18,7 +18,7 @@ from viewer.base.theme import DIMMED, QUIET, Color, faded
 from viewer.figures import signs
 from viewer.figures.font import text_box
 from viewer.figures.labels import ray_label
-from viewer.figures.marks import Disc, Line, Mark, Point, Rectangle, Shape, Stroke, Text, overlap, widened
+from viewer.figures.marks import Disc, Line, Mark, Point, Rectangle, Shape, Stroke, Text, overlap, widened, within
 from viewer.gl.canvas import Canvas
 from viewer.session.session import Session
 
@@ -93,14 +93,13 @@ class SceneMarks:
         self.taken.append(widened((*at, *at), 0.5 * wide))
 
     def _is_taken(self, box: Rectangle) -> bool:
-        left, top, right, bottom = box
-        return any(left < x1 and x0 < right and top < y1 and y0 < bottom for x0, y0, x1, y1 in self.taken)
+        return any(overlap(box, other) for other in self.taken)
 
     def _text(self, name: str, content: str, spots: Iterable[tuple[Point, str]], color: Color, title: str = "") -> bool:
         """Place a text at the first spot (position, anchor) with room. Returns whether there is one."""
         for at, anchor in spots:
             box = widened(text_box(at, content, TEXT, anchor), 2.0)
-            if _within(box, self.where) and not self._is_taken(box):
+            if within(box, self.where) and not self._is_taken(box):
                 self.taken.append(box)
                 left, top, right, bottom = box
                 corners = ((left, top), (right, top), (right, bottom), (left, bottom))
@@ -170,8 +169,7 @@ class SceneMarks:
         # Of several arrows in one direction, the later ones stand further along the border.
         for aside in (0.0, 1.0, -1.0, 2.0, -2.0):
             tip = (middle[0] + reach * dx - aside * ARROW * dy, middle[1] + reach * dy + aside * ARROW * dx)
-            box = widened((*tip, *tip), 0.4 * ARROW)
-            if not any(overlap(box, other) for other in self.taken):
+            if not self._is_taken(widened((*tip, *tip), 0.4 * ARROW)):
                 break
         back = (tip[0] - ARROW * dx, tip[1] - ARROW * dy)
         half_wide = 0.36 * ARROW
@@ -191,9 +189,10 @@ class SceneMarks:
         """The selected hit with its names."""
         session, theme = self.session, self.theme
         assert session.tree
-        if session.selected is None or (session.step and session.selected not in session.step.rows):
+        selected = session.selected_on_show
+        if selected is None:
             return
-        point = session.frame.inside(session.tree.nodes["point"][session.selected])
+        point = session.frame.inside(session.tree.nodes["point"][selected])
         places, inside = self.at(point[None])
         if not inside[0]:
             return
@@ -274,10 +273,6 @@ def _beside(at: Point, away: float) -> list[tuple[Point, str]]:
         ((x - gap, y - low), "end"),
         ((x - gap, y + low), "end"),
     ]
-
-
-def _within(a: Rectangle, b: Rectangle) -> bool:
-    return a[0] >= b[0] and a[1] >= b[1] and a[2] <= b[2] and a[3] <= b[3]
 
 
 def _thick(mark: Mark, by: float) -> Mark:

@@ -47,7 +47,7 @@ class ImagePlane:
 
 @dataclass(frozen=True)
 class _Look:
-    """How one picture is drawn: `size` in pixels, `scale` in pixels per logical pixel."""
+    """The view of one picture: `size` in pixels, `scale` in pixels per logical pixel."""
 
     matrix: np.ndarray
     size: tuple[int, int]

@@ -1,4 +1,4 @@
-"""What all panels share: text on a plate, fonts and sizes, buttons that are on or off, hints. Lines and signs are marks
+"""Helpers of all panels: text on a plate, fonts and sizes, buttons that are on or off, hints. Lines and signs are marks
 (`viewer.figures.writers.imgui`).
 """
 
@@ -92,6 +92,13 @@ def toggle(theme: Theme, label: str, on: bool) -> bool:
     if on:
         imgui.pop_style_color(3)
     return pressed
+
+
+def is_clicked() -> bool:
+    """Whether the left button came up over the item before, in the place where it went down: no drag."""
+    io = imgui.get_io()
+    is_released = imgui.is_item_hovered() and imgui.is_mouse_released(imgui.MouseButton_.left)
+    return is_released and io.mouse_drag_max_distance_sqr[0] < io.mouse_drag_threshold**2
 
 
 def hint(content: str) -> None:

@@ -68,7 +68,7 @@ def _lines(session: Session) -> None:
 
 
 def _said(session: Session, recording: Recording | None, moment: int | None) -> str:
-    """What there is to say about the record: how to begin, that it is not there yet, why it ends."""
+    """A remark on the record: how to begin, that it is not there yet, why it ends."""
     reveal = session.reveal
     if not reveal.step or reveal.order != RECURSION:
         return "Press O, then Page Down: the tree grows depth-first, as this procedure calls itself."
@@ -184,7 +184,7 @@ def _cells(label: str, values: Values, decimals: int) -> dict[str, str]:
     def number(x: float | None) -> str:
         return "" if x is None else format_number(x, 3)
 
-    color = "" if values.color is None else format_rgb(values.color, decimals).replace("  ", " ")
+    color = "" if values.color is None else format_rgb(values.color, decimals, gap=" ")
     cells = (label, str(values.depth), format_number(values.n1, 4), number(values.kr), number(values.kt), color)
     return dict(zip(COLUMNS, cells, strict=True))
 

@@ -30,8 +30,7 @@ def draw_controls(session: Session) -> None:
         if row.toggle(session, label, on, f"{ORDER_WORDS[name]} (key O)"):
             reveal.set_order(name)
     row.gap()
-    play = "Pause" if reveal.is_playing else "Play"
-    for label, hint, act in _buttons(session, play):
+    for label, hint, act in _buttons(session):
         if row.button(label, hint):
             act()
     row.text(session, position_text(session))
@@ -53,17 +52,15 @@ def draw_position(session: Session, room: float) -> None:
     """
     reveal = session.reveal
     if not session.appearance.is_lecture_size:
-        play = "Pause" if reveal.is_playing else "Play"
-        for label, hint, act in _buttons(session, play):
+        for label, hint, act in _buttons(session):
             if imgui.small_button(label):
                 act()
             d.hint(hint)
             imgui.same_line(0.0, GAP * d.unit())
-    left = room - imgui.get_cursor_pos_x()
-    for words in (f"{position_text(session)}  {ORDER_LABELS[reveal.order].lower()}", position_text(session)):
-        if imgui.calc_text_size(words).x <= left or words == position_text(session):
-            imgui.text_colored(session.appearance.theme.muted, words)
-            return
+    position = position_text(session)
+    words = f"{position}  {ORDER_LABELS[reveal.order].lower()}"
+    fits = imgui.calc_text_size(words).x <= room - imgui.get_cursor_pos_x()
+    imgui.text_colored(session.appearance.theme.muted, words if fits else position)
 
 
 def position_text(session: Session) -> str:
@@ -74,9 +71,10 @@ def position_text(session: Session) -> str:
     return f"{position + 1}/{len(steps)}"
 
 
-def _buttons(session: Session, play: str) -> tuple[tuple[str, str, Callable[[], object]], ...]:
+def _buttons(session: Session) -> tuple[tuple[str, str, Callable[[], object]], ...]:
     """(label, hint, action) of the buttons that go through the steps."""
     reveal = session.reveal
+    play = "Pause" if reveal.is_playing else "Play"
     return (
         ("|<", "first step (Home)", reveal.first),
         ("<", "the step before (Page Up)", lambda: reveal.go(-1)),

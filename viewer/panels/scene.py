@@ -73,11 +73,8 @@ def _handle_mouse(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: 
         orbit.zoom(io.mouse_wheel)
     if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(button.left):
         session.reset_orbit()
-    # A click is a press and release in one place, so turning the view selects nothing.
-    if imgui.is_item_hovered() and imgui.is_mouse_released(button.left):
-        moved = io.mouse_drag_max_distance_sqr[0]
-        if moved < io.mouse_drag_threshold**2:
-            session.select(_row_at(session, canvas, corner, room))
+    if d.is_clicked():
+        session.select(_row_at(session, canvas, corner, room))
 
 
 def _row_at(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImVec2) -> int | None:
@@ -91,7 +88,7 @@ def _row_at(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.
 
 
 def _covers(session: Session, room: imgui.ImVec2) -> list[Rectangle]:
-    """What lies over the view, in logical pixels: its title, and the image as an inset."""
+    """The rectangles that are covered, in logical pixels: by the title, and by the image as an inset."""
     unit = d.unit()
     title = imgui.calc_text_size(session.world.scene.caption if session.world else "")
     found = [(0.0, 0.0, title.x / unit + TITLE, title.y / unit + TITLE)]

@@ -87,7 +87,7 @@ def _marks(session: Session, canvas: Canvas, page: tuple[float, float]) -> list[
     if selected is not None and selected not in plan.rows:
         plan = canvas.tree_plan_of_ray.get((full, kinds, page, selected), lambda: plan_for(selected))
     assert session.tree
-    step = session.step or canvas.tree_step.get(session.tree, lambda tree=session.tree: whole(tree))
+    step = canvas.step(session.tree)
 
     def make() -> list[Mark]:
         marks = plan_pages(plan, [of_kinds(step, kinds)], style)[0]
@@ -189,7 +189,7 @@ def _handle_mouse(session: Session, canvas: Canvas, marks: list[Mark], origin: P
     if row is not None and not imgui.is_mouse_down(button.left):
         first, second = headline(session.tree, row)
         imgui.set_tooltip(f"{first}\n{second}")
-    if imgui.is_mouse_released(button.left) and io.mouse_drag_max_distance_sqr[0] < io.mouse_drag_threshold**2:
+    if d.is_clicked():
         session.select(row)
 
 

@@ -1,1 +1,1 @@
-"""What brings a view back: its state, the files of its scene, and how figures carry both."""
+"""Reopening a view: its state, the files of its scene, and how figures carry both."""

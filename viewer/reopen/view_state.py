@@ -39,7 +39,7 @@ PANEL_NAMES = ("scene", "image", "tree", "ray", "hit", "lesson", "error", "recur
 
 @dataclass(frozen=True, kw_only=True)
 class ViewState:
-    """What is chosen in a window. None: the scene's or the lesson's own, or what the window has already."""
+    """The choices in a window. None: the scene's or the lesson's own, or those that the window has already."""
 
     pixel: tuple[int, int] | None = option(PIXEL, "pick this pixel, counted from the top left")
     depth: int | None = option(whole(0, metavar="D"), DEPTH_HELP)

@@ -116,6 +116,11 @@ class Layout:
         """Give a panel all of the room; again: give it back."""
         self.maximised = None if self.maximised == name else name
 
+    def give_back(self) -> bool:
+        """Show all panels. Returns whether one had all of the room."""
+        had_one, self.maximised = self.maximised is not None, None
+        return had_one
+
     def shown(self, is_lecture: bool) -> tuple[str, ...]:
         """The names of the panels on show."""
         if self.maximised:

@@ -10,7 +10,7 @@ from viewer.base.pictures import write_picture
 from viewer.base.theme import PANEL_TEXT
 from viewer.figures.catalogue import ORDERS, STEPS
 from viewer.figures.export_options import ExportOptions
-from viewer.reopen.view_state import KINDS, UNCHANGED, differing
+from viewer.reopen.view_state import UNCHANGED, differing
 from viewer.session.figure_export import Shown
 from viewer.session.restore.command import scene_word, view_command
 from viewer.session.restore.figure_scene import save_copy
@@ -38,7 +38,7 @@ def export_figure(session: Session, copied: bool = False) -> None:
         order=session.reveal.order if step else ORDERS[0],
         page=session.reveal.position if step else None,
         model=session.model,
-        filter=None if session.shown.kinds == set(KINDS) else tuple(k for k in KINDS if k in session.shown.kinds),
+        filter=session.shown.filter,
         **_as_on_show(session, figure),
         up=session.up,
         output=".",

@@ -230,6 +230,12 @@ class Session(Looks):
         """The step of the tree that is on show; None if the whole tree is."""
         return self.reveal.step
 
+    @property
+    def selected_on_show(self) -> int | None:
+        """The row of the selected ray; None, too, if the step on show does not have it yet."""
+        step, selected = self.step, self.selected
+        return None if step and selected not in step.rows else selected
+
     def _now(self) -> Opening:
         """An opening that leads back to the place on show."""
         assert self.opening

@@ -29,7 +29,7 @@ class Request(Enum):
 
 
 class Pointer(Enum):
-    """What shows the mouse to the room."""
+    """The sign that shows the mouse to the room."""
 
     NONE = auto()
     DISC = auto()
@@ -68,6 +68,11 @@ class Visibility:
     lights: bool = True
     normals: bool = True
     labels: bool = True
+
+    @property
+    def filter(self) -> tuple[str, ...] | None:
+        """The kinds of rays on show, in their order; None: all."""
+        return None if self.kinds == set(STYLES) else tuple(kind for kind in STYLES if kind in self.kinds)
 
     def toggle_kind(self, kind: str) -> None:
         """Show or hide a kind of rays."""
@@ -135,7 +140,7 @@ class OpenDialog:
 
 @dataclass(eq=False)
 class Looks:
-    """How the scene is looked at: the part of a session that does not depend on the scene."""
+    """The looks of the window: the part of a session that does not depend on the scene."""
 
     shown: Visibility = field(default_factory=Visibility)
     image_view: PanZoom = field(default_factory=PanZoom)

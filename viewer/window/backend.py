@@ -158,7 +158,7 @@ class Window(Surface):
 
     @property
     def place(self) -> WindowPlace:
-        """Where the window stands. While it is minimised, some systems move it out of all screens."""
+        """The window's place. While it is minimised, some systems move it out of all screens."""
         x, y, width, height = self.windowed or (*glfw.get_window_pos(self.window), *glfw.get_window_size(self.window))
         return WindowPlace(x, y, *self._logical(width, height), self.windowed is not None)
 

@@ -43,9 +43,13 @@ class Binding:
     alt: Mapping[imgui.Key, Act] = field(default_factory=dict)  # together with Alt
 
 
+def _has_shift() -> bool:
+    return imgui.get_io().key_shift or just_released(SHIFT)
+
+
 def _nudge(dx: int, dy: int) -> Act:
     def act(session: Session) -> None:
-        pixels = 10 if imgui.get_io().key_shift or just_released(SHIFT) else 1
+        pixels = 10 if _has_shift() else 1
         nudge(session, pixels * dx, pixels * dy)
 
     return act
@@ -60,7 +64,7 @@ def _deeper(by: int) -> Act:
 
 
 def _copy(session: Session) -> None:
-    if imgui.get_io().key_shift or just_released(SHIFT):
+    if _has_shift():
         copy_command(session)
     else:
         export_figure(session, copied=True)
@@ -74,11 +78,8 @@ def _escape(session: Session) -> None:
         session.show_faults([])
     elif session.notes:
         session.notes = []
-    elif not session.reveal.leave():
-        if session.layout.maximised:
-            session.layout.maximise(session.layout.maximised)
-        else:
-            session.select(None)
+    elif not session.reveal.leave() and not session.layout.give_back():
+        session.select(None)
 
 
 def _blank(session: Session) -> None:
@@ -102,7 +103,7 @@ def _scroll(by: int) -> Act:
 
 def _page(by: int) -> Act:
     def act(session: Session) -> None:
-        if imgui.get_io().key_shift or just_released(SHIFT):
+        if _has_shift():
             step_line(session, by)
         else:
             session.reveal.go(by)

@@ -134,7 +134,7 @@ def _title(session: Session, panel: Panel, is_front: bool, is_choice: bool, word
         size = imgui.calc_text_size(words)
         at = imgui.get_cursor_screen_pos()
         pressed = imgui.invisible_button(f"title {panel.title}", size)
-        color = theme.text if is_front else theme.text if imgui.is_item_hovered() else theme.muted
+        color = theme.text if is_front or imgui.is_item_hovered() else theme.muted
         pad = imgui.get_window_draw_list()
         pad.add_text(at, d.u32(color), words)
         if is_front and is_choice:

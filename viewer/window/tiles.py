@@ -33,7 +33,7 @@ class Tiles:
             self.places, borders = {alone.place_in(session): room}, {}
         else:
             self.places, borders = tile(
-                arrangement, layout.closed(self.session.appearance.is_lecture_size), set(sharing), room, GAP * d.unit()
+                arrangement, layout.closed(session.appearance.is_lecture_size), set(sharing), room, GAP * d.unit()
             )
         layout.on_show = set(self.places)
         pointed = alone or self._under_mouse()
@@ -59,7 +59,7 @@ class Tiles:
         return found
 
     def _head(self, panel: Panel, wide: float) -> None:
-        """What is beside the title."""
+        """Draw the content beside the title."""
         draw = panel.head
         if draw:
             self.part(f"the title of {panel.title}", lambda: draw(self.session, wide))
@@ -128,9 +128,7 @@ class Tiles:
     def maximise(self) -> None:
         """Give the panel under the mouse all of the room, or give it back."""
         layout, panel = self.session.layout, self._under_mouse()
-        if layout.maximised:
-            layout.maximise(layout.maximised)
-        elif panel:
+        if not layout.give_back() and panel:
             layout.maximise(panel.name)
 
     def _under_mouse(self) -> Panel | None:

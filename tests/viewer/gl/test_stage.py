@@ -28,7 +28,7 @@ def drawn(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def actions(driver: Driver) -> Iterator[str]:
-    """What changes the rays on show, one after the other; the image is at rest after each."""
+    """Change the rays on show in all ways, one after the other; the image is at rest after each."""
     session = driver.session
     session.image.wait()
     driver.frames(3)

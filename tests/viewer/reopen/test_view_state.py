@@ -39,7 +39,7 @@ def test_a_state_is_read_back_from_json_and_from_words(state: ViewState) -> None
 @settings(max_examples=200, deadline=None)
 @given(STATES, STATES)
 def test_what_differs_completes_the_base(state: ViewState, base: ViewState) -> None:
-    """Where the state has a value, or the base has none."""
+    """Except for a field that has a value in the base alone: a difference cannot take it away."""
     more = differing(state, base)
     for item in fields(ViewState):
         found, wanted = getattr(merged(base, more), item.name), getattr(state, item.name)

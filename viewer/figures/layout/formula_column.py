@@ -37,7 +37,7 @@ class _Row(NamedTuple):
 
 @dataclass(frozen=True)
 class _Style:
-    """How much of the sections is shown."""
+    """The parts of the sections that are shown."""
 
     vectors: bool = True
     definitions: bool = True  # of symbols that are fractions or roots

@@ -20,17 +20,23 @@ def _touches(mark: Mark, box: Rectangle) -> bool:
     match mark:
         case Line():
             return clip_shares((mark.start, mark.end), box) is not None
-        case Text():
-            return overlap(mark.box(), box)
-        case Box(center=(x, y), size=(w, h)):
-            return overlap((x - 0.5 * w, y - 0.5 * h, x + 0.5 * w, y + 0.5 * h), box)
-        case Disc(center=(x, y), radius=r):
-            return overlap((x - r, y - r, x + r, y + r), box)
-        case Shape(corners=corners):
-            across, down = zip(*corners, strict=True)
-            return overlap((min(across), min(down), max(across), max(down)), box)
+        case Text() | Box() | Disc() | Shape():
+            return overlap(_bounds(mark), box)
         case _:
             return True
+
+
+def _bounds(mark: Text | Box | Disc | Shape) -> Rectangle:
+    match mark:
+        case Text():
+            return mark.box()
+        case Box(center=(x, y), size=(w, h)):
+            return (x - 0.5 * w, y - 0.5 * h, x + 0.5 * w, y + 0.5 * h)
+        case Disc(center=(x, y), radius=r):
+            return (x - r, y - r, x + r, y + r)
+        case Shape(corners=corners):
+            across, down = zip(*corners, strict=True)
+            return (min(across), min(down), max(across), max(down))
 
 
 class FreeSpace:
@@ -45,15 +51,8 @@ class FreeSpace:
 
     def _take_mark(self, mark: Mark) -> None:
         match mark:
-            case Text():
-                self.take(mark.box())
-            case Box(center=(x, y), size=(w, h)):
-                self.take((x - 0.5 * w, y - 0.5 * h, x + 0.5 * w, y + 0.5 * h))
-            case Disc(center=(x, y), radius=r):
-                self.take((x - r, y - r, x + r, y + r))
-            case Shape(corners=corners):
-                across, down = zip(*corners, strict=True)
-                self.take((min(across), min(down), max(across), max(down)))
+            case Text() | Box() | Disc() | Shape():
+                self.take(_bounds(mark))
             case Line():
                 steps = max(1, math.ceil(math.dist(mark.start, mark.end) / CELL))
                 for k in range(steps):  # in short pieces, whose bounding boxes are hardly larger than themselves

@@ -1,4 +1,4 @@
-"""What is to be placed in a tree figure, and where it stands then."""
+"""The parts of a tree figure that are to be placed, and their places."""
 
 from collections.abc import Collection
 from dataclasses import dataclass

@@ -56,7 +56,7 @@ class TreeStyle:
 
 @dataclass(frozen=True)
 class PlannedRays:
-    """What a plan is made for: the steps of one tree, the deepest last, and rows of that one."""
+    """The rays that a plan is made for: the steps of one tree, the deepest last, and rows of that one."""
 
     trees: Sequence[RayTree]
     rows: frozenset[int]  # that may be drawn or folded; the others are left out. With each row, its parent is in it

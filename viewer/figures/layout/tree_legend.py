@@ -11,7 +11,7 @@ from viewer.figures.lights import FATES, counted, fate_of, shadow_rays
 
 
 def tree_entries(plan: TreePlan) -> list[Entry]:
-    """What the legend explains: the lines and signs of the deepest step."""
+    """The entries of the legend: lines and signs of the deepest step."""
     kinds = {plan.tree.kind(i) for i in plan.rows}
     rays = [Entry(kind, STYLES[kind].label) for kind in ("reflection", "refraction", "tir") if kind in kinds]
     return [*rays, *sign_entries(plan)]

@@ -50,7 +50,7 @@ def state_of(viewed: Viewed) -> ViewState:
         up=viewed.up,
         select=viewed.selection if viewed.selected is not None else None,
         camera=viewed.orbit.view(viewed.frame),
-        filter=tuple(kind for kind in KINDS if kind in shown.kinds) if shown.kinds != set(KINDS) else None,
+        filter=shown.filter,
         hide=hidden or None,
         theme=look.theme.name,
         type_size=type_size_of(look),

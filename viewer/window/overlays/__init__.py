@@ -1,1 +1,1 @@
-"""What lies over the panels: messages, the help, a dialog, the pointer, the black screen."""
+"""Parts that lie over the panels: messages, the help, a dialog, the pointer, the black screen."""
