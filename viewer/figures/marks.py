@@ -44,7 +44,9 @@ def clip_shares(piece: Piece, box: Rectangle) -> tuple[float, float] | None:
 
 
 def overlap(a: Rectangle, b: Rectangle) -> bool:
-    return min(a[2], b[2]) > max(a[0], b[0]) and min(a[3], b[3]) > max(a[1], b[1])
+    if a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]:
+        return False
+    return a[2] > a[0] and a[3] > a[1] and b[2] > b[0] and b[3] > b[1]
 
 
 def inside(point: Point, box: Rectangle) -> bool:

@@ -44,19 +44,38 @@ def line_rows(
     return rows
 
 
+class LinePrograms:
+    """The shaders of all lines."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self.line = make_program(ctx, "line")
+        self.arrow = make_program(ctx, "arrow")
+        put(self.arrow, length_px=ARROW)
+        for program in (self.line, self.arrow):
+            put(program, solid=0, front=1, glass=2)
+
+    def look(self, matrix: np.ndarray, size: tuple[int, int], scale: float) -> None:
+        """Draw all lines in this view from now on. `size` in pixels, `scale` pixels per logical pixel."""
+        for program in (self.line, self.arrow):
+            put(program, world_to_clip=tuple(float32(matrix.T).ravel()), size=size, scale=scale)
+
+    def release(self) -> None:
+        for program in (self.line, self.arrow):
+            program.release()
+
+
 class Lines:
     """A set of lines on the GPU, drawn in front of or behind surfaces."""
 
-    def __init__(self, ctx: moderngl.Context) -> None:
+    def __init__(self, ctx: moderngl.Context, programs: LinePrograms) -> None:
         self.ctx = ctx
-        self.line = make_program(ctx, "line")
-        self.arrow = make_program(ctx, "arrow")
+        self.programs = programs
         self.count = 0
         self.buffer = ctx.buffer(reserve=LINE.itemsize)
         self._bind()
 
     def release(self) -> None:
-        for thing in (self.strips, self.heads, self.buffer, self.line, self.arrow):
+        for thing in (self.strips, self.heads, self.buffer):
             thing.release()
 
     def set(self, rows: np.ndarray) -> None:
@@ -71,41 +90,24 @@ class Lines:
         if content:
             self.buffer.write(content)
 
-    def draw(
-        self,
-        matrix: np.ndarray,
-        size: tuple[int, int],
-        scale: float,
-        hidden: float = 1.0,
-        seam: Color = NO_COLOR,
-    ) -> None:
-        """Draw all lines. `size` in pixels, `scale` pixels per logical pixel. `seam` is the colour of their border.
+    def draw(self, hidden: float = 1.0, seam: Color = NO_COLOR) -> None:
+        """Draw all lines in the view of the programs. `seam` is the colour of their border.
 
         `hidden` is their opacity behind opaque things. Unless it is 1, textures 0, 1 and 2 are those of
         `shaders/veil.glsl`, and the depth test must be off.
         """
         if not self.count:
             return
-        shared = {
-            "world_to_clip": tuple(float32(matrix.T).ravel()),
-            "size": size,
-            "scale": scale,
-            "extra": HALO if seam[3] else 0.0,
-            "seam": seam,
-            "hidden": hidden,
-            "solid": 0,
-            "front": 1,
-            "glass": 2,
-        }
-        put(self.line, **shared)
-        put(self.arrow, **shared, length_px=ARROW)
+        for program in (self.programs.line, self.programs.arrow):
+            put(program, extra=HALO if seam[3] else 0.0, seam=seam, hidden=hidden)
         self.strips.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=self.count)
         self.heads.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=self.count)
 
     def _bind(self) -> None:
         line = "3f 3f 4f 1f 2f 1f 2x4/i"
         self.strips = self.ctx.vertex_array(
-            self.line, [(self.buffer, line, "from", "to", "tint", "width", "dash", "fading")]
+            self.programs.line, [(self.buffer, line, "from", "to", "tint", "width", "dash", "fading")]
         )
         head = "3f 3f 4f 4x4 1f 1f/i"
-        self.heads = self.ctx.vertex_array(self.arrow, [(self.buffer, head, "from", "to", "tint", "at", "kind")])
+        ends = [(self.buffer, head, "from", "to", "tint", "at", "kind")]
+        self.heads = self.ctx.vertex_array(self.programs.arrow, ends)

@@ -23,7 +23,7 @@ from viewer.base.orbit import Frame, Orbit
 from viewer.base.theme import HIDDEN, Theme
 from viewer.gl.features import Features, features_of
 from viewer.gl.float32 import float32
-from viewer.gl.lines import Lines
+from viewer.gl.lines import LinePrograms, Lines
 from viewer.gl.program import make_program, put
 from viewer.gl.stage_lines import StageLines
 from viewer.gl.surfaces import Surfaces, make_surface_program
@@ -68,12 +68,13 @@ class Stage:
         self.empty = ctx.vertex_array(self.ground, [])
         self.layer_array = ctx.vertex_array(self.layer, [])
         self.picture_array = ctx.vertex_array(self.picture, [])
-        self.marks = Lines(ctx)  # frustum, normals
-        self.rays = Lines(ctx)
-        self.quiet = Lines(ctx)  # rays that are not to be noticed first
-        self.glow = Lines(ctx)  # under the ray that is pointed at
-        self.interface = Lines(ctx)  # normal, angles and critical cone at the selected hit
-        self.edges = Lines(ctx)  # of cut glass
+        self.lines = LinePrograms(ctx)
+        self.marks = Lines(ctx, self.lines)  # frustum, normals
+        self.rays = Lines(ctx, self.lines)
+        self.quiet = Lines(ctx, self.lines)  # rays that are not to be noticed first
+        self.glow = Lines(ctx, self.lines)  # under the ray that is pointed at
+        self.interface = Lines(ctx, self.lines)  # normal, angles and critical cone at the selected hit
+        self.edges = Lines(ctx, self.lines)  # of cut glass
         self.surfaces: Surfaces | None = None
         self.pictures = self.layers = 0  # how often a picture, and its surfaces, have been drawn
         self._layers_changed, self._scene_changed = Changed(), Changed()
@@ -127,6 +128,7 @@ class Stage:
         ctx.enable_only(moderngl.BLEND)
         ctx.blend_func = BLENDED  # type: ignore[assignment]  # the type stub lacks the form with four factors
         ctx.depth_func = "<="
+        self.lines.look(look.matrix, look.size, look.scale)
         view = (look.size, scale, theme, look.matrix.tobytes())
         self._layers_changed.run(view, lambda: self._draw_layers(orbit, look))
         image = plane and (plane.corners.tobytes(), plane.texture, plane.state)
@@ -155,7 +157,7 @@ class Stage:
         if surfaces and surfaces.has_clear:
             sampled.depth_mask = False
             sampled.clear(0.0, 0.0, 0.0, 0.0)
-            self.edges.draw(look.matrix, look.size, look.scale)
+            self.edges.draw()
             surfaces.draw_clear(orbit)
             ctx.copy_framebuffer(target.clear, sampled)
         target.front.use()
@@ -189,12 +191,10 @@ class Stage:
         target.shown.use()
         for k, texture in enumerate((target.solid_texture, target.front_texture, target.clear_texture)):
             texture.use(k)
-        shared = (look.matrix, look.size, look.scale, HIDDEN)
-        self.marks.draw(*shared)
-        self.glow.draw(*shared)
-        self.quiet.draw(*shared)
-        self.rays.draw(*shared, seam=look.theme.ground)
-        self.interface.draw(*shared)
+        for lines in (self.marks, self.glow, self.quiet):
+            lines.draw(HIDDEN)
+        self.rays.draw(HIDDEN, seam=look.theme.ground)
+        self.interface.draw(HIDDEN)
 
     def _draw_picture(self, matrix: np.ndarray, plane: ImagePlane, before: bool) -> None:
         """Draw the image plane before or behind the frontmost glass. It hides rays, as a surface does."""
@@ -222,5 +222,5 @@ class Stage:
         lines = (self.marks, self.rays, self.quiet, self.glow, self.interface, self.edges)
         for thing in (*lines, self.empty, self.layer_array, self.picture_array, self.target):
             thing.release()
-        for program in (*self.programs.values(), self.ground, self.layer, self.picture):
+        for program in (*self.programs.values(), self.lines, self.ground, self.layer, self.picture):
             program.release()

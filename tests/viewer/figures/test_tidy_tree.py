@@ -11,6 +11,7 @@ from tests.scenes import box, world_of
 from tracer.kernel.nodes import REFRACTION, SHADOW
 from tracer.scene import Light, Material
 from tracer.tree.text import heaviest_rows
+from viewer.figures.layout.planned_rays import PlannedRays
 from viewer.figures.layout.tidy_tree import Place, Spacing, tidy_layout
 
 LEFT, RIGHT, STUB_HALF = 0.5, 0.5, 0.16
@@ -23,6 +24,11 @@ def plates(count: int, depth: int, lights: int) -> tracer.RayTree:
     lamps = [Light(f"lamp {j}", position=(float(j), 5.0, 30.0)) for j in range(lights)]
     world = world_of(*faces, lights=lamps)
     return tracer.trace(world, ray=((0.3, 0.1, 9), (0.1, 0.05, -1)), depth=depth)
+
+
+def places_of(tree: tracer.RayTree) -> dict[int, Place]:
+    rows = frozenset(range(len(tree)))
+    return tidy_layout(PlannedRays([tree], rows), set(rows), ROOM).places
 
 
 def check(tree: tracer.RayTree, places: dict[int, Place]) -> None:
@@ -50,7 +56,7 @@ def check(tree: tracer.RayTree, places: dict[int, Place]) -> None:
 @given(st.integers(1, 3), st.integers(0, 7), st.integers(0, 3))
 def test_random_trees(count: int, depth: int, lights: int) -> None:
     tree = plates(count, depth, lights)
-    check(tree, tidy_layout(tree, set(range(len(tree))), ROOM).places)
+    check(tree, places_of(tree))
 
 
 def test_trees_of_the_lessons(worlds: dict[str, tracer.World]) -> None:
@@ -59,13 +65,13 @@ def test_trees_of_the_lessons(worlds: dict[str, tracer.World]) -> None:
             image = worlds[name].scene.image
             inside = (min(pixel[0], image.width - 1), min(pixel[1], image.height - 1))
             tree = tracer.trace(worlds[name], inside, depth=4)
-            check(tree, tidy_layout(tree, set(range(len(tree))), ROOM).places)
+            check(tree, places_of(tree))
 
 
 def test_same_subtree_looks_the_same_wherever_it_stands() -> None:
     """The subtrees in a pile of plates repeat: positions of their nodes differ by a translation only."""
     tree = plates(2, 7, 2)
-    places = tidy_layout(tree, set(range(len(tree))), ROOM).places
+    places = places_of(tree)
     seen: dict[tuple, list[tuple[float, float]]] = {}
     for i in range(len(tree)):
         rows = below(tree, i)
@@ -86,7 +92,7 @@ def below(tree: tracer.RayTree, i: int) -> list[int]:
 def test_growing_tree_is_laid_out_for_its_full_depth() -> None:
     """Positions of the deepest tree serve all shallower ones, since these are its first rows."""
     deep = plates(2, 6, 1)
-    places = tidy_layout(deep, set(range(len(deep))), ROOM).places
+    places = places_of(deep)
     for depth in range(6):
         shallow = plates(2, depth, 1)
         assert (deep.nodes["id"][: len(shallow)] == shallow.nodes["id"]).all()

@@ -16,7 +16,8 @@ from viewer.figures.figure.tree_outline import outline_edge, outline_ray
 from viewer.figures.font import text_width
 from viewer.figures.labels import ray_title
 from viewer.figures.layout.light_line import NO_LINE, SIGN, WORDS, LightLine
-from viewer.figures.layout.sizes import MARGIN, NO_RAY, OUTLINE, PlannedRays, TreeStyle, edge_label, stub_label
+from viewer.figures.layout.planned_rays import PlannedRays
+from viewer.figures.layout.sizes import MARGIN, NO_RAY, OUTLINE, TreeStyle, edge_label, stub_label
 from viewer.figures.layout.sum_block import SumBlock, with_sum
 from viewer.figures.layout.tree_legend import tree_entries
 from viewer.figures.layout.tree_plan import TreePlan, plan_tree
@@ -111,8 +112,9 @@ class _Drawing:
             self._bar(i)
             self._light_line(i)
             self.marks += hit_box(plan, step, i, style)
+        counts = plan.folded(step.rows)
         for fold in folds:
-            self.marks += fold_box(plan, step, fold, self.theme)
+            self.marks += fold_box(plan, fold, counts[fold.row], self.theme)
         if style.selected in step.rows:
             self._dim(rows)
 

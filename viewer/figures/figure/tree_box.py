@@ -94,10 +94,9 @@ def _under(plan: TreePlan, i: int) -> Point:
     return (x, y + (plan.hang + NOTE * plan.size if hanging and not plan.style.compact else bare))
 
 
-def fold_box(plan: TreePlan, step: Step, fold: Fold, theme: Theme) -> list[Mark]:
-    """A folded branch: its number of rays and its weight, in its own box or under the hit."""
+def fold_box(plan: TreePlan, fold: Fold, count: int, theme: Theme) -> list[Mark]:
+    """A folded branch of so many rays: their number and weight, in its own box or under the hit."""
     name, size = f"fold-{fold.row}", plan.size
-    count = sum(plan.inside.get(i) == fold.row for i in step.rows)
     lines = fold.words(count, plan.style.eye == OUTLINE)
     title = f"{' not drawn, '.join(fold.words(count))} of the weight"
     if fold.under is not None:

@@ -6,7 +6,6 @@ The label of a ray stands before the box of its hit. From below the label of its
 the right.
 """
 
-from tracer.kernel.nodes import SHADOW
 from viewer.figures.layout.places import LayoutTask, Places
 from viewer.figures.layout.sizes import BOX, MARGIN
 from viewer.figures.marks import Point
@@ -23,23 +22,23 @@ APART = 0.2  # of two edges that begin together, from their middle
 
 def outline_rows(task: LayoutTask) -> list[int]:
     """The rows of hits and folds from top to bottom."""
-    tree, kept = task.tree, {*task.rows, *task.folds}
+    kept = task.boxes
     found: list[int] = []
     below = [0]
     while below:
         i = below.pop()
         found.append(i)
-        below += [c for c in reversed(tree.children[i]) if c in kept and tree.nodes["kind"][c] != SHADOW]
+        below += [c for c in reversed(task.rays.rays[i]) if c in kept]
     return found
 
 
 def place_as_outline(task: LayoutTask, anyhow: bool) -> Places | None:
     """The positions; None if they do not fit."""
-    tree, style, sizes = task.tree, task.style, task.sizes
+    style, sizes, depth = task.style, task.sizes, task.rays.depths
     size, (left, top, right, bottom) = style.size, style.where
-    margin, depth = MARGIN * size, tree.nodes["depth"]
+    margin = MARGIN * size
     rows = outline_rows(task)
-    deepest = max(int(depth[i]) for i in rows)
+    deepest = max(depth[i] for i in rows)
     wide = sizes.label + GAP * size + sizes.column
     free = bottom - top - 2.0 * margin - BOX * size
     fits = deepest * INDENT * size + wide <= right - left - 2.0 * margin
@@ -49,7 +48,7 @@ def place_as_outline(task: LayoutTask, anyhow: bool) -> Places | None:
     pitch = min(TALLEST * size, free / (len(rows) - 1)) if len(rows) > 1 else 0.0
     first = top + margin + 0.5 * BOX * size
     start = left + margin + sizes.label + GAP * size + 0.5 * sizes.column
-    at = {i: (start + INDENT * size * float(depth[i]), first + pitch * k) for k, i in enumerate(rows)}
+    at = {i: (start + INDENT * size * depth[i], first + pitch * k) for k, i in enumerate(rows)}
     return Places(at, {}, {}, (left + margin + EYE * size, first))
 
 

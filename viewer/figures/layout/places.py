@@ -3,7 +3,7 @@
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from tracer.tree.raytree import RayTree
+from viewer.figures.layout.planned_rays import PlannedRays
 from viewer.figures.layout.sizes import Sizes, TreeStyle
 from viewer.figures.marks import Point
 
@@ -24,7 +24,7 @@ class Places:
 class LayoutTask:
     """The rows and the boxes of folds to place, in a style."""
 
-    tree: RayTree
+    rays: PlannedRays
     rows: Collection[int]
     folds: Collection[int]
     sizes: Sizes
@@ -34,4 +34,9 @@ class LayoutTask:
     @property
     def levels(self) -> int:
         """The number of levels below the first."""
-        return max(int(self.tree.nodes["depth"][i]) for i in (*self.rows, *self.folds))
+        return max(self.rays.depths[i] for i in (*self.rows, *self.folds))
+
+    @property
+    def boxes(self) -> set[int]:
+        """The rows of hits and folds."""
+        return {i for i in self.rows if not self.rays.is_shadow[i]}.union(self.folds)

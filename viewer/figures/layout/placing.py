@@ -5,7 +5,6 @@ Boxes and labels never overlap. Edges run through free space: from a box's sides
 right side through the free column to the next level.
 """
 
-from tracer.kernel.nodes import SHADOW
 from viewer.figures.layout.places import LayoutTask, Places
 from viewer.figures.layout.sizes import (
     BARE_NOTE,
@@ -21,7 +20,6 @@ from viewer.figures.layout.sizes import (
     bar_width,
 )
 from viewer.figures.layout.tidy_tree import Layout, Spacing, tidy_layout
-from viewer.figures.lights import shadow_rays
 from viewer.figures.marks import Point
 
 # All in text sizes.
@@ -69,7 +67,7 @@ def _room_below(style: TreeStyle, hung: bool) -> float:
 
 def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
     """The positions; None if they do not fit."""
-    tree, style, sizes = task.tree, task.style, task.sizes
+    rays, style, sizes = task.rays, task.style, task.sizes
     size, (left, top, right, _) = style.size, style.where
     left += style.aside
     margin, gap = MARGIN * size, GAP * size
@@ -79,9 +77,7 @@ def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
     crowded = CLEAR * size * levels > free and not style.compact
     passes = COMPACT_PASSES if style.compact else PASSES
     room = Spacing(0.5, 0.5, stub, 0.5 * stub, sides=True, passes=passes, crowded=crowded, bars=not style.compact)
-    kinds, depth, parents = (tree.nodes[name] for name in ("kind", "depth", "parent"))
-    placed = [i for i in task.rows if kinds[i] != SHADOW] if style.compact else task.rows
-    laid = tidy_layout(tree, {*placed, *task.folds}, room)
+    laid = tidy_layout(rays, task.boxes if style.compact else {*task.rows, *task.folds}, room)
     rim = (left + margin - 0.5 * gap, right - margin + 0.5 * gap)
     across = _across(laid, (0.5, 0.5), unit, rim)
     if across is None or _pitch(style) * size * levels > free:
@@ -92,9 +88,9 @@ def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
     tallest = COMPACT_TALLEST if style.compact else TALLEST
     pitch = min(tallest * size, free / levels) if levels else 0.0
     at = {
-        i: (middle + place.x * unit * spread, first + pitch * float(depth[i]))
+        i: (middle + place.x * unit * spread, first + pitch * rays.depths[i])
         for i, place in laid.places.items()
-        if kinds[i] != SHADOW
+        if not rays.is_shadow[i]
     }
 
     def hanging(parent: int, x: float) -> Point:
@@ -102,7 +98,7 @@ def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
         x0, y0 = at[parent]
         return (x0 + (x - laid.places[parent].x) * unit, y0 + 0.5 * sizes.box + STUB * size)
 
-    at |= {i: hanging(int(parents[i]), place.x) for i, place in laid.places.items() if kinds[i] == SHADOW}
+    at |= {i: hanging(rays.parents[i], place.x) for i, place in laid.places.items() if rays.is_shadow[i]}
     bars = {i: hanging(i, place.x) for i, place in laid.bars.items()}
     return Places(at, *_lines(task, at, bars), (at[0][0], top + margin + EYE * size))
 
@@ -129,13 +125,12 @@ def _room_right(sizes: Sizes, style: TreeStyle) -> float:
 
 def place_rightwards(task: LayoutTask, anyhow: bool) -> Places | None:
     """The positions; None if they do not fit. Reflected rays go up, refracted ones down."""
-    tree, style, sizes = task.tree, task.style, task.sizes
+    rays, style, sizes = task.rays, task.style, task.sizes
     size, (left, top, _, bottom) = style.size, style.where
-    margin, kinds = MARGIN * size, tree.nodes["kind"]
+    margin = MARGIN * size
     unit = sizes.up + sizes.down + GAP_BELOW * size
     extent = ((sizes.up + 0.5 * GAP_BELOW * size) / unit, (sizes.down + 0.5 * GAP_BELOW * size) / unit)
-    hits = {i for i in task.rows if kinds[i] != SHADOW}
-    laid = tidy_layout(tree, hits | set(task.folds), Spacing(*extent, 0.0, 0.0))
+    laid = tidy_layout(rays, task.boxes, Spacing(*extent, 0.0, 0.0))
     rim = (top + margin - 0.5 * GAP_BELOW * size, bottom - margin + 0.5 * GAP_BELOW * size)
     across = _across(laid, extent, unit, rim)
     free, levels = _room_right(sizes, style), task.levels
@@ -147,12 +142,11 @@ def place_rightwards(task: LayoutTask, anyhow: bool) -> Places | None:
     pitch = min(sizes.column + WIDEST * size, free / levels) if levels else 0.0
     eye = left + margin + EYE_WIDE * size
     first = eye + FIRST_RIGHT * size + 0.5 * sizes.column
-    depth = tree.nodes["depth"]
-    at = {i: (first + pitch * float(depth[i]), middle + place.x * unit * spread) for i, place in laid.places.items()}
+    at = {i: (first + pitch * rays.depths[i], middle + place.x * unit * spread) for i, place in laid.places.items()}
     bars: dict[int, Point] = {}
-    for i in sorted(hits):
-        stubs = [] if style.compact else [c for c in shadow_rays(tree, i) if c in task.rows]
-        barred = not style.compact and any(c in task.rows and tree.kind(c) == "tir" for c in tree.children[i])
+    for i in sorted(task.boxes.difference(task.folds)):
+        stubs = [] if style.compact else [c for c in rays.shadow_rays[i] if c in task.rows]
+        barred = not style.compact and any(c in task.rows and rays.is_tir[c] for c in rays.rays[i])
         (x, y), count = at[i], len(stubs) + barred
         ends = [(x + sizes.slot * (k - 0.5 * (count - 1)), y + 0.5 * sizes.box + STUB * size) for k in range(count)]
         if barred:

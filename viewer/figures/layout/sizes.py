@@ -1,16 +1,15 @@
 """Sizes in a tree figure. All boxes have one size, in which each text fits."""
 
-from collections import Counter
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from tracer.choices import SYMBOLS
-from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.figures.font import text_width
 from viewer.figures.labels import end_label, factor_label, hit_label, ray_label
 from viewer.figures.layout.folds import Fold
 from viewer.figures.layout.light_line import NO_LINE, SIGN, WORDS, signs_width, widest_line
+from viewer.figures.layout.planned_rays import PlannedRays
 from viewer.figures.lights import MOST_LIGHTS, shadow_rays
 from viewer.figures.marks import CANVAS, Rectangle
 
@@ -53,18 +52,10 @@ class TreeStyle:
     named: bool = True  # whether shadow rays have their lights' names; they stand in the order of the legend
     compact: bool = False  # lower: signs of shadow rays and of cut rays stand in the boxes
 
-
-@dataclass(frozen=True)
-class PlannedRays:
-    """The rays that a plan is made for: the steps of one tree, the deepest last, and rows of that one."""
-
-    trees: Sequence[RayTree]
-    rows: frozenset[int]  # that may be drawn or folded; the others are left out. With each row, its parent is in it
-    first: frozenset[int] = frozenset()  # that are folded last
-
     @property
-    def tree(self) -> RayTree:
-        return self.trees[-1]
+    def of_hits(self) -> tuple[object, ...]:
+        """All of it that the size of a hit depends on."""
+        return (self.size, self.swatches, self.lights, self.line, self.longest, self.named, self.compact)
 
 
 @dataclass(frozen=True)
@@ -82,16 +73,14 @@ class Sizes:
     label: float  # of a ray, the widest
 
     @staticmethod
-    def of(measured: "HitSizes", rows: Collection[int], folds: dict[int, Fold], inside: dict[int, int]) -> "Sizes":
+    def of(measured: "HitSizes", rows: Collection[int], folds: dict[int, Fold]) -> "Sizes":
         """The sizes for everything in, above and below any box, at any step."""
-        tree, style, size = measured.tree, measured.style, measured.style.size
-        kinds = tree.nodes["kind"]
+        style, size, is_shadow = measured.style, measured.style.size, measured.rays.is_shadow
         hung = {fold.under for fold in folds.values()}
-        hits = {i: measured[i] for i in rows if kinds[i] != SHADOW}
+        hits = {i: measured[i] for i in rows if not is_shadow[i]}
         down = [0.5 * (FOLD if len(hung - {None}) < len(folds) else BOX) * size]
         down += [hit.down[i in hung] for i, hit in hits.items()]
-        counts = Counter(inside.values())
-        shares = [words for fold in folds.values() for words in fold.words(counts[fold.row], style.eye == OUTLINE)]
+        shares = [words for fold in folds.values() for words in fold.words(fold.count, style.eye == OUTLINE)]
         around = 2 * PADDING * size
         widest = max(
             max(hit.name for hit in hits.values()) + around + max(hit.signs for hit in hits.values()),
@@ -123,14 +112,25 @@ class HitSize:
     down: tuple[float, float]  # the extent below its middle, without and with a fold
 
 
-class HitSizes:
-    """The sizes of the hits of a tree, each computed once."""
+class RaySizes:
+    """The sizes of the hits of planned rays, each computed once for all styles in which it is the same."""
 
-    def __init__(self, rays: PlannedRays, style: TreeStyle) -> None:
+    def __init__(self, rays: PlannedRays) -> None:
+        self.rays = rays
+        self._known: dict[tuple[object, ...], dict[int, HitSize]] = {}
+
+    def in_style(self, style: TreeStyle) -> "HitSizes":
+        return HitSizes(self.rays, style, self._known.setdefault(style.of_hits, {}))
+
+
+class HitSizes:
+    """The sizes of the hits of planned rays in one style."""
+
+    def __init__(self, rays: PlannedRays, style: TreeStyle, known: dict[int, HitSize]) -> None:
         self.rays = rays
         self.tree = rays.tree
         self.style = style
-        self._known: dict[int, HitSize] = {}
+        self._known = known
 
     def __getitem__(self, i: int) -> HitSize:
         if i not in self._known:

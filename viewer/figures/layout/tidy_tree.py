@@ -7,8 +7,7 @@ distance, and equal subtrees look the same.
 
 from dataclasses import dataclass
 
-from tracer.kernel.nodes import REFRACTION, SHADOW, TIR
-from tracer.tree.raytree import RayTree
+from viewer.figures.layout.planned_rays import PlannedRays
 
 
 @dataclass(frozen=True)
@@ -50,33 +49,32 @@ class _Subtree:
     right: list[float]
 
 
-def tidy_layout(tree: RayTree, rows: set[int], room: Spacing) -> Layout:
+def tidy_layout(rays: PlannedRays, rows: set[int], room: Spacing) -> Layout:
     """Positions of these rows, the root at x = 0. With each row, its parent must be among them."""
     subtrees: dict[int, _Subtree] = {}
     for i in sorted(rows, reverse=True):
-        if tree.nodes["kind"][i] != SHADOW:
-            subtrees[i] = _join(tree, i, [child for child in tree.children[i] if child in rows], subtrees, room)
-    depth = tree.nodes["depth"].astype(float)
-    level = depth + 0.5 * (tree.nodes["kind"] == SHADOW)
+        if not rays.is_shadow[i]:
+            subtrees[i] = _join(rays, i, rows, subtrees, room)
+    depths = rays.depths
     return Layout(
-        {i: Place(x, float(level[i])) for i, x in subtrees[0].offsets.items()},
-        {i: Place(x, float(depth[i]) + 0.5) for i, x in subtrees[0].bars.items()},
+        {i: Place(x, depths[i] + 0.5 * rays.is_shadow[i]) for i, x in subtrees[0].offsets.items()},
+        {i: Place(x, depths[i] + 0.5) for i, x in subtrees[0].bars.items()},
     )
 
 
-def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtree], room: Spacing) -> _Subtree:
+def _join(rays: PlannedRays, i: int, rows: set[int], subtrees: dict[int, _Subtree], room: Spacing) -> _Subtree:
     """The subtree of row i, made of those of its children, which are removed from `subtrees`."""
-    kinds = tree.nodes["kind"]
-    stubs = [child for child in children if kinds[child] == SHADOW]
-    reflected = [child for child in children if kinds[child] not in (SHADOW, REFRACTION)]
-    refracted = [child for child in children if kinds[child] == REFRACTION]
-    rays = [*reflected, *refracted]
-    barred = room.bars and any(kinds[child] == TIR for child in reflected)
+    stubs = [child for child in rays.shadow_rays[i] if child in rows]
+    children = [child for child in rays.rays[i] if child in rows]
+    reflected = [child for child in children if not rays.is_refracted[child]]
+    refracted = [child for child in children if rays.is_refracted[child]]
+    children = [*reflected, *refracted]
+    barred = room.bars and any(rays.is_tir[child] for child in reflected)
     count = len(stubs) + barred
-    shifts = _apart([subtrees[child] for child in rays])
+    shifts = _apart([subtrees[child] for child in children])
     if reflected and refracted:
         middle = 0.5 * (shifts[0] + shifts[-1])
-    elif rays:
+    elif children:
         middle = shifts[-1] + room.lean if reflected else shifts[0] - room.lean
     else:
         middle = 0.0
@@ -89,7 +87,7 @@ def _join(tree: RayTree, i: int, children: list[int], subtrees: dict[int, _Subtr
     if barred:
         bars[i] = places.pop()  # in the place of the refracted ray, on the right
     offsets |= dict(zip(stubs, places, strict=True))
-    for child, shift in zip(rays, shifts, strict=True):
+    for child, shift in zip(children, shifts, strict=True):
         sub = subtrees.pop(child)
         offsets |= {row: x + shift for row, x in sub.offsets.items()}
         bars |= {row: x + shift for row, x in sub.bars.items()}

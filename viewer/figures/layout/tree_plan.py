@@ -8,6 +8,8 @@ their number of rays and weight. In a place that is narrow and high, the tree ma
 """
 
 import math
+from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,7 +19,7 @@ from tracer.tree.raytree import RayTree
 from viewer.figures.labels import hit_label
 from viewer.figures.layout.folds import Fold, fold_branches
 from viewer.figures.layout.light_line import NO_LINE, SIGNS, WORDS
-from viewer.figures.layout.outline import GAP, place_as_outline
+from viewer.figures.layout.outline import GAP, PITCH, place_as_outline
 from viewer.figures.layout.places import LayoutTask, Places
 from viewer.figures.layout.placing import (
     levels_down,
@@ -25,16 +27,18 @@ from viewer.figures.layout.placing import (
     place_downwards,
     place_rightwards,
 )
+from viewer.figures.layout.planned_rays import PlannedRays
 from viewer.figures.layout.sizes import (
     BOX,
     EDGE_LABEL,
     FOLD,
     OUTLINE,
+    PADDING,
     SHORT,
     SMALLEST,
     STUB,
     HitSizes,
-    PlannedRays,
+    RaySizes,
     Sizes,
     TreeStyle,
     name_in_box,
@@ -49,15 +53,14 @@ NARROW = 1.3  # width over height of a place in which the tree may be an outline
 
 @dataclass(frozen=True)
 class TreePlan:
-    """Positions in points. `rows` are drawn as themselves; `inside` gives the fold of the others, apart from the shadow
-    rays for which a line stands.
+    """Positions in points. `rows` are drawn as themselves. The others are folded, apart from the shadow rays for which
+    a line stands.
     """
 
     tree: RayTree  # the deepest
     style: TreeStyle
     rows: frozenset[int]
     folds: dict[int, Fold]  # by the row in whose place they stand
-    inside: dict[int, int]  # a folded row -> the row of its fold
     places: Places
     box: tuple[float, float]
     label: float  # width of the widest label of a ray
@@ -98,35 +101,46 @@ class TreePlan:
         """From a box's middle up to the label of its ray."""
         return 0.5 * self.box[1] + EDGE_LABEL * self.size
 
+    def folded(self, rows: Iterable[int]) -> Counter[int]:
+        """The number of these rows in each fold, by its row."""
+        fold_of = {root: row for row, fold in self.folds.items() for root in fold.roots}
+        parents = self.tree.nodes["parent"].tolist()
+        for i in sorted(rows) if fold_of else ():  # parents come before their children
+            if parents[i] in fold_of:
+                fold_of.setdefault(i, fold_of[parents[i]])
+        return Counter(fold_of[i] for i in rows if i in fold_of)
+
     def name(self, i: int) -> str:
         return name_in_box(self.tree, i, self.style.longest)
 
 
 def plan_tree(rays: PlannedRays, style: TreeStyle) -> TreePlan:
     """The plan for a tree. If text is so large that not even the first hit fits, it is smaller."""
-    plan = _plan_forms(rays, style)
+    sizes = RaySizes(rays)
+    plan = _plan_forms(sizes, style)
     while not plan.fits and plan.size > SMALLEST:
-        plan = _plan_forms(rays, replace(style, size=max(SMALLEST, math.ceil(plan.size) - 1.0)))
+        plan = _plan_forms(sizes, replace(style, size=max(SMALLEST, math.ceil(plan.size) - 1.0)))
     return plan
 
 
-def _plan_forms(rays: PlannedRays, style: TreeStyle) -> TreePlan:
+def _plan_forms(sizes: RaySizes, style: TreeStyle) -> TreePlan:
     """The plan for a text size: with stubs to the lights, or compact if more is seen then."""
+    rays = sizes.rays
     low = replace(style, compact=True, named=False, line=SIGNS if style.lights else NO_LINE)
     plans = []
     if style.eye != "top" or _levels(rays, style) >= _levels(rays, low):  # otherwise it shows fewer levels
-        plan = _plan_lights(rays, style)
+        plan = _plan_lights(sizes, style)
         if plan.fits and not plan.folds and not plan.lights_left_out:
             return plan
         plans.append(plan)
-    plans.append(_named(rays, low))
+    plans.append(_named(sizes, low))
     if style.lights and many_lights(rays.tree):
-        bare = _named(rays, replace(low, lights=0, line=NO_LINE))
+        bare = _named(sizes, replace(low, lights=0, line=NO_LINE))
         plans.append(replace(bare, lights_left_out=True))
     left, top, right, bottom = style.where
     too_deep = _levels(rays, low) < int(rays.tree.nodes["depth"].max())
     if style.eye == "top" and (too_deep or right - left < NARROW * (bottom - top)):
-        plans.append(_named(rays, replace(low, eye=OUTLINE)))
+        plans.append(_named(sizes, replace(low, eye=OUTLINE)))
     return max(plans, key=lambda plan: plan.seen)
 
 
@@ -135,31 +149,31 @@ def _levels(rays: PlannedRays, style: TreeStyle) -> int:
     return min(levels_down(style, hung=False), int(rays.tree.nodes["depth"].max()))
 
 
-def _plan_lights(rays: PlannedRays, style: TreeStyle) -> TreePlan:
+def _plan_lights(sizes: RaySizes, style: TreeStyle) -> TreePlan:
     """The plan for a text size. No ray is folded for the lines that stand for many shadow rays: if their words do not
     fit, they have signs, and if these do not, they are left out.
     """
-    if style.line == NO_LINE or not many_lights(rays.tree):
-        return _named(rays, style)
-    bare = _named(rays, replace(style, line=NO_LINE))
+    if style.line == NO_LINE or not many_lights(sizes.rays.tree):
+        return _named(sizes, style)
+    bare = _named(sizes, replace(style, line=NO_LINE))
     for form in (WORDS, SIGNS):
-        plan = _named(rays, replace(style, line=form))
+        plan = _named(sizes, replace(style, line=form))
         if plan.fits and len(plan.rows) >= len(bare.rows):
             return plan
     return replace(bare, lights_left_out=True)
 
 
-def _named(rays: PlannedRays, style: TreeStyle) -> TreePlan:
+def _named(sizes: RaySizes, style: TreeStyle) -> TreePlan:
     """The plan in which names of lights are left to the legend, and names of objects cut, if more rays fit then."""
-    best = _plan(rays, style)
+    best, tree = _plan(sizes, style), sizes.rays.tree
     shorter = [replace(style, named=False)] if style.named and style.lights else []
-    _, met = np.unique(rays.tree.nodes["object"], return_index=True)  # one row for each object
-    if any(len(hit_label(rays.tree, int(i))) > SHORT for i in met):
+    _, met = np.unique(tree.nodes["object"], return_index=True)  # one row for each object
+    if any(len(hit_label(tree, int(i))) > SHORT for i in met):
         shorter.append(replace(style, named=False, longest=SHORT))
     for asked in shorter:
         if best.fits and not best.folds:
             break
-        found = _plan(rays, asked)
+        found = _plan(sizes, asked)
         if (found.fits, len(found.rows)) > (best.fits, len(best.rows)):
             best = found
     return best
@@ -167,30 +181,28 @@ def _named(rays: PlannedRays, style: TreeStyle) -> TreePlan:
 
 def fitting_size(rays: PlannedRays, style: TreeStyle) -> float | None:
     """The largest text size, in whole points, with which all rays fit; None if no size does."""
-    hits = {i for i in rays.rows if rays.tree.nodes["kind"][i] != SHADOW}
-    deepest = int(rays.tree.nodes["depth"].max())
+    hits = {i for i in rays.rows if not rays.is_shadow[i]}
+    deepest, sizes = max(rays.depths), RaySizes(rays)
     for size in range(int(style.size), int(SMALLEST) - 1, -1):
         for compact in (False, True):
             asked = replace(style, size=float(size), longest=SHORT, named=False, line=NO_LINE, compact=compact)
-            measured = HitSizes(rays, asked)
+            measured = sizes.in_style(asked)
             if deepest <= _last_level(measured) and _try(measured, hits, deepest):
                 return float(size)
     return None
 
 
-def _plan(rays: PlannedRays, style: TreeStyle) -> TreePlan:
+def _plan(sizes: RaySizes, style: TreeStyle) -> TreePlan:
     """The plan with as many levels as possible, or with one less if that shows more of the weight."""
-    measured = HitSizes(rays, style)
+    measured, rays = sizes.in_style(style), sizes.rays
     last = _last_level(measured)
-    weights = rays.tree.nodes["weight"].max(axis=1)
-    hits = rays.tree.nodes["kind"] != SHADOW
     plans = [_plan_of(measured, levels) for levels in range(last, max(last - 2, -1), -1)]
-    return max(plans, key=lambda plan: float(sum(weights[i] for i in sorted(plan.rows) if hits[i])))
+    return max(plans, key=lambda plan: sum(rays.weights[i] for i in sorted(plan.rows) if not rays.is_shadow[i]))
 
 
 def _plan_of(measured: HitSizes, last: int) -> TreePlan:
     """The plan with the most of the heaviest rays that fit above and on a level."""
-    tree = measured.tree
+    rays = measured.rays
     heaviest = _heaviest(measured, last)
     low, high = 0, len(heaviest)
     best = _try(measured, set(heaviest), last)
@@ -207,11 +219,15 @@ def _plan_of(measured: HitSizes, last: int) -> TreePlan:
         return _try(measured, {0}, 0, anyhow=True)  # type: ignore[return-value]
     kept = set(heaviest[:low])
     # A branch of one ray takes no more room as itself than as a fold. If one does not fit, a lighter one may.
-    single = sorted(r for fold in best.folds.values() for r in fold.roots if not tree.children[r] and r in heaviest)
-    parents = tree.nodes["parent"]
+    single = sorted(
+        r
+        for fold in best.folds.values()
+        for r in fold.roots
+        if not rays.rays[r] and not rays.shadow_rays[r] and r in heaviest
+    )
     failed = 0
     for i in (*single, *heaviest[low : low + MORE]):
-        if i not in kept and int(parents[i]) in kept and failed < VAIN:
+        if i not in kept and rays.parents[i] in kept and failed < VAIN:
             found = _try(measured, kept | {i}, last)
             if found is None:
                 failed += 1
@@ -237,7 +253,7 @@ def _last_level(measured: HitSizes) -> int:
     style = measured.style
     deepest = int(measured.tree.nodes["depth"].max())
     if style.eye == "left":
-        return levels_right(Sizes.of(measured, measured.rays.rows, {}, {}), style)
+        return levels_right(Sizes.of(measured, measured.rays.rows, {}), style)
     if style.eye == OUTLINE:
         return deepest + 1  # no fold hangs under a hit
     whole = levels_down(style, hung=False)
@@ -247,16 +263,25 @@ def _last_level(measured: HitSizes) -> int:
 PLACINGS = {"top": place_downwards, "left": place_rightwards, OUTLINE: place_as_outline}
 
 
+def _too_many(rays: PlannedRays, hits: set[int], style: TreeStyle) -> bool:
+    """Whether there is no room for so many hits, however short the text in their boxes is."""
+    size, (left, top, right, bottom) = style.size, style.where
+    if style.eye == OUTLINE:
+        return (len(hits) - 1) * PITCH * size > bottom - top
+    most = max(Counter(rays.depths[i] for i in hits).values())  # on one level
+    return most * BOX * size > bottom - top if style.eye == "left" else most * 2.0 * PADDING * size > right - left
+
+
 def _try(measured: HitSizes, kept: set[int], last: int, anyhow: bool = False) -> TreePlan | None:
     """The plan with these rays, and all others folded; None if it does not fit."""
     tree, style = measured.tree, measured.style
-    rows, folds, inside = fold_branches(tree, measured.rays.rows, kept, last, style.lights)
-    sizes = Sizes.of(measured, rows, folds, inside)
+    if _too_many(measured.rays, kept, style) and not anyhow:  # most attempts end here, before anything is measured
+        return None
+    rows, folds = fold_branches(measured.rays, kept, last, style.lights)
+    sizes = Sizes.of(measured, rows, folds)
     boxes = {row for row, fold in folds.items() if fold.under is None}
-    task = LayoutTask(tree, rows, boxes, sizes, style, hung=len(boxes) < len(folds))
+    task = LayoutTask(measured.rays, rows, boxes, sizes, style, hung=len(boxes) < len(folds))
     places = PLACINGS[style.eye](task, anyhow)
     if places is None:
         return None
-    return TreePlan(
-        tree, style, frozenset(rows), folds, inside, places, (sizes.column, sizes.box), sizes.label, not anyhow
-    )
+    return TreePlan(tree, style, frozenset(rows), folds, places, (sizes.column, sizes.box), sizes.label, not anyhow)

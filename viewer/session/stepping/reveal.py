@@ -72,13 +72,15 @@ class Reveal:
     @property
     def position(self) -> int | None:
         """The index of the current step; None if the whole tree is on show."""
+        if self.place is None:  # the steps are made only if they are looked at
+            return None
         steps = self.steps
-        return self._find(steps, self.place) if steps and self.place else None
+        return self._find(steps, self.place) if steps else None
 
     @property
     def step(self) -> Step | None:
         """The current step; None if the whole tree is on show."""
-        steps, position = self.steps, self.position
+        position, steps = self.position, self.steps if self.place else None
         if not steps or position is None:
             return None
         return self._step.get((steps, position), lambda: steps[position])
