@@ -50,10 +50,13 @@ def boxed(content: str) -> str:
 @cache
 def text_width(content: str, size: float) -> float:
     """The width of a text in points. East Asian letters, which the font lacks, are as wide as they are high."""
-    wide = sum(unicodedata.east_asian_width(letter) in "WF" for letter in content)
-    if wide:
-        content = "".join(letter for letter in content if unicodedata.east_asian_width(letter) not in "WF")
-    return wide * size + _font().getlength(content) * size / _UNITS
+    return sum(map(_advance, content)) * size / _UNITS
+
+
+@cache
+def _advance(letter: str) -> float:
+    """The width of a letter. The font has no kerning: a text is as wide as its letters together."""
+    return float(_UNITS) if unicodedata.east_asian_width(letter) in "WF" else _font().getlength(letter)
 
 
 def fitted(content: str, wide: float, size: float) -> str:

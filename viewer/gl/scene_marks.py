@@ -18,7 +18,7 @@ from viewer.base.theme import DIMMED, QUIET, Color, faded
 from viewer.figures import signs
 from viewer.figures.font import text_box
 from viewer.figures.labels import ray_label
-from viewer.figures.marks import Disc, Line, Mark, Point, Rectangle, Shape, Stroke, Text, overlap, widened, within
+from viewer.figures.marks import Disc, Line, Mark, Point, Rectangle, Shape, Stroke, Text, widened, within
 from viewer.gl.canvas import Canvas
 from viewer.session.session import Session
 
@@ -93,7 +93,8 @@ class SceneMarks:
         self.taken.append(widened((*at, *at), 0.5 * wide))
 
     def _is_taken(self, box: Rectangle) -> bool:
-        return any(overlap(box, other) for other in self.taken)
+        left, top, right, bottom = box  # hundreds of boxes are compared with dozens of others
+        return any(right > a and c > left and bottom > b and d > top for a, b, c, d in self.taken)
 
     def _text(self, name: str, content: str, spots: Iterable[tuple[Point, str]], color: Color, title: str = "") -> bool:
         """Place a text at the first spot (position, anchor) with room. Returns whether there is one."""

@@ -22,6 +22,7 @@ class Panel:
     is_covered: bool = True  # whether the title may cover a part of the picture
     figure: str | None = None  # that it shows, or that is like it: its name in `viewer.figures.catalogue`
     shows_ray: bool = False  # whether it shows what is selected
+    first: Callable[[Session, Canvas], None] | None = None  # is called before any panel is drawn
     request: Request | None = None  # that brings it to the front
     exists: Callable[[Session], bool] = lambda session: True
 

@@ -20,18 +20,29 @@ TITLE = 26.0  # logical pixels around the title
 REACH = 9.0  # logical pixels: the largest distance of a click from a ray
 
 
-def draw(session: Session, canvas: Canvas) -> None:
-    corner = imgui.get_cursor_screen_pos()
-    room = imgui.get_content_region_avail()
+def handle(session: Session, canvas: Canvas) -> None:
+    """Select and pick before any panel is drawn, so that all of them show it at once; with the inset."""
+    corner, room = _place()
     if room.x < 8 or room.y < 8:
         return
     flags = imgui.ButtonFlags_
     imgui.invisible_button(
         "stage", room, flags.mouse_button_left | flags.mouse_button_right | flags.mouse_button_middle
     )
-    if not session.world:
+    if session.world:
+        _handle_mouse(session, canvas, corner, room)
+        inset.draw(session, canvas, corner, room)
+
+
+def _place() -> tuple[imgui.ImVec2, imgui.ImVec2]:
+    """(top left, size) of the panel on the screen."""
+    return imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+
+
+def draw(session: Session, canvas: Canvas) -> None:
+    corner, room = _place()
+    if room.x < 8 or room.y < 8 or not session.world:
         return
-    _handle_mouse(session, canvas, corner, room)
     session.layout.papers["scene"] = (int(room.x / d.unit()), int(room.y / d.unit()))
     canvas.stage_place = (corner.x, corner.y, room.x, room.y)
     pixels = imgui.get_io().display_framebuffer_scale
@@ -51,7 +62,6 @@ def draw(session: Session, canvas: Canvas) -> None:
     draw_marks(stage, marks, (corner.x, corner.y), unit)
     _fewer(session, canvas, stage, corner)
     stage.pop_clip_rect()
-    inset.draw(session, canvas, corner, room)
 
 
 def _handle_mouse(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
@@ -111,4 +121,7 @@ def _head(session: Session, room: float) -> None:
     imgui.text(session.world.scene.caption if session.world else "Scene")
 
 
-PANEL = Panel("Scene", draw, fills=True, head=_head, is_named=False, figure="scene")
+PANEL = Panel(
+    "Scene", draw, fills=True, head=_head, is_named=False, figure="scene",
+    first=handle,
+)  # fmt: skip

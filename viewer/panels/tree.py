@@ -56,12 +56,13 @@ def draw(session: Session, canvas: Canvas) -> None:
     marks = _marks(session, canvas, page)
     middle = (corner.x + 0.5 * room.x + look.center[0] * unit, corner.y + 0.5 * room.y + look.center[1] * unit)
     origin = (middle[0] - 0.5 * scale * page[0], middle[1] - 0.5 * scale * page[1])
+    _handle_mouse(session, canvas, marks, origin, scale)
+    marks = _marks(session, canvas, page)  # with what has been selected now
     canvas.nodes = {row: _on_screen(at, origin, scale) for row, at in nodes(marks).items()}
     pad.push_clip_rect(corner, (corner.x + room.x, corner.y + room.y), True)
     draw_marks(pad, _glow(session, marks), origin, scale)
     draw_marks(pad, marks, origin, scale)
     pad.pop_clip_rect()
-    _handle_mouse(session, canvas, marks, origin, scale)
 
 
 def _hint(session: Session, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:

@@ -37,7 +37,7 @@ class App:
         self.surface = surface
         self.session = session
         self.canvas = Canvas(surface.ctx, session)
-        self.tiles = Tiles(session, self.canvas, self._part)
+        self.tiles = Tiles(session, self.canvas, self._part, self._fulfil)
         self.drawn_state: object = None  # of the surface when it was drawn last
         self.each_round: Callable[[], None] = lambda: None  # called by `run`, some times a second
         self.style_changed = Changed()
@@ -186,6 +186,7 @@ class App:
         self._part("the dialog", lambda: open_dialog.draw(session))
         self._part("the messages", lambda: messages.draw(session))
         self._part("the help", lambda: help.draw(session, bindings.HELP))
+        self._fulfil()
         # In lecture mode, the menu lies over the panels.
         is_lecture = session.appearance.is_lecture_size
         (left, top), size = (room.pos, room.size) if is_lecture else (room.work_pos, room.work_size)
@@ -194,8 +195,6 @@ class App:
         height = max(size.y, SMALLEST[1]) - bar.height()
         self.tiles.draw((left, top, width, height))
         session.scroll = 0
-        for request in session.take_requests():
-            self._part("a request", lambda request=request: self._do(request), closes=False)
         self._part("the bar", lambda: bar.draw(session, left, top + height, width))
         self._part("the notice", lambda: notice.draw(session, left, top + height, width))
         self._part("the pointer", lambda: pointer.draw(session))
@@ -216,6 +215,11 @@ class App:
             self.session.reject()
 
         return self.session.guard.run(name, draw, recover, closes)
+
+    def _fulfil(self) -> None:
+        """Fulfil the session's requests."""
+        for request in self.session.take_requests():
+            self._part("a request", lambda request=request: self._do(request), closes=False)
 
     def _do(self, request: Request) -> None:
         """Fulfil a request of the session."""

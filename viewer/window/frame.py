@@ -29,8 +29,30 @@ def draw(
 ) -> None:
     """Draw the panel in front of those that share a place.
 
-    `body` draws its content, `head` what is beside the title, in so many pixels.
+    `body` draws its content, `head` what is beside the title, in so many pixels. The head comes last: it shows what is
+    picked in the content.
     """
+    _begin(front, where)
+    if front.fills and front.is_covered and len(sharing) == 1:
+        body()
+        _plate(session, front, head)
+    else:
+        unit = d.unit()
+        imgui.set_cursor_pos((0.0, 0.75 * MARGIN * unit + imgui.get_frame_height()))
+        _body(session, front, body)
+        _row(session, sharing, front, head)
+    imgui.end()
+
+
+def draw_first(front: Panel, where: Rectangle, part: Callable[[], object]) -> None:
+    """Draw a part of a panel before the panel itself."""
+    _begin(front, where)
+    part()
+    imgui.end()
+
+
+def _begin(front: Panel, where: Rectangle) -> None:
+    """Begin the window of a panel, or go on with it."""
     flags = imgui.WindowFlags_
     imgui.set_next_window_pos(where[:2])
     imgui.set_next_window_size(where[2:])
@@ -40,20 +62,18 @@ def draw(
         | flags.no_bring_to_front_on_focus | flags.no_scroll_with_mouse | flags.no_nav_focus,
     )  # fmt: skip
     imgui.pop_style_var()
-    if front.fills and front.is_covered and len(sharing) == 1:
-        body()
-        _plate(session, front, head)
-    else:
-        _row(session, sharing, front, head)
-        _body(session, front, body)
-    imgui.end()
+    imgui.set_cursor_pos((0.0, 0.0))
 
 
 def _body(session: Session, front: Panel, body: Callable[[], object]) -> None:
     flags = imgui.WindowFlags_
     still = flags.no_scrollbar | flags.no_scroll_with_mouse if front.fills else flags.none
     padded = imgui.ChildFlags_.none if front.fills else imgui.ChildFlags_.always_use_window_padding
-    imgui.push_style_var(imgui.StyleVar_.window_padding, (1.5 * MARGIN * d.unit(), 0.25 * MARGIN * d.unit()))
+    beside, above = 1.5 * MARGIN * d.unit(), 0.25 * MARGIN * d.unit()
+    imgui.push_style_var(imgui.StyleVar_.window_padding, (beside, above))
+    if not front.fills:  # as wide with a scroll bar as without: nothing moves when one appears
+        room = imgui.get_content_region_avail().x - 2.0 * beside - imgui.get_style().scrollbar_size
+        imgui.set_next_window_content_size((max(1.0, room), 0.0))
     if imgui.begin_child("body", (0.0, 0.0), padded, still):
         body()
         if session.scroll and not front.fills:

@@ -1,6 +1,6 @@
 """The panels in their places, the borders between them, and which panel is in front."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
@@ -13,14 +13,22 @@ from viewer.session.session import Session
 from viewer.session.view_state import Request
 from viewer.window import frame
 
+# All that follow show at once what is picked in the image, and then what is selected in the tree.
+ORDER = (Corner.TOP_RIGHT, Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT, Corner.TOP_LEFT)
+
 
 class Tiles:
     """Draws the panels of a session. `part` draws one part of the window, and reports it if that fails."""
 
-    def __init__(self, session: Session, canvas: Canvas, part: Callable[..., object]) -> None:
+    def __init__(
+        self, session: Session, canvas: Canvas, part: Callable[..., object], fulfil: Callable[[], object]
+    ) -> None:
+        """`part` draws a part of the window. `fulfil` does what the session asks for: a selected ray shows its panel.
+        """
         self.session = session
         self.canvas = canvas
         self.part = part
+        self.fulfil = fulfil
         self.places: dict[Corner, Rectangle] = {}  # when they were drawn last
 
     def draw(self, room: Rectangle) -> None:
@@ -41,14 +49,12 @@ class Tiles:
         if pointed and pointed.figure and not is_in_menu:
             layout.pointed = pointed.figure
         self.part("the borders", lambda: self._borders(arrangement, borders, room), closes=False)
-        # The scene comes last: it shows at once what is picked in the image, or selected in the tree.
-        for place, where in sorted(self.places.items(), key=lambda item: item[0] is Corner.TOP_LEFT):
-            panels = [alone] if alone else sharing[place]
-            front = alone or self._front(place)[1]
-            frame.draw(
-                session, panels, front, where, lambda front=front: self._panel(front),
-                lambda wide, front=front: self._head(front, wide),
-            )  # fmt: skip
+        for act in (self._first, self._draw):
+            for place in ORDER:
+                if place in self.places and place in self._sharing():  # a request may have closed it
+                    panels, front = ([alone], alone) if alone else self._front(place)
+                    act(panels, front, self.places[place])
+                    self.fulfil()
 
     def _sharing(self) -> dict[Corner, list[Panel]]:
         """The panels of each place."""
@@ -57,6 +63,15 @@ class Tiles:
             if panel.exists(self.session):
                 found.setdefault(panel.place_in(self.session), []).append(panel)
         return found
+
+    def _first(self, _: Sequence[Panel], front: Panel, where: Rectangle) -> None:
+        """Do what a panel does before any is drawn."""
+        act = front.first
+        if act:
+            frame.draw_first(front, where, lambda: self.part(front.title, lambda: act(self.session, self.canvas)))
+
+    def _draw(self, panels: Sequence[Panel], front: Panel, where: Rectangle) -> None:
+        frame.draw(self.session, panels, front, where, lambda: self._panel(front), lambda wide: self._head(front, wide))
 
     def _head(self, panel: Panel, wide: float) -> None:
         """Draw the content beside the title."""

@@ -36,14 +36,18 @@ def fold_branches(rays: PlannedRays, kept: set[int], last: int, lights: int) -> 
 
     There are no boxes below the level `last`. A hit's shadow rays are drawn if there are no more than `lights`.
     """
-    weights = rays.weights
-    rows = kept | {c for i in kept if len(rays.shadow_rays[i]) <= lights for c in rays.shadow_rays[i]}
+    weights, shadow_rays, sent, allowed = rays.weights, rays.shadow_rays, rays.rays, rays.rows
+    rows = kept.copy()
+    for i in kept:
+        to_lights = shadow_rays.get(i, ())
+        if len(to_lights) <= lights:
+            rows.update(to_lights)
     folds: dict[int, Fold] = {}
     for i in sorted(kept):
-        roots = tuple(c for c in rays.rays[i] if c in rays.rows and c not in kept)
+        roots = [c for c in sent.get(i, ()) if c not in kept and c in allowed]
         if roots:
-            row = max(roots, key=lambda c: (weights[c], -c))
+            row = max(roots, key=lambda c: (weights[c], -c)) if len(roots) > 1 else roots[0]
             count = sum(rays.branch_sizes[c] for c in roots)
             under = i if rays.depths[i] >= last else None
-            folds[row] = Fold(row, roots, count, float(sum(weights[c] for c in roots)), under)
+            folds[row] = Fold(row, tuple(roots), count, float(sum(weights[c] for c in roots)), under)
     return rows, folds

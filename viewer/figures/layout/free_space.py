@@ -5,7 +5,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from viewer.figures.marks import Box, Disc, Line, Mark, Point, Rectangle, Shape, Text, clip_shares, overlap
+from viewer.figures.marks import Box, Disc, Formula, Line, Mark, Point, Rectangle, Shape, Text, clip_shares, overlap
 
 CELL = 4.0  # points
 RANK = 90.0  # a corner is preferred to the one before it if it is nearer by this many points
@@ -20,15 +20,15 @@ def _touches(mark: Mark, box: Rectangle) -> bool:
     match mark:
         case Line():
             return clip_shares((mark.start, mark.end), box) is not None
-        case Text() | Box() | Disc() | Shape():
+        case Text() | Formula() | Box() | Disc() | Shape():
             return overlap(_bounds(mark), box)
         case _:
             return True
 
 
-def _bounds(mark: Text | Box | Disc | Shape) -> Rectangle:
+def _bounds(mark: Text | Formula | Box | Disc | Shape) -> Rectangle:
     match mark:
-        case Text():
+        case Text() | Formula():
             return mark.box()
         case Box(center=(x, y), size=(w, h)):
             return (x - 0.5 * w, y - 0.5 * h, x + 0.5 * w, y + 0.5 * h)
@@ -51,7 +51,7 @@ class FreeSpace:
 
     def _take_mark(self, mark: Mark) -> None:
         match mark:
-            case Text() | Box() | Disc() | Shape():
+            case Text() | Formula() | Box() | Disc() | Shape():
                 self.take(_bounds(mark))
             case Line():
                 steps = max(1, math.ceil(math.dist(mark.start, mark.end) / CELL))

@@ -28,7 +28,7 @@ def outline_rows(task: LayoutTask) -> list[int]:
     while below:
         i = below.pop()
         found.append(i)
-        below += [c for c in reversed(task.rays.rays[i]) if c in kept]
+        below += [c for c in reversed(task.rays.rays.get(i, [])) if c in kept]
     return found
 
 

@@ -145,8 +145,8 @@ def place_rightwards(task: LayoutTask, anyhow: bool) -> Places | None:
     at = {i: (first + pitch * rays.depths[i], middle + place.x * unit * spread) for i, place in laid.places.items()}
     bars: dict[int, Point] = {}
     for i in sorted(task.boxes.difference(task.folds)):
-        stubs = [] if style.compact else [c for c in rays.shadow_rays[i] if c in task.rows]
-        barred = not style.compact and any(c in task.rows and rays.is_tir[c] for c in rays.rays[i])
+        stubs = [] if style.compact else [c for c in rays.shadow_rays.get(i, ()) if c in task.rows]
+        barred = not style.compact and any(c in task.rows and rays.is_tir[c] for c in rays.rays.get(i, ()))
         (x, y), count = at[i], len(stubs) + barred
         ends = [(x + sizes.slot * (k - 0.5 * (count - 1)), y + 0.5 * sizes.box + STUB * size) for k in range(count)]
         if barred:

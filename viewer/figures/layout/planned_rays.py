@@ -46,27 +46,38 @@ class PlannedRays:
         """Whether each row is a ray of total internal reflection."""
         return (self.tree.nodes["kind"] == TIR).tolist()
 
-    @cached_property
-    def shadow_rays(self) -> list[list[int]]:
-        """The shadow rays of each row."""
-        return self._below(True)
+    @property
+    def shadow_rays(self) -> dict[int, list[int]]:
+        """The shadow rays of each row that has some."""
+        return self._below[True]
+
+    @property
+    def rays(self) -> dict[int, list[int]]:
+        """The other rays that each row sends out, if it does."""
+        return self._below[False]
 
     @cached_property
-    def rays(self) -> list[list[int]]:
-        """The other rays that each row sends out."""
-        return self._below(False)
-
-    def _below(self, shadow: bool) -> list[list[int]]:
-        found: list[list[int]] = [[] for _ in self.parents]
-        for i, parent in enumerate(self.parents):
-            if parent >= 0 and self.is_shadow[i] == shadow:
-                found[parent].append(i)
+    def _below(self) -> tuple[dict[int, list[int]], dict[int, list[int]]]:
+        """(rays, shadow rays) by the row that sends them out."""
+        found: tuple[dict[int, list[int]], dict[int, list[int]]] = ({}, {})
+        for i, (parent, is_shadow) in enumerate(zip(self.parents, self.is_shadow, strict=True)):
+            below = found[is_shadow]
+            if parent in below:
+                below[parent].append(i)
+            elif i:
+                below[parent] = [i]
         return found
+
+    @cached_property
+    def heaviest(self) -> list[int]:
+        """The planned hits, the heaviest first; before all others, the first hit and those that are folded last."""
+        hits = (i for i in sorted(self.rows) if not self.is_shadow[i])
+        return sorted(hits, key=lambda i: (i > 0 and i not in self.first, -self.weights[i]))
 
     @cached_property
     def branch_sizes(self) -> list[int]:
         """The number of planned rows in each row's branch, itself among them."""
-        sizes = [int(i in self.rows) for i in range(len(self.parents))]
+        parents, sizes = self.parents, [int(i in self.rows) for i in range(len(self.parents))]
         for i in range(len(sizes) - 1, 0, -1):  # parents come before their children
-            sizes[self.parents[i]] += sizes[i]
+            sizes[parents[i]] += sizes[i]
         return sizes

@@ -64,8 +64,8 @@ def tidy_layout(rays: PlannedRays, rows: set[int], room: Spacing) -> Layout:
 
 def _join(rays: PlannedRays, i: int, rows: set[int], subtrees: dict[int, _Subtree], room: Spacing) -> _Subtree:
     """The subtree of row i, made of those of its children, which are removed from `subtrees`."""
-    stubs = [child for child in rays.shadow_rays[i] if child in rows]
-    children = [child for child in rays.rays[i] if child in rows]
+    stubs = [child for child in rays.shadow_rays.get(i, ()) if child in rows]
+    children = [child for child in rays.rays.get(i, ()) if child in rows]
     reflected = [child for child in children if not rays.is_refracted[child]]
     refracted = [child for child in children if rays.is_refracted[child]]
     children = [*reflected, *refracted]

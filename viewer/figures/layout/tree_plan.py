@@ -223,7 +223,7 @@ def _plan_of(measured: HitSizes, last: int) -> TreePlan:
         r
         for fold in best.folds.values()
         for r in fold.roots
-        if not rays.rays[r] and not rays.shadow_rays[r] and r in heaviest
+        if r not in rays.rays and r not in rays.shadow_rays and r in heaviest
     )
     failed = 0
     for i in (*single, *heaviest[low : low + MORE]):
@@ -239,13 +239,9 @@ def _plan_of(measured: HitSizes, last: int) -> TreePlan:
 
 def _heaviest(measured: HitSizes, last: int) -> list[int]:
     """The rays down to a level that the style does not fold, the heaviest first."""
-    nodes = measured.tree.nodes
-    weights, kinds = nodes["weight"].max(axis=1), nodes["kind"]
-    rays = measured.rays
-    first, allowed = (np.isin(np.arange(len(weights)), list(rows)) for rows in (rays.first | {0}, rays.rows))
-    kept = (kinds != SHADOW) & (nodes["depth"] <= last) & allowed & (first | (weights >= measured.style.fold))
-    found = np.flatnonzero(kept)
-    return found[np.lexsort((found, -weights[found], ~first[found]))].tolist()
+    rays, least = measured.rays, measured.style.fold
+    depths, weights, always = rays.depths, rays.weights, rays.first | {0}
+    return [i for i in rays.heaviest if depths[i] <= last and (weights[i] >= least or i in always)]
 
 
 def _last_level(measured: HitSizes) -> int:
@@ -263,12 +259,12 @@ def _last_level(measured: HitSizes) -> int:
 PLACINGS = {"top": place_downwards, "left": place_rightwards, OUTLINE: place_as_outline}
 
 
-def _too_many(rays: PlannedRays, hits: set[int], style: TreeStyle) -> bool:
-    """Whether there is no room for so many hits, however short the text in their boxes is."""
+def _too_many(rays: PlannedRays, boxes: set[int], style: TreeStyle) -> bool:
+    """Whether there is no room for so many boxes, however short the text in them is."""
     size, (left, top, right, bottom) = style.size, style.where
     if style.eye == OUTLINE:
-        return (len(hits) - 1) * PITCH * size > bottom - top
-    most = max(Counter(rays.depths[i] for i in hits).values())  # on one level
+        return (len(boxes) - 1) * PITCH * size > bottom - top
+    most = max(Counter(rays.depths[i] for i in boxes).values())  # on one level
     return most * BOX * size > bottom - top if style.eye == "left" else most * 2.0 * PADDING * size > right - left
 
 
@@ -278,8 +274,10 @@ def _try(measured: HitSizes, kept: set[int], last: int, anyhow: bool = False) ->
     if _too_many(measured.rays, kept, style) and not anyhow:  # most attempts end here, before anything is measured
         return None
     rows, folds = fold_branches(measured.rays, kept, last, style.lights)
-    sizes = Sizes.of(measured, rows, folds)
     boxes = {row for row, fold in folds.items() if fold.under is None}
+    if _too_many(measured.rays, kept | boxes, style) and not anyhow:
+        return None
+    sizes = Sizes.of(measured, rows, folds)
     task = LayoutTask(measured.rays, rows, boxes, sizes, style, hung=len(boxes) < len(folds))
     places = PLACINGS[style.eye](task, anyhow)
     if places is None:
