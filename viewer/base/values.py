@@ -177,6 +177,7 @@ LIGHT = number("a number >= 0", lambda x: 0.0 <= x < math.inf, "E")
 POSITIVE = number("a number > 0", lambda x: 0.0 < x < math.inf, "E")
 SHARE = number("a number from 0 to 1", lambda x: 0.0 <= x <= 1.0, "W")
 PIXELS = whole(16, MAX_PIXELS, "PX", f"pixels from 16 to {MAX_PIXELS}")
+INCIDENCE = number("degrees from 0 to 89", lambda x: 0.0 <= x <= 89.0, "DEG")
 POINTS = number("points from 8 to 48", lambda x: 8.0 <= x <= 48.0, "PT")
 
 

@@ -51,7 +51,7 @@ def view(options: ViewOptions) -> int:
     session = app.session
     restore_appearance(session.appearance, opening.state)
     keeper = SessionKeeper(folder / "session.json", session, lambda: window.place) if folder else None
-    check = SelectionCheck(session, options.select)
+    check = TreeCheck(session, options.select, options.page)
     if folder:
         session.export.remember(folder / "figure.json")
 
@@ -97,15 +97,17 @@ def _with_last_session(options: ViewOptions, folder: Path | None) -> tuple[LastS
     return last, replace(opening, state=merged(last.state, options.state), instead=instead)
 
 
-class SelectionCheck:
-    """Says once if the tree on show does not have the ray that was asked for."""
+class TreeCheck:
+    """Says once if the tree on show does not have the ray or the step that was asked for."""
 
-    def __init__(self, session: Session, asked: str | None) -> None:
-        self.session, self.asked = session, asked
+    def __init__(self, session: Session, select: str | None, page: int | None) -> None:
+        self.session, self.asked, self.page = session, select, page
 
     def fault(self) -> str | None:
         """The fault; None if there is none, or no tree yet."""
-        tree = self.session.tree
+        tree, steps = self.session.tree, self.session.reveal.steps if self.page is not None else None
+        if steps and self.page is not None and self.page >= len(steps):
+            return f"--page {self.page}: must be a step of this tree, 0 .. {len(steps) - 1}"
         if not self.asked or not tree or self.session.selection != self.asked or self.session.selected is not None:
             return None
         known = ", ".join(tree.path(i) for i in range(min(len(tree), MOST_PATHS)))
@@ -118,7 +120,7 @@ class SelectionCheck:
         if fault:
             self.session.show_faults([fault])
         if self.session.tree:
-            self.asked = None
+            self.asked = self.page = None
 
 
 def take_screenshot(opening: Opening, options: ViewOptions, target: Path) -> None:
@@ -128,7 +130,7 @@ def take_screenshot(opening: Opening, options: ViewOptions, target: Path) -> Non
     except NoWindow as reason:
         raise Unusable(str(reason)) from None
     session = app.session
-    check = SelectionCheck(session, options.select)
+    check = TreeCheck(session, options.select, options.page)
     try:
         restore_appearance(session.appearance, opening.state)
         session.loader.load(opening)

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING
 
+from viewer.reopen.view_state import ORDERS
+
 if TYPE_CHECKING:
     from tracer.tree.raytree import RayTree
     from viewer.figures.marks import Figure
@@ -35,14 +37,14 @@ FIGURES = (
     ),
     FigureKind("tree", "Ray tree", "viewer.figures.figure.tree:pages", ("swatches", "levels", "select", "fold", "eye")),
     FigureKind("scene", "Scene", "viewer.figures.figure.scene:pages", ("view",)),
-    FigureKind("hit", "Selected hit", "viewer.figures.figure.hit:pages", ("node",)),
+    FigureKind("hit", "Selected hit", "viewer.figures.figure.hit:pages", ("node", "turn")),
 )
 FIGURE_NAMES = tuple(kind.name for kind in FIGURES)
 
 # One page per depth, with whole trees; or one tree, in which rays appear by level or one by one, and then colours are
 # summed up; or only the latter.
 STEPS = ("depth", "levels", "rays", "colour")
-BREADTH, RECURSION = ORDERS = ("breadth", "recursion")  # of rays and sums: the kernel's, or a recursive procedure's
+BREADTH, RECURSION = ORDERS  # of rays and sums: the kernel's, or a recursive procedure's
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
 import tracer
@@ -12,6 +12,7 @@ from viewer.base.files import Unusable, write_atomically
 from viewer.base.options import shell_line, words
 from viewer.base.orbit import STEEPEST, Frame, Orbit, ViewAngles, initial_orbit, orbit_beside
 from viewer.base.theme import THEMES
+from viewer.explain.turned import turned
 from viewer.figures.catalogue import BREADTH, FIGURES, FORMATS
 from viewer.figures.export_options import ExportOptions
 from viewer.figures.figure import both, tree
@@ -53,9 +54,10 @@ def check_options(options: ExportOptions) -> None:
         found.append(f"raytree export: a hit has no steps: --step {options.step} is for tree, scene and both")
     if options.order != BREADTH and options.step in ("depth", "levels"):
         found.append(f"raytree export: --order {options.order} is for --step rays and colour, got {options.step}")
+    given = {item.name for item in fields(options) if getattr(options, item.name) != item.default}
     for name in dict.fromkeys(name for kind in FIGURES for name in kind.options):
         figures = [kind.name for kind in reversed(FIGURES) if name in kind.options]
-        if getattr(options, name) and options.figure not in figures:
+        if name in given and options.figure not in figures:
             found.append(f"raytree export: --{name} is for --figure {' and '.join(figures)}, got {options.figure}")
     if found:
         raise Unusable(*found)
@@ -139,8 +141,18 @@ def steps_of(world: World, options: ExportOptions, depths: range) -> Sequence[St
         "model": options.model,
     }
     trees = [tracer.trace(world, options.pixel, ray, depth=depth, **how) for depth in depths]
+    if options.turn is not None:
+        trees = [_turned(world, tree, options.node, options.turn) for tree in trees]
     steps = _all_steps(trees, options)
     return [of_kinds(step, {*options.filter, "camera"}) for step in steps] if options.filter is not None else steps
+
+
+def _turned(world: World, tree: RayTree, node: str | None, turn: float) -> RayTree:
+    """The tree of the ray that meets this hit at another angle. ValueError if there is none."""
+    found = turned(world, tree, hit_row(tree, node), turn)
+    if found is None:
+        raise ValueError(f"--turn {turn:g}: another surface is in the way of such a ray")
+    return found
 
 
 def _all_steps(trees: Sequence[RayTree], options: ExportOptions) -> Sequence[Step]:
@@ -163,7 +175,8 @@ def style_of(options: ExportOptions, steps: Sequence[Step]) -> FigureStyle:
         swatches=options.swatches or options.step != "depth",  # the colours that are summed up
         fold=options.fold,
         ground=options.ground,
-        node=hit_row(steps[-1].tree, options.node) if options.figure == "hit" else 0,
+        node=hit_row(steps[-1].tree, options.node) if options.figure == "hit" and options.turn is None else 0,
+        is_turned=options.turn is not None,
         eye=options.eye or "top",
         selected=selected_row(options, steps[-1].tree),
         levels=options.levels,

@@ -9,6 +9,7 @@ from viewer.base.theme import THEMES
 from viewer.base.values import (
     DEPTHS,
     FIGURE_TOO,
+    INCIDENCE,
     MAX_RAYS_HELP,
     ORBIT,
     PAPER,
@@ -30,7 +31,7 @@ from viewer.base.values import (
     whole,
 )
 from viewer.figures.catalogue import FIGURE_NAMES, FORMATS, ORDERS, STEPS
-from viewer.reopen.view_state import KINDS, VIEW_WORDS, ViewState, merged
+from viewer.reopen.view_state import GRANULARITIES, KINDS, VIEW_WORDS, ViewState, merged
 
 SLIDE = (960, 540)  # points: 16 to 9
 TEXT_SIZE = 18.0  # points: readable in the last row if the figure fills a slide
@@ -51,6 +52,7 @@ class ExportOptions:
     node: str | None = option(
         RAY_NAME, "hit: the hit at the end of this ray, by its path (TR) or label (R3); E by default"
     )
+    turn: float | None = option(INCIDENCE, "hit: as it would be at this angle of incidence, in its plane")
     depth: range | None = option(DEPTHS, "recursion depth, or one page per depth: 0..3")
     step: str = option(
         one_of(STEPS),
@@ -100,6 +102,10 @@ class ExportOptions:
             model=self.model,
             up=self.up,
             select=self._selected(),
+            step=self.step if self.step == GRANULARITIES[1] else None,
+            order=self.order if self.order != ORDERS[0] else None,
+            page=self.page if self.step in GRANULARITIES else None,
+            turn=self.turn,
             camera=self.view,
             filter=tuple(k for k in KINDS if k != "shadow") if self.no_lights else self.filter,
         )

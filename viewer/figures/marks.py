@@ -5,9 +5,10 @@ Lengths are points (1/72 inch) from the canvas's top left corner, y downwards. T
 text of 18 points is 18 points high if the figure fills the slide.
 """
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from itertools import groupby
+from itertools import groupby, pairwise
 
 from tracer.printable import printable
 from viewer.base.theme import Arrow, Color, blend
@@ -215,6 +216,45 @@ class Formula(Mark):
             return tuple(origin[k % 2] + self.size * place for k, place in enumerate(segment))
 
         return [[tuple(map(placed, contour)) for contour in outline] for outline in typeset(self.source).outlines]
+
+
+@dataclass(frozen=True)
+class Handle(Mark):
+    """A disc that is dragged along a path and changes a parameter of the figure, where a figure can be changed. A file
+    does not show it.
+
+    `path` are places at equal steps of the value, from the lowest to the highest.
+    """
+
+    parameter: str
+    value: float
+    range: tuple[float, float]  # the lowest and the highest value
+    path: tuple[Point, ...]
+    color: Color
+
+    @property
+    def at(self) -> Point:
+        """The place of its value."""
+        low, high = self.range
+        step = min(1.0, max(0.0, (self.value - low) / (high - low))) * (len(self.path) - 1)
+        k = min(int(step), len(self.path) - 2)
+        return point_along((self.path[k], self.path[k + 1]), step - k)
+
+    def nearest(self, point: Point) -> float:
+        """The value whose place is nearest to a point."""
+
+        def along(piece: Piece) -> float:
+            (x0, y0), (x1, y1) = piece
+            dx, dy = x1 - x0, y1 - y0
+            share = ((point[0] - x0) * dx + (point[1] - y0) * dy) / (dx * dx + dy * dy)
+            return min(1.0, max(0.0, share))
+
+        pieces = list(pairwise(self.path))
+        shares = list(map(along, pieces))
+        away = [math.dist(point, point_along(piece, share)) for piece, share in zip(pieces, shares, strict=True)]
+        k = min(range(len(pieces)), key=away.__getitem__)
+        low, high = self.range
+        return low + (high - low) * (k + shares[k]) / len(pieces)
 
 
 def with_line_width(mark: Mark, share: float) -> Mark:

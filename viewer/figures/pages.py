@@ -5,7 +5,7 @@ from pkgutil import resolve_name
 from tracer.tree.digits import rgb_text
 from tracer.tree.raytree import RayTree
 from viewer.figures.catalogue import FIGURES
-from viewer.figures.marks import Figure, with_line_width
+from viewer.figures.marks import Figure, Handle, with_line_width
 from viewer.figures.subject import FigureStyle, Subject, line_share
 
 MOST_DOUBTS = 3  # that a description lists
@@ -15,7 +15,10 @@ def pages(name: str, subject: Subject, style: FigureStyle, command: str = "") ->
     """One page of the named figure for each step. ValueError if the subject or the style does not allow it."""
     marks_of = resolve_name(next(kind.function for kind in FIGURES if kind.name == name))
     width = line_share(style.text_size)
-    made = [[with_line_width(mark, width) for mark in marks] for marks in marks_of(subject, style)]
+    made = [
+        [with_line_width(mark, width) for mark in marks if not isinstance(mark, Handle)]
+        for marks in marks_of(subject, style)
+    ]
     paper = style.theme.ground
     return [
         Figure(title(step.tree), description(step.tree), command, tuple(marks), paper, style.ground, *style.page)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-from viewer.figures.marks import Box, Disc, Formula, Line, Mark, Point, Rectangle, Shape, Text
+from viewer.figures.marks import Box, Disc, Formula, Handle, Line, Mark, Point, Rectangle, Shape, Text
 
 PICKED = ("ray", "hit")  # the kinds of names that can be picked: `ray-3` and `hit-3` belong to row 3 of a tree
 
@@ -23,6 +23,13 @@ def mark_at(marks: Iterable[Mark], point: Point, reach: float, kinds: Sequence[s
             if away <= nearest:
                 found, nearest = mark.name, away
     return found
+
+
+def handle_at(marks: Iterable[Mark], point: Point, reach: float) -> Handle | None:
+    """The handle nearest to a point, at most `reach` from its middle; None if there is none."""
+    handles = [mark for mark in marks if isinstance(mark, Handle)]
+    near = min(handles, key=lambda handle: math.dist(handle.at, point), default=None)
+    return near if near and math.dist(near.at, point) <= reach else None
 
 
 def row_of(name: str | None) -> int | None:

@@ -37,6 +37,7 @@ class FigureStyle:
     fold: float = 0.0  # branches with a smaller weight are folded
     ground: bool = False  # on the theme's background; otherwise transparent
     node: int = 0  # the row of the hit that the figure is about, if it is about one
+    is_turned: bool = False  # whether that hit is one of a ray that was turned by hand
     eye: str = "top"  # of a tree: or "left"
     selected: int | None = None  # the row of a ray to emphasise; rays that are neither above nor below it are dimmed
     levels: bool = False  # a tree from the top: the depths, with their numbers

@@ -1,4 +1,8 @@
-"""The hit of the selected ray in its plane of incidence, as in the figure; without a selection the first hit."""
+"""The hit of the selected ray in its plane of incidence, as in the figure; without a selection the first hit.
+
+The incoming ray is dragged by its end: the hit is shown as it would be at another angle. A double click brings back the
+traced ray.
+"""
 
 from imgui_bundle import imgui
 
@@ -6,9 +10,10 @@ from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import PANEL_TEXT
 from viewer.explain.ray import headline
+from viewer.explain.turned import turned
 from viewer.figures.figure.hit import hit_marks
-from viewer.figures.marks import Mark, with_line_width
-from viewer.figures.picking import mark_at, row_of
+from viewer.figures.marks import Handle, Mark, Point, with_line_width
+from viewer.figures.picking import handle_at, mark_at, row_of
 from viewer.figures.steps import Step
 from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas
@@ -17,6 +22,8 @@ from viewer.panels.panel import Panel
 from viewer.session.session import Session
 
 REACH = 6.0  # logical pixels from the mouse to a ray
+HANDLE_REACH = 11.0  # logical pixels from the mouse to the middle of a handle
+DIGITS = 1  # of the angle in degrees
 THICKER = 1.6  # factor of the line widths of the ray under the mouse
 
 
@@ -33,22 +40,47 @@ def draw(session: Session, canvas: Canvas) -> None:
     imgui.invisible_button("hit", room)
     size = (round(room.x / unit), round(room.y / unit))
     session.layout.papers["hit"] = size
-    marks = canvas.hit.get(_key(session, row, size), lambda: _marks(session, tree, row, size))
-    hovered = session.hovered
-    if imgui.is_item_hovered():
-        mouse = imgui.get_mouse_pos()
-        at = ((mouse.x - corner.x) / unit, (mouse.y - corner.y) / unit)
-        hovered = row_of(mark_at(marks, at, REACH))
+
+    def marks() -> list[Mark]:
+        return canvas.hit.get(_key(session, row, size), lambda: _marks(session, tree, row, size))
+
+    mouse = imgui.get_mouse_pos()
+    at = ((mouse.x - corner.x) / unit, (mouse.y - corner.y) / unit)
+    is_dragged = _drag(session, marks(), at)
+    hovered = session.hovered if session.turn is None else None
+    if imgui.is_item_hovered() and not is_dragged and session.turn is None:
+        hovered = row_of(mark_at(marks(), at, REACH))
         canvas.hover("hit", hovered)
         if hovered is not None:
             imgui.set_tooltip("\n".join(headline(tree, hovered)))
-            if imgui.is_mouse_released(imgui.MouseButton_.left):
+            if d.is_clicked():
                 session.select(hovered)
     else:
         canvas.leave("hit")
     name = f"ray-{hovered}"
-    shown = (with_line_width(mark, THICKER) if mark.name == name else mark for mark in marks)
+    shown = (with_line_width(mark, THICKER) if mark.name == name else mark for mark in marks())
     draw_marks(imgui.get_window_draw_list(), shown, (corner.x, corner.y), unit)
+
+
+def _drag(session: Session, marks: list[Mark], at: Point) -> bool:
+    """Turn the ray with its handle. Returns whether the mouse is over the handle, or drags it."""
+    storage, key = imgui.get_state_storage(), imgui.get_id("handle")
+    over = handle_at(marks, at, HANDLE_REACH)
+    if imgui.is_item_activated():
+        storage.set_bool(key, over is not None)
+    is_held = imgui.is_item_active() and storage.get_bool(key)
+    handle = next((mark for mark in marks if isinstance(mark, Handle)), None)
+    if is_held and handle and imgui.is_mouse_dragging(imgui.MouseButton_.left):
+        if session.turn is None:
+            session.notice.say("turned by hand; a double click brings back the traced ray")
+        session.turn = round(handle.nearest(at), DIGITS)
+    if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+        session.turn_back()
+    if over and imgui.is_item_hovered():
+        imgui.set_mouse_cursor(imgui.MouseCursor_.hand)
+        if session.turn is None and not is_held:
+            imgui.set_tooltip(over.title)
+    return is_held or bool(over)
 
 
 def shown_row(tree: RayTree, row: int) -> int | None:
@@ -63,16 +95,23 @@ def shown_row(tree: RayTree, row: int) -> int | None:
 
 def _key(session: Session, row: int, size: tuple[int, int]) -> object:
     """All that the marks depend on."""
-    return (session.tree, row, size, session.appearance.theme, frozenset(session.shown.kinds))
+    return (session.tree, row, size, session.turn, session.appearance.theme, frozenset(session.shown.kinds))
 
 
 def _marks(session: Session, tree: RayTree, row: int, size: tuple[int, int]) -> list[Mark]:
     """The marks, in logical pixels."""
-    kinds = session.shown.kinds
+    kinds, is_turned = session.shown.kinds, False
+    if session.turn is not None and session.world:
+        found = turned(session.world, tree, row, session.turn)
+        if found is None:
+            session.turn_back()
+            session.notice.say("another surface is in the way of such a ray")
+        else:
+            tree, row, is_turned = found, 0, True
     rows = frozenset(i for i in (row, *tree.children[row]) if i == row or tree.kind(i) in kinds)
     step = Step(tree, rows, frozenset())
     where = (0.0, 0.0, float(size[0]), float(size[1]))
-    return hit_marks(step, row, PANEL_TEXT, session.appearance.theme, session.world, where)
+    return hit_marks(step, row, PANEL_TEXT, session.appearance.theme, session.world, where, is_turned)
 
 
 PANEL = Panel("Hit", draw, fills=True, is_covered=False, figure="hit", shows_ray=True)

@@ -19,7 +19,7 @@ from viewer.figures.layout.sizes import OUTLINE
 from viewer.figures.layout.tree_legend import sign_entries
 from viewer.figures.layout.tree_plan import TreePlan
 from viewer.figures.legend import Entry, legend_row, row_width
-from viewer.figures.marks import Box, Disc, Line, Mark, Point, Text, widened
+from viewer.figures.marks import Box, Disc, Line, Mark, Point, Text, widened, within
 from viewer.figures.picking import mark_at, row_of
 from viewer.figures.steps import of_kinds, whole
 from viewer.figures.subject import FigureStyle
@@ -133,7 +133,7 @@ def _note(tree: RayTree, marks: Sequence[Mark], style: FigureStyle) -> list[Mark
         low, high = height - EDGE - size, EDGE + size + 1.6 * size
         for x, y, anchor in ((width - EDGE, low, "end"), (EDGE, low, "start"), (width - EDGE, high, "end")):
             found = replace(note, at=(x, y), anchor=anchor)
-            if is_free(widened(found.box(), 2.0), marks):
+            if within(found.box(), style.canvas) and is_free(widened(found.box(), 2.0), marks):
                 return [found]
     return []
 

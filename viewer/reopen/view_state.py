@@ -15,6 +15,7 @@ from viewer.base.options import flag, option, spelling, words
 from viewer.base.theme import DARK, LIGHT, STYLES
 from viewer.base.values import (
     DEPTH_HELP,
+    INCIDENCE,
     MODEL_HELP,
     ORBIT,
     PAN_ZOOM,
@@ -32,6 +33,8 @@ from viewer.base.values import (
 
 KINDS = tuple(STYLES)  # of rays
 SWITCHES = ("camera", "lights", "normals", "labels")  # what else is drawn, or hidden
+GRANULARITIES = ("levels", "rays")
+ORDERS = ("breadth", "recursion")
 THEMES = (DARK.name, LIGHT.name)  # of the window
 TYPE_SIZES = ("normal", "lecture")
 PANEL_NAMES = ("scene", "image", "tree", "ray", "hit", "lesson", "error", "recursion")
@@ -46,6 +49,14 @@ class ViewState:
     model: str | None = option(one_of(MODELS), MODEL_HELP)
     up: str = option(one_of(UP_AXES), UP_HELP, UP_AXES[0])
     select: str | None = option(RAY_PATH, "select the ray with this path: E, TR, TR.L(key)")
+    step: str | None = option(
+        one_of(GRANULARITIES), f"reveal the tree by level or by ray; {GRANULARITIES[0]} by default"
+    )
+    order: str | None = option(
+        one_of(ORDERS), "by ray: breadth-first as the kernel does it, or depth-first as a recursion does"
+    )
+    page: int | None = option(whole(0), "show the tree at this step, from 0; all of it by default")
+    turn: float | None = option(INCIDENCE, "show the selected hit as it would be at this angle of incidence")
     camera: tuple[float, ...] | None = option(
         ORBIT, "the 3D view, as --view of export: azimuth and elevation in degrees, distance in radii, target"
     )

@@ -42,6 +42,7 @@ def _return_to(session: Session, place: Place) -> None:
     pixel = place.opening.state.pixel
     session.pixel = session.inside(*pixel) if pixel else None
     session.selection, session.tree, session.full_tree = place.opening.state.select, None, None
+    session.turn_back()
     session.update()
 
 

@@ -33,6 +33,7 @@ def export_figure(session: Session, copied: bool = False) -> None:
         figure=figure,
         view=session.orbit.view(session.frame) if figure in ("both", "scene") else None,
         node=tree.path(session.selected) if figure == "hit" and session.selected is not None else None,
+        turn=session.turn if figure == "hit" else None,
         depth=range(session.depth, session.depth + 1),
         step=session.reveal.granularity if step else STEPS[0],
         order=session.reveal.order if step else ORDERS[0],

@@ -141,6 +141,7 @@ class Session(Looks):
         def trace() -> None:
             if self.pixel and not self.tree:
                 self._trace()
+                self.reveal.go_to_asked()
             if self.tree:
                 self.verification.ask(self.tree)
 
@@ -197,12 +198,11 @@ class Session(Looks):
         """Show the tree behind a pixel; outside the image, behind the nearest pixel. The selection stays, if the tree
         has such a ray. The history keeps only the last pixel of one `series`, such as a drag of the mouse.
         """
-        if not self.world:
-            return
-        pixel = self.inside(x, y)
-        if pixel != self.pixel:
+        pixel = self.inside(x, y) if self.world else None
+        if pixel and pixel != self.pixel:
             self.pixel = pixel
             self.tree = None
+            self.turn_back()
             self.history.add(Place(self._now(), series))
             self.update()
 
@@ -221,6 +221,7 @@ class Session(Looks):
         """Select one ray of the tree, or none."""
         if row is None or (self.tree and 0 <= row < len(self.tree)):
             self.selection = self.tree.path(row) if self.tree and row is not None else None
+            self.turn_back()
             self.history.note(self.selection)
             if row is not None:
                 self.requests.append(Request.SHOW_RAY)
@@ -285,6 +286,7 @@ class Session(Looks):
         """Reset the 3D view, and fit the image and the tree into their panels."""
         self.image_view.fit()
         self.tree_view.fit()
+        self.turn_back()
         self.reset_orbit()
 
     def reset_orbit(self) -> None:

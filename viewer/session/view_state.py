@@ -149,8 +149,13 @@ class Looks:
     layout: Layout = field(default_factory=Layout)
     notice: Notice = field(default_factory=Notice)
     dialog: OpenDialog = field(default_factory=OpenDialog)
+    turn: float | None = None  # the angle of incidence at which the selected hit is shown, in degrees; None: its own
     pointer: Pointer = Pointer.NONE
     shows_help: bool = False
     is_blank: bool = False  # the window is black
     scroll: int = 0  # lines by which the texts are to be scrolled
     hovered: int | None = None  # the row of the tree under the mouse, in any view
+
+    def turn_back(self) -> None:
+        """Show the selected hit as it was traced."""
+        self.turn = None

@@ -23,8 +23,7 @@ class Tiles:
     def __init__(
         self, session: Session, canvas: Canvas, part: Callable[..., object], fulfil: Callable[[], object]
     ) -> None:
-        """`part` draws a part of the window. `fulfil` does what the session asks for: a selected ray shows its panel.
-        """
+        """`part` draws a part of the window. `fulfil` does what the session asks for, such as to show a panel."""
         self.session = session
         self.canvas = canvas
         self.part = part

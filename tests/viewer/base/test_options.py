@@ -30,6 +30,7 @@ STRATEGIES: dict[Value, st.SearchStrategy] = {
     values.SHARE: st.floats(0, 1),
     values.PIXELS: st.integers(16, values.MAX_PIXELS),
     values.POINTS: st.floats(8, 48),
+    values.INCIDENCE: st.floats(0, 89),
     values.RAY_PATH: st.sampled_from(("E", "TRI", "T[3]R", "E.L(key)", "TR.L(a 'b' $c)[5]")),
     values.PAPER: st.tuples(st.integers(200, 4000), st.integers(200, 4000)),
     values.SHARES: st.tuples(*[st.floats(0.15, 0.85)] * 3),

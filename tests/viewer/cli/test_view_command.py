@@ -130,8 +130,10 @@ def test_a_state_is_read_from_every_option() -> None:
 
     line = "view x.toml --pixel 1,2 --depth 3 --model fresnel --up z --select E --camera=-1,2,3 --filter none"
     line += " --hide camera --theme light --type-size lecture --image-zoom 2,0.5,0.5 --tree-zoom=1,-3,4"
+    line += " --step rays --order recursion --page 3 --turn 12.5"
     _, options = parse(line.split())
     assert options.state == ViewState(
         pixel=(1, 2), depth=3, model="fresnel", up="z", select="E", camera=(-1, 2, 3), filter=(), hide=("camera",),
         theme="light", type_size="lecture", image_zoom=(2, 0.5, 0.5), tree_zoom=(1, -3, 4),
+        step="rays", order="recursion", page=3, turn=12.5,
     )  # fmt: skip

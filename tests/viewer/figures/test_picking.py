@@ -8,8 +8,8 @@ import tracer
 from tests.viewer.figures.geometry import rectangle
 from viewer.base.theme import LIGHT
 from viewer.figures.figure.tree import pages
-from viewer.figures.marks import Box, Disc, Line, Shape, Stroke, Text
-from viewer.figures.picking import distance, mark_at, row_of
+from viewer.figures.marks import Box, Disc, Handle, Line, Point, Shape, Stroke, Text
+from viewer.figures.picking import distance, handle_at, mark_at, row_of
 from viewer.figures.steps import by_depth
 from viewer.figures.subject import FigureStyle, Subject
 
@@ -72,3 +72,27 @@ def test_every_box_and_label_of_a_tree_is_found_where_it_is_drawn(worlds: dict[s
     for text in marks:
         if isinstance(text, Text) and text.name.startswith("ray-"):
             assert mark_at(marks, text.at, 6.0) == text.name
+
+
+COORDINATE = st.floats(-900.0, 900.0)
+
+
+@given(
+    st.lists(st.tuples(COORDINATE, COORDINATE), min_size=2, max_size=9, unique=True),
+    st.floats(0.0, 1.0),
+    st.tuples(COORDINATE, COORDINATE),
+)
+def test_a_handle_goes_to_the_nearest_place_of_its_path(path: list[Point], share: float, mouse: Point) -> None:
+    low, high = -3.0, 17.0
+
+    def handle(value: float) -> Handle:
+        return Handle("turn", "turn", value, (low, high), tuple(path), BLACK)
+
+    value = low + share * (high - low)
+    at = handle(value).at
+    assert math.dist(handle(handle(value).nearest(at)).at, at) <= 1e-6
+    nearest = math.dist(handle(handle(value).nearest(mouse)).at, mouse)
+    others = [handle(low + k / 60 * (high - low)) for k in range(61)]
+    assert nearest <= min(math.dist(other.at, mouse) for other in others) + 1e-6
+    assert handle_at([LINE, handle(value)], at, 1.0) == handle(value)
+    assert handle_at([LINE, handle(value)], (at[0] + 5.0, at[1]), 1.0) is None

@@ -7,10 +7,10 @@ import pytest
 from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
-from tests.viewer.driver import Driver, body, viewer
+from tests.viewer.driver import Driver, are_equal, body, viewer
 from tracer.kernel.nodes import SHADOW
 from viewer.explain.interfaces import interfaces
-from viewer.figures.marks import Line, Mark, Rectangle
+from viewer.figures.marks import Handle, Line, Mark, Rectangle, Text
 from viewer.panels import PANELS, hit, ray
 from viewer.panels.hit import shown_row
 from viewer.panels.panel import Panel
@@ -143,6 +143,46 @@ def test_a_ray_in_the_picture_of_a_hit_is_hovered_and_selected_by_the_mouse(room
     room.move(*room.pixel_at(5, 5))
     room.frames(2)
     assert session.hovered is None
+
+
+@pytest.mark.parametrize("lecture", (False, True))
+def test_the_ray_in_the_picture_of_a_hit_is_turned_by_its_handle(room: Driver, lecture: bool) -> None:
+    """To 60 degrees inside the glass: all light is reflected. A double click, or another ray, ends it."""
+    if lecture:
+        room.press(Key.tab)
+    session, tree = room.session, room.session.tree
+    assert tree
+    session.select(tree.find("T"))
+    show(room, hit.PANEL)
+    left, top, _, _ = inner(body(hit.PANEL.title))
+    unit = imgui.get_style().font_scale_main
+
+    def handle() -> Handle:
+        return next(mark for mark in marks(room) if isinstance(mark, Handle))
+
+    def on_screen(point: tuple[float, float]) -> tuple[float, float]:
+        return left + unit * point[0], top + unit * point[1]
+
+    def words() -> list[str]:
+        return [mark.content for mark in marks(room) if isinstance(mark, Text)]
+
+    assert handle().value == pytest.approx(math.degrees(tree.nodes["theta1"][tree.find("T")]), abs=1e-12)
+    for end in ("double click", "another ray"):
+        traced = room.picture()
+        start, stop = on_screen(handle().at), on_screen(handle().path[60])
+        room.drag([start, (start[0] - 8.0, start[1]), stop])
+        assert session.turn == pytest.approx(60.0, abs=1.0)
+        assert "v: turned by hand" in words() and f"θ₁ = {session.turn:.2f}°" in " ".join(words())
+        assert "no T" in words() and session.selection == "T" and session.tree is tree
+        assert not are_equal(room.picture(), traced)
+        if end == "double click":
+            x, y = on_screen(handle().at)
+            room.click(x, y)
+            room.click(x, y)
+        else:
+            session.select(tree.find("E"))
+        room.frames(3)
+        assert session.turn is None and "v: turned by hand" not in words()
 
 
 def test_the_hit_on_show_is_that_of_the_selected_ray(room: Driver) -> None:

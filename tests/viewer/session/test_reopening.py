@@ -79,6 +79,9 @@ def change_everything(driver: Driver) -> None:
     session.appearance.theme = LIGHT
     session.appearance.toggle_lecture_size()
     session.select(1)
+    session.turn = 33.5
+    session.reveal.set_order("recursion")
+    session.reveal.go_to(3)
     driver.frames()
 
 

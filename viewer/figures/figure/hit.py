@@ -14,14 +14,16 @@ from tracer.kernel.nodes import SHADOW
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import STYLES, Theme, faded
-from viewer.base.wording import format_angle, format_number
+from viewer.base.wording import format_number
 from viewer.explain.formulas import Lecture
 from viewer.explain.lighting import local_light
-from viewer.explain.scattering import direction_error, scattering_sections
+from viewer.explain.scattering import scattering_sections
+from viewer.explain.turned import STEEPEST
 from viewer.figures import signs
+from viewer.figures.figure.hit_corners import HitCorners
 from viewer.figures.figure.hit_lights import HitLights
 from viewer.figures.font import fitted, text_width
-from viewer.figures.labels import end_label, factor_label, hit_label, ray_label, ray_title
+from viewer.figures.labels import hit_label, ray_title
 from viewer.figures.layout.formula_column import LINE, formula_columns
 from viewer.figures.layout.hit_frame import BESIDE, arc_radius, has_room, hit_frame, is_free
 from viewer.figures.layout.sizes import NO_RAY
@@ -30,6 +32,7 @@ from viewer.figures.marks import (
     HEIGHT,
     WIDTH,
     Formula,
+    Handle,
     Line,
     Mark,
     Point,
@@ -47,7 +50,6 @@ from viewer.figures.subject import FigureStyle, Pages, Subject
 LARGEST = 20.0  # points, of an exported figure
 TINTS = (0.06, 0.16)  # of the medium with the lower and with the higher index
 FULL, THINNEST = 150.0, 0.6  # length of rays with full line width, in points; least share of it, for shorter ones
-LOW = 17.0  # height of a picture, in text sizes, below which lines are saved
 ARROW = 0.66  # distance of an arrow from the hit, in lengths of rays
 NORMAL = 1.08  # length of the normal, the same
 SYMBOL = 1.15  # size of a symbol in the picture, in text sizes
@@ -61,7 +63,7 @@ def pages(subject: Subject, style: FigureStyle) -> Pages:
 
 
 def _marks(step: Step, style: FigureStyle, world: World | None) -> list[Mark]:
-    return hit_marks(step, style.node, style.text_size, style.theme, world, style.canvas)
+    return hit_marks(step, style.node, style.text_size, style.theme, world, style.canvas, style.is_turned)
 
 
 def hit_marks(
@@ -71,15 +73,20 @@ def hit_marks(
     theme: Theme,
     world: World | None = None,
     where: Rectangle = (0.0, 0.0, WIDTH, HEIGHT),
+    is_turned: bool = False,
 ) -> list[Mark]:
     """The marks of a hit, laid out for a rectangle and a text size. `node` is its row (`hit_row`). Without a `world`,
-    the local term has no numbers.
+    the local term has no numbers. A ray that `is_turned` by hand is none of the pixel's tree, and has no label.
+
+    The incoming ray ends in a handle: its parameter `turn` is the angle of incidence in degrees.
     """
-    return _Drawing(step, node, size, theme, world, where).marks
+    return _Drawing(step, node, size, theme, world, where, is_turned).marks
 
 
 class _Drawing:
-    def __init__(self, step: Step, node: int, size: float, theme: Theme, world: World | None, where: Rectangle) -> None:
+    def __init__(
+        self, step: Step, node: int, size: float, theme: Theme, world: World | None, where: Rectangle, is_turned: bool
+    ) -> None:
         self.tree: RayTree = step.tree
         self.step, self.node, self.size, self.theme, self.world = step, node, size, theme, world
         self.row = self.tree.nodes[node]
@@ -88,11 +95,9 @@ class _Drawing:
         self.theta1, self.theta2 = float(self.row["theta1"]), float(self.row["theta2"])
         self.least = min(self.theta1, math.inf if math.isnan(self.theta2) else self.theta2)  # of the two angles
         self.frame = hit_frame(where, size)
-        left, top, right, bottom = self.frame.picture
-        self.left, self.right = left + 0.5 * size, right - 0.5 * size  # of texts
-        self.first, self.low = top + 0.9 * size, bottom - 0.9 * size  # the first and the last line of text
-        self.marks: list[Mark] = []
-        self._corners()
+        self.corners = HitCorners(self.tree, node, self.going_on, self.frame, size, theme, is_turned)
+        self.left, self.right, self.low = self.corners.left, self.corners.right, self.corners.last
+        self.marks: list[Mark] = [*self.corners.marks]
         self._media()
         self.taken = [mark.box() for mark in self.marks if isinstance(mark, Text)]
         turns = [0.0, math.pi, -self.theta1, *map(self._turn, self.going_on)]
@@ -106,6 +111,14 @@ class _Drawing:
         lights = self.lights.draw(self.marks)
         self.marks = [*self._uncrossed(lights), *lights]
         self._formulas()
+        self._handle()
+
+    def _handle(self) -> None:
+        """The handle at the start of the incoming ray."""
+        degrees, color = math.degrees(self.theta1), self.theme.ray(self.tree.kind(self.node))
+        path = tuple(self.frame.at(-math.radians(angle), self.reach) for angle in range(int(STEEPEST) + 1))
+        title = "drag to turn the ray"
+        self.marks.append(Handle("turn", "turn", degrees, (0.0, STEEPEST), path, color, title=title))
 
     def _turn(self, child: int) -> float:
         """The direction of a ray that is sent out, clockwise from the normal."""
@@ -127,51 +140,11 @@ class _Drawing:
             corners = ((x0, first), (x1, first), (x1, last), (x0, last))
             grounds.append(Shape(name, corners, faded(self.theme.text, tint), None, title=title))
         self.marks[:0] = grounds
-        for name, y, words in (("medium-1", self.third, f"n₁ = {format_number(n1)}"), ("medium-2", self.low, under)):
+        for name, y, words in (
+            ("medium-1", self.corners.third, f"n₁ = {format_number(n1)}"),
+            ("medium-2", self.low, under),
+        ):
             self.marks.append(Text(name, (self.left, y), words, self.size, self.theme.text, "start"))
-
-    def _corners(self) -> None:
-        """The names of the rays with their angles, in the corners that they come from and go to."""
-        tree, node = self.tree, self.node
-        turn = direction_error(tree, node)
-        theta1, theta2 = format_angle(self.theta1, turn), format_angle(self.theta2, turn)
-        words = self._words(f"v: {ray_label(tree, node)}", f"θ₁ = {theta1}")
-        self.third = self._write(node, words, (self.left, self.first), "start")
-        end = end_label(tree, node)
-        if end and not self.going_on:
-            at = (self.right, self.first)
-            self.marks.append(Text(f"ray-{node}", at, end, self.size, self.theme.muted, "end"))
-        for child in self.going_on:
-            refracted = tree.kind(child) == "refraction"
-            label = self._corner_label(child, "t" if refracted else "r")
-            words = self._words(label, f"θ₂ = {theta2}" if refracted else f"θ₁ = {theta1}")
-            y = self.low - (len(words) - 1) * LINE * self.size if refracted else self.first
-            self._write(child, words, (self.right, y), "end")
-
-    def _corner_label(self, child: int, letter: str) -> str:
-        """The label of a ray, with its factor if there is room on its side of the normal."""
-        label = f"{letter}: {ray_label(self.tree, child)}"
-        full = f"{label} {factor_label(self.tree, child)}"
-        return full if self._fits_aside(full) else label
-
-    def _fits_aside(self, content: str) -> bool:
-        return text_width(content, self.size) <= self.right - self.frame.center[0] - self.size
-
-    def _words(self, label: str, angle: str) -> list[str]:
-        """The lines of a corner: in a low picture one, if there is room on this side of the normal."""
-        _, top, _, bottom = self.frame.picture
-        one = f"{label}   {angle}"
-        if not self._fits_aside(angle):
-            return [label]
-        return [one] if bottom - top < LOW * self.size and self._fits_aside(one) else [label, angle]
-
-    def _write(self, row: int, lines: Sequence[str], at: Point, anchor: str) -> float:
-        """Write lines in the colour of a ray. Returns the place of the next line."""
-        (x, y), color = at, self.theme.ray(self.tree.kind(row))
-        for words in lines:
-            self.marks.append(Text(f"ray-{row}", (x, y), words, self.size, color, anchor))
-            y += LINE * self.size
-        return y
 
     def _normal(self) -> None:
         (x, y), color, size = self.frame.center, self.theme.normal, SYMBOL * self.size
@@ -272,7 +245,7 @@ class _Drawing:
         if sheet:
             places = [(left, y)]
         elif self.tree.from_inside(self.node) and not math.isnan(self.row["n2"]):
-            places = [(left, y - 0.8 * size), (left, self.third + LINE * size)]
+            places = [(left, y - 0.8 * size), (left, self.corners.third + LINE * size)]
         lines = [(mark.start, mark.end) for mark in self.marks if isinstance(mark, Line)]
         text = Text("surface", places[0], "", size, self.theme.text, "start", on_line=sheet)
         for share, at in itertools.product((1.0, 0.8, 0.6, 0.4), places):

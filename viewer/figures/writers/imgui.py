@@ -12,12 +12,13 @@ from imgui_bundle import imgui
 from viewer.base.theme import Color
 from viewer.figures import signs
 from viewer.figures.font import ANCHORS, BASELINE
-from viewer.figures.marks import Box, Disc, Formula, Line, Mark, Piece, Point, Shape, Stroke, Text, point_along
+from viewer.figures.marks import Box, Disc, Formula, Handle, Line, Mark, Piece, Point, Shape, Stroke, Text, point_along
 from viewer.figures.writers.arrows import heads
 from viewer.figures.writers.imgui_formula import draw_formula
 
 EM = 2048 / 2400  # of the window's font, over its size for imgui, which is the distance from ascender to descender
 HALF = 0.5  # pixels by which imgui moves the outline of a rectangle inwards
+HANDLE = (7.0, 1.4)  # points: radius of a handle, and width of its dark rim
 CORNERS = 24  # of the arcs of the smallest discs
 
 
@@ -59,6 +60,8 @@ class _Writer:
                 self._disc(mark)
             case Shape():
                 self._shape(mark)
+            case Handle():
+                self._handle(mark)
             case Formula():
                 draw_formula(self.pad, mark, self.corner, self.scale)
             case _:
@@ -126,6 +129,12 @@ class _Writer:
         if disc.stroke:
             width = max(1.0, disc.stroke.width * self.scale)
             self.pad.add_circle(at, radius, _ink(disc.stroke.color), 0, width)
+
+    def _handle(self, handle: Handle) -> None:
+        at, (radius, rim) = self._at(handle.at), (length * self.scale for length in HANDLE)
+        self.pad.add_circle_filled(at, radius, _ink((0.0, 0.0, 0.0, 0.6)))
+        self.pad.add_circle_filled(at, radius - 0.6 * rim, _ink((1.0, 1.0, 1.0, 1.0)))
+        self.pad.add_circle_filled(at, radius - 1.8 * rim, _ink(handle.color))
 
     def _shape(self, shape: Shape) -> None:
         if shape.fill and shape.closed and shape.holes:

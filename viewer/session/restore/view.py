@@ -6,8 +6,9 @@ from typing import Protocol, TypeVar
 from tracer.kernel.world import World
 from viewer.base.orbit import Frame, Orbit, orbit_beside
 from viewer.base.theme import DARK, LIGHT
-from viewer.reopen.view_state import KINDS, SWITCHES, TYPE_SIZES, ViewState
+from viewer.reopen.view_state import GRANULARITIES, KINDS, ORDERS, SWITCHES, TYPE_SIZES, ViewState
 from viewer.session.layout import Layout
+from viewer.session.stepping.reveal import Reveal
 from viewer.session.view_state import Appearance, Notice, PanZoom, Request, Visibility
 
 T = TypeVar("T")
@@ -30,6 +31,8 @@ class Viewed(Protocol):
     depth: int
     model: str
     selection: str | None
+    turn: float | None
+    reveal: Reveal
 
     def show_faults(self, faults: list[str]) -> None: ...
     @property
@@ -49,6 +52,10 @@ def state_of(viewed: Viewed) -> ViewState:
         model=viewed.model,
         up=viewed.up,
         select=viewed.selection if viewed.selected is not None else None,
+        step=_unless_usual(viewed.reveal.granularity, GRANULARITIES[0]),
+        order=_unless_usual(viewed.reveal.order, ORDERS[0]),
+        page=viewed.reveal.position,
+        turn=viewed.turn,
         camera=viewed.orbit.view(viewed.frame),
         filter=shown.filter,
         hide=hidden or None,
@@ -62,11 +69,13 @@ def state_of(viewed: Viewed) -> ViewState:
 
 
 def complete(state: ViewState) -> ViewState:
-    """The state with the values of a new window for the kinds of rays and the parts shown, if it has none: a window
-    that takes it over may show others.
+    """The state with the values of a new window for the steps, the kinds of rays and the parts shown, if it has none:
+    a window that takes it over may show others.
     """
     return replace(
         state,
+        step=state.step or GRANULARITIES[0],
+        order=state.order or ORDERS[0],
         filter=KINDS if state.filter is None else state.filter,
         hide=() if state.hide is None else state.hide,
     )
@@ -87,6 +96,8 @@ def restore(viewed: Viewed, state: ViewState, note: str = "") -> None:
     for look, zoom in ((viewed.image_view, state.image_zoom), (viewed.tree_view, state.tree_zoom)):
         if zoom:
             look.zoom, look.center = zoom[0], (zoom[1], zoom[2])
+    viewed.turn = state.turn
+    viewed.reveal.ask(state.step, state.order, state.page)
     restore_camera(viewed, state)
     if state.panels:
         viewed.requests[:] = [request for request in viewed.requests if request is not Request.SHOW_LESSON]

@@ -13,8 +13,9 @@ from tracer.tree.raytree import RayTree
 from viewer.base.cached import Cached
 from viewer.figures.catalogue import BREADTH, RECURSION
 from viewer.figures.steps import Step, Steps, by_level, by_ray
+from viewer.reopen.view_state import GRANULARITIES
 
-LEVELS, RAYS = GRANULARITIES = ("levels", "rays")
+LEVELS, RAYS = GRANULARITIES
 ORDER_WORDS = {
     BREADTH: "breadth-first, as the kernel does it",
     RECURSION: "depth-first, as the recursive procedure does it",
@@ -42,6 +43,7 @@ class Reveal:
         """`tree` returns the tree on show, and `has_lights` whether its shadow rays are drawn."""
         self._tree, self._has_lights = tree, has_lights
         self.place: Place | None = None
+        self.asked: int | None = None  # the step to go to as soon as there is a tree
         self.granularity, self.order = LEVELS, BREADTH
         self.loops = False
         self.speed = SPEEDS[1]
@@ -114,6 +116,21 @@ class Reveal:
         if steps:
             step = steps[min(max(position, 0), len(steps) - 1)]
             self.place = Place(steps.tree.path(max(step.current)), step.sum is not None)
+
+    def ask(self, granularity: str | None, order: str | None, page: int | None) -> None:
+        """Show this step of the next tree, or, without one, the whole tree. None of the others: as it is."""
+        self.pause()
+        self.place, self.asked = None, page
+        if granularity:
+            self.set_granularity(granularity)
+        if order:
+            self.set_order(order)
+
+    def go_to_asked(self) -> None:
+        """Go to the step that was asked for, if there is a tree now."""
+        if self.asked is not None and self.steps:
+            self.go_to(self.asked)
+            self.asked = None
 
     def show(self, row: int, sums: bool) -> None:
         """Go to the step that adds a row of the tree on show, or with `sums` to the one that sums it up."""
