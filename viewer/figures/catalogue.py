@@ -36,7 +36,7 @@ FIGURES = (
         ("view", "swatches", "levels", "select", "fold", "eye"),
     ),
     FigureKind("tree", "Ray tree", "viewer.figures.figure.tree:pages", ("swatches", "levels", "select", "fold", "eye")),
-    FigureKind("scene", "Scene", "viewer.figures.figure.scene:pages", ("view",)),
+    FigureKind("scene", "Scene", "viewer.figures.figure.scene:pages", ("view", "select")),
     FigureKind("hit", "Selected hit", "viewer.figures.figure.hit:pages", ("node", "turn")),
 )
 FIGURE_NAMES = tuple(kind.name for kind in FIGURES)

@@ -16,7 +16,8 @@ from viewer.figures.layout.tree_plan import TreePlan
 from viewer.figures.marks import Mark
 from viewer.figures.ray_lines import NO_LINES, RayLines, drawn_rows, ray_lines, relatives
 from viewer.figures.steps import Step, of_kinds, whole
-from viewer.gl.interface import Name, hit_of, interface_lines, interface_names
+from viewer.figures.visible.interface import Name, hit_of, interface_names
+from viewer.gl.interface import interface_lines
 from viewer.gl.lines import NO_ROWS
 from viewer.gl.magnified import NEAR, Place, magnify
 from viewer.gl.picture_texture import PictureTexture

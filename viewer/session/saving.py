@@ -57,10 +57,11 @@ def export_figure(session: Session, copied: bool = False) -> None:
 def _as_on_show(session: Session, figure: str) -> dict[str, Any]:
     """The options with which a figure is the one in its panel."""
     paper = session.layout.papers.get(figure)
-    trees = figure in ("tree", "both")
     found: dict[str, Any] = {"paper": paper, "text_size": PANEL_TEXT} if paper else {}
-    if trees:
-        found |= {"swatches": True, "select": session.selection if session.selected is not None else None}
+    if figure != "hit":
+        found["select"] = session.selection if session.selected is not None else None
+    if figure in ("tree", "both"):
+        found["swatches"] = True
     if figure == "tree":
         found["levels"] = True
     return found

@@ -18,11 +18,13 @@ from tracer.scene import Camera, Checker, Light, Material, Object
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
 from viewer.base.orbit import Frame, Orbit, initial_orbit
+from viewer.base.theme import Arrow
 from viewer.cli import main
 from viewer.figures.marks import HEIGHT, WIDTH, Figure, Line, Shape, Text, clip_shares
 from viewer.figures.pages import pages
 from viewer.figures.steps import by_depth, by_ray
 from viewer.figures.subject import FigureStyle, Subject
+from viewer.figures.visible.interface import RADIUS, RADIUS_2, SMALLEST
 from viewer.figures.visible.outlines import FINE, is_too_fine, label_spots
 from viewer.figures.visible.rings import sharpen_corners, simplify, straighten
 from viewer.figures.visible.scenery import orbit_camera, visible_parts
@@ -337,3 +339,48 @@ def test_a_sign_near_the_border_is_moved_inwards(tmp_path: Path) -> None:
     """In this figure, the eye of the scene is nearer to the border than half a sign. The tree has the other eye."""
     assert main.main(["export", "mirror-balls", "--figure", "both", "-o", str(tmp_path / "a.svg")]) == 0
     assert (tmp_path / "a.svg").read_text("utf-8").count("<title>the eye</title>") == 2
+
+
+@pytest.mark.parametrize(("name", "path"), [("glass-ball", "T"), ("glass-ball", "E"), ("underwater", "E")])
+def test_the_selected_hit_has_its_normal_and_angles(worlds: dict[str, tracer.World], name: str, path: str) -> None:
+    """The normal starts at the hit and points along it, and both arcs run from the normal to their rays."""
+    what = subject(worlds[name], name, range(3, 4))
+    assert what.world and what.orbit
+    (figure,) = pages("scene", what, FigureStyle(text_size=9.0))
+    tree = what.steps[-1].tree
+    row = tree.find(path)
+    assert row is not None and not any(mark.name.startswith("interface") for mark in figure.marks)
+    (figure,) = pages("scene", what, FigureStyle(text_size=9.0, selected=row))
+    view, node = seen_by(orbit_camera(what.orbit, Frame.of(what.world))), tree.nodes[row]
+    lines = [mark for mark in figure.marks if isinstance(mark, Line) and mark.name == "interface"]
+    (normal,) = (line for line in lines if line.arrow is Arrow.FILLED)
+    assert math.dist(normal.start, landing(view, node["point"])) < 1e-6
+    ends = [end for line in lines for end in (line.start, line.end)]
+    radii = {node["theta1"]: RADIUS, node["theta2"]: RADIUS_2}
+    arcs = [(angle, share) for angle, share in radii.items() if np.isfinite(angle) and angle > SMALLEST]
+    assert arcs
+    length = _length_of(view, node, normal.end)
+    for angle, share in arcs:
+        outgoing = share == RADIUS_2
+        middle = node["normal"] * (-1.0 if outgoing else 1.0)
+        along = node["direction"] + np.cos(node["theta1"]) * node["normal"]
+        along = along / np.linalg.norm(along) * (1.0 if outgoing else -1.0)
+        ray = np.cos(angle) * middle + np.sin(angle) * along
+        for towards in (middle, ray):
+            place = landing(view, node["point"] + share * length * towards)
+            assert min(math.dist(place, end) for end in ends) < 1e-4 * WIDTH
+    dimmed = {mark.name: mark.stroke.color[3] for mark in figure.marks if isinstance(mark, Line)}
+    assert dimmed[f"ray-{row}"] == 1.0
+    texts = [mark.content for mark in figure.marks if isinstance(mark, Text) and mark.name.startswith("interface")]
+    assert "n" in texts
+
+
+def _length_of(view: View, node: np.void, tip: tuple[float, float]) -> float:
+    """The length in the scene of a normal that ends here in the picture."""
+    low, high = 0.0, 1e3 * float(node["t"])
+    away = math.dist(tip, landing(view, node["point"]))
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        there = landing(view, node["point"] + middle * node["normal"])
+        low, high = (middle, high) if math.dist(there, landing(view, node["point"])) < away else (low, middle)
+    return low

@@ -11,7 +11,8 @@ from tests.viewer.driver import Driver, viewer
 from viewer.base.orbit import Frame, Orbit, project
 from viewer.base.theme import DARK
 from viewer.figures.marks import Disc, Shape, Text, overlap
-from viewer.gl.interface import CONE, RADIUS, RADIUS_2, Hit, cone_rim, hit_of, interface_lines, interface_names
+from viewer.figures.visible.interface import CONE, RADIUS, RADIUS_2, Hit, cone_rim, hit_of, interface_names
+from viewer.gl.interface import interface_lines
 from viewer.gl.scene_marks import SceneMarks, longest_runs
 from viewer.lessons import lesson
 

@@ -9,14 +9,13 @@ import sys
 from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from tracer.formulas.vector import Vector
 from tracer.kernel.nodes import KINDS, SHADOW
 from tracer.tree.raytree import RayTree
 from tracer.tree.text import heaviest_rows
-from viewer.base.theme import HALO, STYLES, Arrow, Color, Theme, faded
+from viewer.base.theme import DIMMED, HALO, STYLES, Arrow, Color, Theme, faded
 from viewer.figures import signs
+from viewer.figures.figure.scene_hit import SceneHit
 from viewer.figures.font import text_width
 from viewer.figures.labels import ray_label, ray_title
 from viewer.figures.layout.label_placement import LabelPlacer, Spot
@@ -33,7 +32,7 @@ from viewer.figures.marks import (
     point_along,
     widened,
 )
-from viewer.figures.ray_lines import MOST_IN_FIGURE, RayLine, ray_lines
+from viewer.figures.ray_lines import MOST_IN_FIGURE, RayLine, ray_lines, relatives
 from viewer.figures.steps import Step
 from viewer.figures.subject import FigureStyle, Pages, Subject, line_share
 from viewer.figures.visible.looks import between, surface_look
@@ -60,12 +59,16 @@ Named = tuple[frozenset[int], list[Mark]]  # the rays with which a label is draw
 
 def pages(subject: Subject, style: FigureStyle, where: Rectangle | None = None) -> Pages:
     """The scene with the rays of each step."""
-    return view_pages(subject.view(where or style.canvas), subject.steps, style.text_size, style.theme)
+    view = subject.view(where or style.canvas)
+    return view_pages(view, subject.steps, style.text_size, style.theme, style.selected)
 
 
-def view_pages(view: SceneView, steps: Sequence[Step], size: float, theme: Theme) -> Pages:
-    """One page for each step. Names are placed for the last, the fullest step, and keep their places."""
-    drawings = [_Drawing(view, step, size, theme) for step in steps]
+def view_pages(view: SceneView, steps: Sequence[Step], size: float, theme: Theme, selected: int | None = None) -> Pages:
+    """One page for each step. Names are placed for the last, the fullest step, and keep their places.
+
+    Around the hit of the selected ray are its normal and angles. What is neither above nor below that ray is dimmed.
+    """
+    drawings = [_Drawing(view, step, size, theme, selected) for step in steps]
     names = drawings[-1].named()
     return [
         drawing.marks + [mark for rows, marks in names if not rows or rows & drawing.step.rows for mark in marks]
@@ -74,7 +77,7 @@ def view_pages(view: SceneView, steps: Sequence[Step], size: float, theme: Theme
 
 
 class _Drawing:
-    def __init__(self, view: SceneView, step: Step, size: float, theme: Theme) -> None:
+    def __init__(self, view: SceneView, step: Step, size: float, theme: Theme, selected: int | None) -> None:
         self.view, self.step, self.size, self.theme = view, step, size, theme
         self.tree: RayTree = step.tree
         self.scene = view.world.scene
@@ -91,11 +94,15 @@ class _Drawing:
             left_out = left_out - step.current
         self.has_many = bool(left_out)
         rows = sorted(step.rows & heaviest_rows(self.tree, MOST_IN_FIGURE, set(range(len(self.tree))) - left_out))
+        self.selected = selected if selected in step.rows else None
+        self.kept = None if self.selected is None else relatives(self.tree, self.selected, rows)
         self.lines = ray_lines(self.tree, rows, view.frame, frozenset(KINDS))
         for line in sorted(self.lines, key=lambda line: -line.row):  # the first rays lie over the later ones
             self._ray(line)
         self.lights = self._lights()
         self._eye()
+        self.hit = None if self.selected is None else SceneHit.of(view, self.tree, self.selected, size, theme)
+        self.marks += self.hit.marks(view, theme, self.share) if self.hit else []
 
     # --- things -------------------------------------------------------------------------------------------------------
 
@@ -133,12 +140,13 @@ class _Drawing:
     # --- rays ---------------------------------------------------------------------------------------------------------
 
     def _ray(self, line: RayLine) -> None:
-        style, color = STYLES[line.kind], self.theme.ray(line.kind)
+        style, color = STYLES[line.kind], self._ink(line)
         name, title = f"ray-{line.row}", ray_title(self.tree, line.row)
         slim = SLIM if line.kind == "shadow" else 1.0
         halo = 2.0 * HALO if line.kind != "shadow" else 0.0
-        stroke = Stroke(color, (STRONG if line.row in self.step.current else 1.0) * slim * style.width, line.dash)
-        faint = Stroke(faded(color, FAINT), style.width, line.dash)
+        is_strong = line.row in self.step.current or line.row == self.selected
+        stroke = Stroke(color, (STRONG if is_strong else 1.0) * slim * style.width, line.dash)
+        faint = Stroke((*color[:3], FAINT * color[3]), style.width, line.dash)
         strong = self.share * STRONG * style.width
         arrow = self.view.arrow_at(line, 0.0 if style.arrow is Arrow.NONE else HEAD_ROOM * strong)
         widest = strong + self.share * halo  # on any page: a ray keeps its ends
@@ -163,6 +171,11 @@ class _Drawing:
             self.names.take(met[1], 0.5 * self.size)
         if met and line.blocked and inside(met[1], widened(self.view.where, -0.5 * self.size)):
             self.marks += signs.cross(name, met[1], self.size, color)
+
+    def _ink(self, line: RayLine) -> Color:
+        """The colour of a ray, dimmed if it does not belong to the selected one."""
+        color = self.theme.ray(line.kind)
+        return color if self.kept is None or line.row in self.kept else faded(color, DIMMED)
 
     # --- signs and labels ---------------------------------------------------------------------------------------------
 
@@ -202,6 +215,8 @@ class _Drawing:
         for j, at in self.lights.items() if not found else ():
             name = self.scene.light_name(j)
             found.append((frozenset(), self.names.label(f"light-{j}", name, [Spot(at)], self.theme.text)))
+        if self.hit and self.selected is not None:
+            found.append((frozenset((self.selected,)), self.hit.labels(self.view, self.names, self.theme)))
         nodes = self.tree.nodes
         rays = [line for line in self.lines if nodes["kind"][line.row] != SHADOW]
         shadows = [line for line in self.lines if nodes["kind"][line.row] == SHADOW]
@@ -209,7 +224,7 @@ class _Drawing:
         for k, line in enumerate(rays[:LABELS]):
             piece = self.view.piece(line, 0.0, 1.0)
             if piece:
-                label, color = ray_label(self.tree, line.row), self.theme.ray(line.kind)
+                label, color = ray_label(self.tree, line.row), self._ink(line)
                 spots = self._along(f"ray-{line.row}", label, piece)
                 most = sys.maxsize if k < FIRST else 0
                 words = self.names.label(f"ray-{line.row}", label, spots, color, most)
@@ -281,8 +296,3 @@ def _last(piece: Piece, length: float) -> Piece:
     (x0, y0), (x1, y1) = piece
     share = min(1.0, length / max(1e-9, math.dist(*piece)))
     return (x1 - share * (x1 - x0), y1 - share * (y1 - y0)), (x1, y1)
-
-
-def _pair(places: np.ndarray) -> Piece:
-    (x0, y0), (x1, y1) = places.tolist()
-    return (x0, y0), (x1, y1)

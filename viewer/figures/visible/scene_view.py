@@ -34,7 +34,7 @@ class SceneView:
     """A scene as seen by one camera in one rectangle."""
 
     def __init__(self, world: World, orbit: Orbit, where: Rectangle) -> None:
-        self.world, self.where = world, where
+        self.world, self.where, self.orbit = world, where, orbit
         self.frame = Frame.of(world)
         self.camera = orbit_camera(orbit, self.frame)
         self.size = (where[2] - where[0], where[3] - where[1])
@@ -47,6 +47,10 @@ class SceneView:
         """(places on the canvas, depths) of points of the frame (n, 3)."""
         places, depths = project(points, self.matrix, self.size)
         return places + self.where[:2], depths
+
+    def point_size(self, point: np.ndarray) -> float:
+        """The size in the frame of a point (1/72 inch) on the canvas, at the distance of a point of the frame."""
+        return self.orbit.pixel_at(point, self.size[1])
 
     def piece(self, line: RayLine, begin: float, end: float, width: float = 0.0) -> Piece | None:
         """The part of a ray, from share to share of its length, that is in front of the camera and inside the figure
