@@ -69,7 +69,7 @@ def trace_passes(
                     done += 1
                     finished(traced, done / total)
         finally:
-            if running:
+            if done < due:  # also for a call that is not in `running` yet
                 ended.set()
             for future in running:
                 future.cancel()

@@ -12,6 +12,7 @@ from viewer.base.cached import Changed
 from viewer.base.theme import STYLES
 from viewer.gl.canvas import Canvas
 from viewer.panels import PANELS
+from viewer.session.layout import Corner
 from viewer.session.saving import copy_view
 from viewer.session.session import Session
 from viewer.session.view_state import Request
@@ -196,7 +197,8 @@ class App:
         self.tiles.draw((left, top, width, height))
         session.scroll = 0
         self._part("the bar", lambda: bar.draw(session, left, top + height, width))
-        self._part("the notice", lambda: notice.draw(session, left, top + height, width))
+        over = self.tiles.places.get(Corner.TOP_LEFT, (left, top, width, height))
+        self._part("the notice", lambda: notice.draw(session, over[0], over[1] + over[3], over[2]))
         self._part("the pointer", lambda: pointer.draw(session))
         if session.is_blank:
             self._part("the black screen", blank.draw)

@@ -1,12 +1,14 @@
 """Ctrl-C and SIGTERM during a command: it ends with the signal's status and leaves no file behind."""
 
 import signal
+import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
 from tests.viewer.pseudo_terminal import on_a_terminal
+from tracer.processes import python_command
 from viewer.lessons import lesson
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="a terminal for programs is Unix's")
@@ -78,3 +80,22 @@ def test_what_is_ignored_from_outside_stays_ignored(tmp_path: Path) -> None:
     finally:
         signal.signal(INT, before)
     assert (tmp_path / "new.npy").stat().st_size > 3200 * 2400 * 24
+
+
+def test_a_signal_during_a_callback_of_the_window_is_not_lost() -> None:
+    """glfw calls Python from C, where an exception is lost. Before glfw is initialised, every call is an error, which
+    is called back.
+    """
+    code = """
+import signal, threading, glfw
+from viewer.base.interruption import Interrupted, interruptible
+glfw.set_error_callback(lambda code, text: signal.raise_signal(signal.SIGTERM))
+try:
+    with interruptible():
+        glfw.get_time()
+        threading.Event().wait()
+except Interrupted as end:
+    print(end.status)
+"""
+    run = subprocess.run(python_command(code), capture_output=True, text=True, check=True, timeout=60.0)
+    assert (run.stdout, run.stderr) == (f"{128 + TERM}\n", "")

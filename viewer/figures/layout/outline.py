@@ -17,6 +17,7 @@ GAP = 0.5  # between a ray's label and the box of its hit
 EYE = 1.0  # from the left to the middle of the eye
 TRUNK = 0.6  # from the left end of a label to the edges that begin below it
 DROP = 0.7  # from the middle of a label down to the beginning of these edges
+ASIDE = 0.3  # of the edges below the eye, from its middle to the left: the labels of their rays are near
 APART = 0.2  # of two edges that begin together, from their middle
 
 
@@ -61,6 +62,6 @@ def edge_of(parent: Point, child: Point, size: float, label: float, side: int, e
     `label` is the distance from a box's middle to the left end of the label before it, `side` -1 for a reflected and 1
     for a refracted ray. The edges of the first hit begin below the `eye`.
     """
-    trunk = eye[0] if eye else parent[0] - label + TRUNK * size
+    trunk = eye[0] - ASIDE * size if eye else parent[0] - label + TRUNK * size
     x = trunk + side * APART * size
     return [(x, parent[1] + DROP * size), (x, child[1]), (child[0] - label - 0.2 * size, child[1])]

@@ -71,7 +71,7 @@ class _Writer:
         return (self.corner[0] + self.scale * point[0], self.corner[1] + self.scale * point[1])
 
     def _text(self, text: Text) -> None:
-        size = text.size * self.scale / EM
+        size = float(round(text.size * self.scale / EM))  # at a fraction of a pixel letters would be drawn resampled
         x, y = self._at(text.at)
         share, font = ANCHORS[text.anchor], imgui.get_font()
         width = _text_width(text.content, size) if share else 0.0

@@ -1,4 +1,4 @@
-"""The line about the last action, on a plate above the bar."""
+"""The line about the last action, on a plate over the scene, where it hides no text."""
 
 from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
@@ -12,7 +12,7 @@ MARGIN = 10.0  # logical pixels
 
 
 def draw(session: Session, left: float, bottom: float, width: float) -> None:
-    """Draw the line in the middle of this width, with its lower border at `bottom`."""
+    """Draw the line in the middle of this width, with its lower border above `bottom`."""
     if not session.notice.text:
         return
     unit, theme = d.unit(), session.appearance.theme
