@@ -110,7 +110,7 @@ class Driver:
         """The screen position of a point of a ray in the 3D view, `share` of its way along."""
         line = next(line for line in self.canvas.lines if line.row == row)
         left, top, width, height = self.canvas.stage_place
-        matrix = self.session.orbit.matrix(width / height)
+        matrix = self.session.orbit.framed(width / height).matrix(width / height)
         point = line.start + share * (line.end - line.start)
         places, _ = project(point[None], matrix, (width, height))
         return left + places[0, 0], top + places[0, 1]
@@ -119,7 +119,7 @@ class Driver:
         """A screen position on a ray in the 3D view that no other ray is near, or None."""
         left, top, width, height = self.canvas.stage_place
         shares = np.linspace(0.0, 1.0, 200)
-        matrix = self.session.orbit.matrix(width / height)
+        matrix = self.session.orbit.framed(width / height).matrix(width / height)
         crowd, own = [], np.zeros((0, 2))
         for line in self.canvas.lines:
             points = line.start + shares[:, None] * (line.end - line.start)

@@ -6,7 +6,7 @@ radius. So the same numbers suit a scene of light years and one of nanometres, a
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
@@ -18,6 +18,7 @@ from tracer.scene.scene import middle_and_radius
 
 ENDLESS = 3.0  # a surface with a radius above this many distances from camera to `look_at` is ignored in the frame
 FOV = math.radians(35)
+WIDE = 16 / 9  # width over height of the pictures that distances are chosen for
 CLOSEST, FARTHEST = 0.02, 60.0  # distance to the target
 REMOTE = 1e9  # largest distance of a target from the scene, in its radii
 STEEPEST = math.radians(89)
@@ -136,6 +137,12 @@ class Orbit:
 
     def zoom(self, steps: float) -> None:
         self.distance = min(FARTHEST, max(CLOSEST, self.distance * 0.88**steps))
+
+    def framed(self, aspect: float) -> "Orbit":
+        """The same view for a picture of this width over height: one that is narrower than 16:9 is seen from farther
+        away, since it shows less on both sides.
+        """
+        return replace(self, distance=self.distance * max(1.0, math.sqrt(WIDE / aspect)))
 
     def pixel_at(self, point: np.ndarray, height: float) -> float:
         """The size in the frame of a pixel of a picture of this height, at the distance of a point of the frame."""

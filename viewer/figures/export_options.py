@@ -75,9 +75,7 @@ class ExportOptions:
     paper: tuple[int, int] = option(PAPER, "width and height of the page in points, a slide by default", SLIDE)
     swatches: bool = switch("show the radiance of each ray in its box")
     levels: bool = switch("tree: lines with the depths")
-    select: str | None = option(
-        RAY_PATH, "emphasise this ray; what is neither above nor below it is dimmed"
-    )
+    select: str | None = option(RAY_PATH, "emphasise this ray; what is neither above nor below it is dimmed")
     fold: float = option(SHARE, "fold branches of a smaller weight into one box", 0.0)
     text_size: float = option(POINTS, f"points on a slide; {TEXT_SIZE:g} by default", TEXT_SIZE)
     eye: str | None = option(one_of(EYES), f"tree: the side of the eye; {EYES[0]} by default")

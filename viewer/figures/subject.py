@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tracer.kernel.world import World
@@ -63,6 +62,4 @@ class Subject:
 
         if self.world is None or self.orbit is None:
             raise ValueError("a figure of the scene needs a world and an orbit")
-        aspect = (where[2] - where[0]) / (where[3] - where[1])
-        farther = max(1.0, math.sqrt(WIDTH / HEIGHT / aspect))  # a narrow picture shows less
-        return SceneView(self.world, replace(self.orbit, distance=farther * self.orbit.distance), where)
+        return SceneView(self.world, self.orbit.framed((where[2] - where[0]) / (where[3] - where[1])), where)

@@ -10,6 +10,7 @@ from imgui_bundle import imgui
 from tracer.tree.raytree import RayTree
 from viewer.base.cached import Cached, Changed
 from viewer.base.colormap import colorize
+from viewer.base.orbit import Orbit
 from viewer.explain.interfaces import Interface
 from viewer.explain.sections import Part
 from viewer.figures.layout.tree_plan import TreePlan
@@ -148,9 +149,10 @@ class Canvas:
             if self._lines_changed(lines):
                 self._set_lines()
             self.stage.set_glow(glow_lines(self.lines, session.hovered, theme))
-            self._set_interface(size[1] / scale)
+            orbit = session.orbit.framed(size[0] / size[1])
+            self._set_interface(orbit, size[1] / scale)
             plane = ImagePlane(self._plane, image, state) if image is not None and self._plane is not None else None
-            self.stage.draw(session.orbit, theme, size, scale, plane)
+            self.stage.draw(orbit, theme, size, scale, plane)
             self._throttle.drawn = True
         return self.stage.target.texture
 
@@ -202,14 +204,14 @@ class Canvas:
                 marks.append(normal_lines(tree, rows, session.frame, kept, theme))
         self.stage.set_lines(StageLines(np.concatenate(marks), *rays))
 
-    def _set_interface(self, height: float) -> None:
+    def _set_interface(self, orbit: Orbit, height: float) -> None:
         """Normal, angles, media and cone at the end of the selected ray. `height` of the picture in logical pixels."""
         session, self.names = self.session, []
         rows = NO_ROWS
         selected = session.selected_on_show
         if session.tree and selected is not None:
             hit = hit_of(session.tree, selected, session.frame)
-            pixel = session.orbit.pixel_at(hit.foot, height) if hit else 0.0
+            pixel = orbit.pixel_at(hit.foot, height) if hit else 0.0
             length = hit.length(pixel) if hit else 0.0
             if hit and length > 0.0:
                 rows = interface_lines(hit, length, session.appearance.theme)

@@ -24,6 +24,7 @@ from viewer.session.session import Session
 
 TEXT = 12.5  # size of labels
 SUN, EYE, CROSS = 22.0, 17.0, 15.0  # sizes of signs
+NAMED, SMALL_SUN = 8, 13.0  # of more lights, the signs are small, and only that of the selected shadow ray is named
 DOT = 4.5  # radius of the selected hit's disc
 BORDER = 22.0  # from the border of the view to an arrow that points to what is outside
 ARROW = 17.0  # its length
@@ -48,7 +49,8 @@ class SceneMarks:
         self.session, self.canvas, self.size, self.depths = session, canvas, size, depths
         self.theme = session.appearance.theme
         self.where: Rectangle = (0.0, 0.0, *size)
-        self.matrix = session.orbit.matrix(size[0] / size[1])
+        self.orbit = session.orbit.framed(size[0] / size[1])
+        self.matrix = self.orbit.matrix(size[0] / size[1])
         self.signs: list[Mark] = []
         self.texts: list[Mark] = []
         self.taken: list[Rectangle] = list(covers)
@@ -129,22 +131,33 @@ class SceneMarks:
         session, theme = self.session, self.theme
         assert session.world
         scene = session.world.scene
+        few = len(scene.lights) <= NAMED
+        size, meant = SUN if few else SMALL_SUN, self._meant_light()
         for j, light in enumerate(scene.lights):
             if light.direction:
-                point = session.orbit.eye - FAR * np.array(unit(rescale(light.direction)))
+                point = self.orbit.eye - FAR * np.array(unit(rescale(light.direction)))
             else:
                 assert light.position
                 point = session.frame.inside(light.position)
             places, inside = self.at(point[None])
             name = scene.light_name(j)
             if not inside[0]:
-                self._way_out(f"light-{j}", point, name, theme.sun)
+                if few or j == meant:
+                    self._way_out(f"light-{j}", point, name, theme.sun)
                 continue
             x, y = places[0].tolist()
-            self.signs.append(Disc(f"light-{j}", (x, y), 0.5 * SUN, faded(theme.ground, 0.5), None))
-            self.signs += signs.sun(f"light-{j}", (x, y), SUN, theme.sun, title=name)
-            self._take((x, y), 0.8 * SUN)
-            self.names.append((name, theme.text, _beside((x, y), 0.5 * SUN)))
+            self.signs.append(Disc(f"light-{j}", (x, y), 0.5 * size, faded(theme.ground, 0.5), None))
+            self.signs += signs.sun(f"light-{j}", (x, y), size, theme.sun, title=name)
+            self._take((x, y), 0.8 * size)
+            if few or j == meant:
+                self.names.append((name, theme.text, _beside((x, y), 0.5 * size)))
+
+    def _meant_light(self) -> int | None:
+        """The light that the selected ray goes to; None if it is no shadow ray."""
+        tree, selected = self.session.tree, self.session.selected_on_show
+        if not tree or selected is None or tree.nodes["kind"][selected] != SHADOW:
+            return None
+        return int(tree.nodes["light"][selected])
 
     def _eye(self) -> None:
         assert self.session.world
@@ -160,7 +173,7 @@ class SceneMarks:
 
     def _way_out(self, name: str, point: np.ndarray, content: str, color: Color) -> None:
         """An arrow at the border that points to what is outside the view, with its name."""
-        towards = self.session.orbit.direction_to(point)
+        towards = self.orbit.direction_to(point)
         if towards is None or min(self.size) < 4.0 * BORDER:
             return
         dx, dy = towards

@@ -76,7 +76,8 @@ def _handle_mouse(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: 
         moved = io.mouse_delta
         sideways = io.key_shift or imgui.is_mouse_down(button.right) or imgui.is_mouse_down(button.middle)
         if sideways:
-            orbit.slide(moved.x / room.y, moved.y / room.y)
+            share = orbit.framed(room.x / room.y).distance / orbit.distance / room.y
+            orbit.slide(share * moved.x, share * moved.y)
         elif imgui.is_mouse_dragging(button.left):
             orbit.turn(math.pi * moved.x / room.y, math.pi * moved.y / room.y)
     if imgui.is_item_hovered() and io.mouse_wheel != 0.0:
@@ -90,7 +91,7 @@ def _handle_mouse(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: 
 def _row_at(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImVec2) -> int | None:
     lines = canvas.lines
     ends = np.stack([lines.starts, lines.ends], axis=1)
-    matrix = session.orbit.matrix(room.x / room.y)
+    matrix = session.orbit.framed(room.x / room.y).matrix(room.x / room.y)
     places, depths = project(ends.reshape(-1, 3), matrix, (room.x, room.y))
     mouse = imgui.get_mouse_pos()
     at = (mouse.x - corner.x, mouse.y - corner.y)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import example, given, settings, strategies as st
 
 import tracer
 from tests.conftest import LESSONS
@@ -103,6 +103,7 @@ def test_random_trees(seed: int, most: int, lights: int, depth: int, swatches: b
     st.integers(0, 2**32), st.integers(1, 100), st.sampled_from((0, 1, 2, 4, 9)), st.integers(0, 7),
     st.sampled_from(((766, 258), (350, 370), (640, 320), (500, 900), (1280, 640), (300, 260))), st.booleans(),
 )  # fmt: skip
+@example(108741, 9, 4, 3, (766, 258), False)  # an edge passed through the corner of a fold
 def test_random_trees_in_any_panel(
     seed: int, most: int, lights: int, depth: int, page: tuple[int, int], levels: bool
 ) -> None:

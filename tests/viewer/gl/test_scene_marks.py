@@ -1,19 +1,20 @@
 """Signs and names over the 3D view, and what is shown at the selected hit."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import tracer
 from tests.conftest import LESSONS
-from tests.viewer.driver import Driver, viewer
+from tests.viewer.driver import Driver, viewer, viewer_of
 from viewer.base.orbit import Frame, Orbit, project
 from viewer.base.theme import DARK
 from viewer.figures.marks import Disc, Shape, Text, overlap
 from viewer.figures.visible.interface import CONE, RADIUS, RADIUS_2, Hit, cone_rim, hit_of, interface_names
 from viewer.gl.interface import interface_lines
-from viewer.gl.scene_marks import SceneMarks, longest_runs
+from viewer.gl.scene_marks import NAMED, SceneMarks, longest_runs
 from viewer.lessons import lesson
 
 VIEWS = ((0.3, 0.2, 2.0), (2.6, 0.9, 4.0), (-1.9, -0.3, 1.2), (4.0, 0.1, 0.4))  # azimuth, elevation, distance
@@ -110,7 +111,7 @@ def test_an_arrow_points_to_each_light_outside_the_view() -> None:
                 turn(session.orbit, view)
                 driver.frames(1)
                 made = marks_of(driver)
-                eye, forward = session.orbit.eye, look(session.orbit)
+                eye, forward = made.orbit.eye, look(session.orbit)
                 right, up = session.orbit.axes
                 for j, light in enumerate(session.world.scene.lights):
                     assert light.position
@@ -234,3 +235,25 @@ def test_longest_runs() -> None:
             assert begin <= end
             assert (end - begin + 1 if any(row) else 0) == max(runs, default=0)
             assert not any(row) or all(row[begin : end + 1])
+
+
+@pytest.mark.parametrize("count", [NAMED, NAMED + 1])
+def test_of_many_lights_only_that_of_the_selected_ray_is_named(tmp_path: Path, count: int) -> None:
+    lights = "".join(f'[[light]]\nname = "spot {k}"\nposition = [{k - 4}, 4, 1]\n' for k in range(count))
+    ball = '[[object]]\nshape = "sphere"\ncenter = [0, 0, 0]\nradius = 1\n'
+    scene = f"format = 1\n[camera]\nposition = [0, 1, 8]\nlook_at = [0, 0, 0]\n{lights}{ball}"
+
+    def names(driver: Driver) -> set[str]:
+        texts = [mark.content for mark in marks_of(driver).texts if isinstance(mark, Text)]
+        return {content for content in texts if content.startswith("spot")}
+
+    with viewer_of(tmp_path / "own.toml", scene) as driver:
+        driver.session.pick(*(side // 2 for side in driver.session.size))
+        driver.session.orbit.distance = 6.0
+        driver.frames(3)
+        assert bool(names(driver)) == (count <= NAMED)
+        tree = driver.session.tree
+        assert tree
+        driver.session.select(next(i for i in range(len(tree)) if tree.light_name(i) == "spot 4"))
+        driver.frames(3)
+        assert "spot 4" in names(driver) and (len(names(driver)) == 1) == (count > NAMED)

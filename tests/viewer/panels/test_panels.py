@@ -129,6 +129,6 @@ def test_scene_of_ones_own_is_seen_with_its_camera(room: Driver, tmp_path: Path)
     assert session.world
     points = np.stack([session.frame.inside(session.world.view().eye), np.zeros(3)])
     _, _, width, height = room.canvas.stage_place
-    places, depths = project(points, session.orbit.matrix(width / height), (1.0, 1.0))
+    places, depths = project(points, session.orbit.framed(width / height).matrix(width / height), (1.0, 1.0))
     assert (depths > 0).all()
     assert ((places > 0.0) & (places < 1.0)).all()

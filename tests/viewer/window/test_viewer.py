@@ -135,7 +135,7 @@ def test_what_is_under_the_hand_stays_under_it(glass: Driver) -> None:
     before = Orbit(orbit.azimuth, orbit.elevation, orbit.distance, np.zeros(3), orbit.north, orbit.up)
     glass.type("f")
     start = glass.session.orbit.target
-    places, _ = project(start[None], orbit.matrix(width / height), (width, height))
+    places, _ = project(start[None], orbit.framed(width / height).matrix(width / height), (width, height))
     moved = places[0] - np.array([width / 2, height / 2])
     # imgui reports its first delta after two frames: the view moves by the drag that was reported.
     assert moved == pytest.approx([50, -30], abs=1.0)

@@ -7,6 +7,7 @@ from tracer.tree.raytree import RayTree
 from viewer.base.srgb import LUMINANCE, display_color
 from viewer.base.theme import Color, Theme
 from viewer.figures import signs
+from viewer.figures.font import text_width
 from viewer.figures.labels import end_label, hit_label, ray_label, ray_title
 from viewer.figures.layout.folds import Fold
 from viewer.figures.layout.light_line import SIGN, box_signs, signs_width
@@ -26,7 +27,9 @@ def hit_box(plan: TreePlan, step: Step, i: int, style: FigureStyle) -> list[Mark
     name, (x, y), (wide, _) = f"hit-{i}", plan.at[i], plan.box
     words = hit_label(tree, i)
     fill = plan.style.swatches and i in step.summed
-    left = x - 0.5 * wide + PADDING * size
+    left, taken = x - 0.5 * wide + PADDING * size, SWATCH * size * plan.style.swatches
+    if not plan.style.compact:  # name and colour stand in the middle
+        left = x - 0.5 * (taken + text_width(plan.name(i), size))
     marks: list[Mark] = [
         Box(name, (x, y), plan.box, ROUND * size, theme.panel, _outline(tree, i, step, style),
             title=f"{words}, met by {ray_label(tree, i)}"),
@@ -34,7 +37,6 @@ def hit_box(plan: TreePlan, step: Step, i: int, style: FigureStyle) -> list[Mark
     if fill:
         at = (left + 0.5 * SWATCH * size, y)
         marks.append(Disc(name, at, 0.5 * size, swatch(tree, i, theme), Stroke(theme.text, 1.0)))
-    taken = SWATCH * size * plan.style.swatches
     if plan.style.compact:
         marks.append(Text(name, (left + taken, y), plan.name(i), size, theme.text, "start", inside=name))
         return marks + _signs(plan, step, i, style)

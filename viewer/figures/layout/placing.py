@@ -10,6 +10,7 @@ from viewer.figures.layout.sizes import (
     BARE_NOTE,
     BELOW,
     BOX,
+    FOLD,
     LINE,
     MARGIN,
     NOTE,
@@ -36,6 +37,7 @@ FIRST, COMPACT_FIRST = 4.8, 3.1
 PITCH, COMPACT_PITCH = 4.85, 3.7
 TALLEST, COMPACT_TALLEST = 8.0, 5.5
 PASSES, COMPACT_PASSES = 0.9, 0.3
+PASSES_FOLDS = 0.5 * FOLD / COMPACT_PITCH  # the same for a compact tree with the boxes of folds, which are higher
 CORRIDOR, WIDEST = 2.4, 6.0  # least and largest distance between the boxes of two levels, sideways
 
 EYES = ("top", "left")
@@ -75,7 +77,9 @@ def place_downwards(task: LayoutTask, anyhow: bool) -> Places | None:
     stub = sizes.slot / unit
     first, free, levels = _first(style), _room_below(style, task.hung), task.levels
     crowded = CLEAR * size * levels > free and not style.compact
-    passes = COMPACT_PASSES if style.compact else PASSES
+    passes = PASSES
+    if style.compact:
+        passes = PASSES_FOLDS if task.folds else COMPACT_PASSES
     room = Spacing(0.5, 0.5, stub, 0.5 * stub, sides=True, passes=passes, crowded=crowded, bars=not style.compact)
     laid = tidy_layout(rays, task.boxes if style.compact else {*task.rows, *task.folds}, room)
     rim = (left + margin - 0.5 * gap, right - margin + 0.5 * gap)
