@@ -134,7 +134,8 @@ BINDINGS = (
         typed={str(depth): lambda session, depth=depth: session.set_depth(depth) for depth in range(10)},
     ),
     Binding("+  -", "increase, decrease the depth by one", typed={"+": _deeper(1), "=": _deeper(1), "-": _deeper(-1)}),
-    Binding("click", "on a ray, in 3D or in the tree: select it"),
+    Binding("click", "on a ray, in 3D, in the tree or in its hit: select it"),
+    Binding("drag", "the disc in the picture of a hit: turn the ray (double click: back)"),
     Binding(
         "Alt+Down, Alt+Up", "select the next ray, the one before",
         alt={K.down_arrow: lambda session: step(session, 1), K.up_arrow: lambda session: step(session, -1)},
