@@ -22,6 +22,8 @@ from tracer.tree.light_errors import propagate_light_errors
 from tracer.tree.margins.margins import Details
 from tracer.tree.raytree import RayTree
 
+RECORDED = dtype_of(RecordedRow).names or ()  # the columns that the kernel fills
+
 
 def trace(
     world: World,
@@ -121,7 +123,7 @@ def public_rows(
     The camera rays are off by `first_turn`, besides their rounding.
     """
     nodes = np.zeros(count, PUBLIC)
-    for name in dtype_of(RecordedRow).names or ():
+    for name in RECORDED:
         nodes[name] = table[name][:count]
     rows, told = as_rows(table, NodeRow), as_rows(nodes, PublicRow)
     bends = propagate_errors(world.arrays, rows, told, count, first_turn)

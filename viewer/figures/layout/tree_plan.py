@@ -196,7 +196,8 @@ def _plan(sizes: RaySizes, style: TreeStyle) -> TreePlan:
     """The plan with as many levels as possible, or with one less if that shows more of the weight."""
     measured, rays = sizes.in_style(style), sizes.rays
     last = _last_level(measured)
-    plans = [_plan_of(measured, levels) for levels in range(last, max(last - 2, -1), -1)]
+    count = 1 if last > max(rays.depths) else 2  # below the deepest level, one less changes nothing
+    plans = [_plan_of(measured, levels) for levels in range(last, max(last - count, -1), -1)]
     return max(plans, key=lambda plan: sum(rays.weights[i] for i in sorted(plan.rows) if not rays.is_shadow[i]))
 
 
