@@ -6,6 +6,7 @@ degrees; the frame is right-handed.
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -151,6 +152,11 @@ class Scene:
     def caption(self) -> str:
         """Its title, else the name of its file, as it is shown."""
         return printable(self.title or (self.path.name if self.path else "scene"))
+
+    @cached_property
+    def has_glass(self) -> bool:
+        """Whether an object lets light through."""
+        return any(item.material.transmit > 0.0 for item in self.objects)
 
     def object_name(self, k: int) -> str:
         """The name of object k as it is shown, or its shape and number if the author gave none."""

@@ -131,7 +131,7 @@ def _labels(session: Session, room: float) -> dict[str, str]:
 
 
 def _has_glass(session: Session) -> bool:
-    return bool(session.world) and any(item.material.transmit > 0.0 for item in session.world.scene.objects)
+    return bool(session.world) and session.world.scene.has_glass
 
 
 def _glass_blocks(session: Session) -> bool:

@@ -78,7 +78,7 @@ def with_media(scene: Scene) -> Variant | str:
 
 
 def with_fresnel(scene: Scene) -> Variant | str:
-    if any(item.material.transmit > 0.0 for item in scene.objects):
+    if scene.has_glass:
         return Variant("Fresnel's equations: another picture", with_tracing(scene, model=MODELS[FRESNEL]))
     if all(item.material.reflect > 0.0 for item in scene.objects):
         return "no surface but mirrors"
@@ -98,7 +98,7 @@ def with_shadow_rays(scene: Scene) -> Variant | str:
 def with_filtered_light(scene: Scene) -> Variant | str:
     if not scene.lights or not any(item.material.is_lit for item in scene.objects):
         return "no shadow rays"
-    if any(item.material.transmit > 0.0 for item in scene.objects):
+    if scene.has_glass:
         return Variant("glass dims shadows: another picture", with_tracing(scene, shadows=SHADOWS[FILTER]))
     return Variant(
         "shadow rays cross every surface",

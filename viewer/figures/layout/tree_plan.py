@@ -47,7 +47,7 @@ from viewer.figures.lights import many_lights
 from viewer.figures.marks import Point
 
 MORE = 40  # if the whole tree does not fit, this many of the other rays are tried one by one, the heaviest first,
-VAIN = 8  # until so many in turn do not fit
+VAIN = 4  # until so many in turn do not fit
 NARROW = 1.3  # width over height of a place in which the tree may be an outline
 
 
