@@ -13,7 +13,7 @@ from tracer.formulas.exact import exact
 from tracer.formulas.media import WORD
 from tracer.formulas.vector import Vector, as_floats
 from tracer.kernel.arrays import Arrays
-from tracer.kernel.capabilities import Need, needs
+from tracer.kernel.capabilities import Capability, Need, needs
 from tracer.kernel.formulas import STABLE, Formulas
 from tracer.kernel.packing import pack_lights, pack_materials, pack_objects, pack_surfaces
 from tracer.kernel.workspace import Eye, Eyes
@@ -49,6 +49,11 @@ class World:
     def left_out(self) -> list[str]:
         """The capabilities that this scene does not need."""
         return [need.name for need in self.needs if not need.needed]
+
+    @property
+    def has_glass(self) -> bool:
+        """Whether an object lets light through. `Scene.has_glass` asks all objects; this is quick."""
+        return any(need.capability is Capability.REFRACTION and need.needed for need in self.needs)
 
     @property
     def notes(self) -> list[str]:

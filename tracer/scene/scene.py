@@ -6,7 +6,6 @@ degrees; the frame is right-handed.
 
 import math
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -153,7 +152,7 @@ class Scene:
         """Its title, else the name of its file, as it is shown."""
         return printable(self.title or (self.path.name if self.path else "scene"))
 
-    @cached_property
+    @property
     def has_glass(self) -> bool:
         """Whether an object lets light through."""
         return any(item.material.transmit > 0.0 for item in self.objects)

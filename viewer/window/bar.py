@@ -131,7 +131,7 @@ def _labels(session: Session, room: float) -> dict[str, str]:
 
 
 def _has_glass(session: Session) -> bool:
-    return bool(session.world) and session.world.scene.has_glass
+    return bool(session.world) and session.world.has_glass
 
 
 def _glass_blocks(session: Session) -> bool:
