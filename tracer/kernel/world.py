@@ -53,7 +53,7 @@ class World:
     @property
     def has_glass(self) -> bool:
         """Whether an object lets light through. `Scene.has_glass` asks all objects; this is quick."""
-        return any(need.capability is Capability.REFRACTION and need.needed for need in self.needs)
+        return any(need.name == Capability.REFRACTION and need.needed for need in self.needs)
 
     @property
     def notes(self) -> list[str]:
