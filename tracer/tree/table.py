@@ -139,22 +139,24 @@ class TreeTable:
         """Whether ray i is a shadow ray from a surface that faces away from the light. It adds nothing, whatever it
         meets.
         """
-        return bool(self._away[i])
+        return bool(self.facing_away[i])
 
     @cached_property
-    def _away(self) -> np.ndarray:
+    def facing_away(self) -> np.ndarray:
+        """`faces_away` for all rows."""
         return faces_away(self.nodes, self.nodes)
 
     def adds_nothing(self, i: int) -> bool:
         """Whether ray i adds no light to its pixel, whatever light is at its end: its factor or weight is 0, or it is a
         shadow ray and its light's share of the local term is 0.
         """
-        return bool(self._nothing[i])
+        return bool(self.adding_nothing[i])
 
     @cached_property
-    def _nothing(self) -> np.ndarray:
+    def adding_nothing(self) -> np.ndarray:
+        """`adds_nothing` for all rows."""
         factor, weight, share = ((self.nodes[name] == 0.0).all(axis=1) for name in ("factor", "weight", "radiance"))
-        return factor | weight | (self.nodes["kind"] == SHADOW) & (self._away | share)
+        return factor | weight | (self.nodes["kind"] == SHADOW) & (self.facing_away | share)
 
     def from_inside(self, i: int) -> bool:
         """Whether ray i meets its surface from the side away from the outward normal: it leaves the object's medium."""

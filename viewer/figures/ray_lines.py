@@ -83,10 +83,10 @@ def ray_lines(tree: RayTree, rows: Sequence[int], frame: Frame, kinds: Set[str])
     ends[escapes] = _escapes(starts[escapes], nodes["direction"][among[escapes]])
     is_shadow = codes == SHADOW
     blocked = is_shadow & (ended == BLOCKED)
-    blocked[blocked] = [not tree.faces_away(i) for i in among[blocked]]
+    blocked &= ~tree.facing_away[among]
     dashes = np.array([STYLES[kind].dash for kind in KINDS], float)[codes]
     dashes[is_shadow & (ended == FILTERED)] = FILTERED_DASH
-    dashes[np.array([tree.adds_nothing(i) for i in among.tolist()], bool)] = NOTHING_DASH
+    dashes[tree.adding_nothing[among]] = NOTHING_DASH
     dashes[blocked] = BLOCKED_DASH
     return RayLines(among, codes, starts, ends, dashes, escapes, blocked)
 
