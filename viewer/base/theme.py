@@ -73,7 +73,7 @@ NOTHING_DASH = (1.6, 5.0)
 
 HALO = 1.6  # pixels of background colour on either side of a ray, so that it is visible on any image
 HIDDEN = 0.30  # opacity of what is behind or inside an opaque object
-DIMMED = 0.4  # opacity of rays that are not on the path of the selected one
+DIMMED = 0.55  # opacity of rays that are not on the path of the selected one
 QUIET, QUIET_WIDTH = 0.55, 0.6  # opacity of shadow rays whose hit is not selected, and the share of their width
 GLOW, GLOW_WIDTH = 0.55, 7.0  # opacity of what lies under the ray that is pointed at, and its additional width
 ARROW = 11.0  # pixels

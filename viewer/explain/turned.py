@@ -1,6 +1,7 @@
 """A hit as it would be at another angle of incidence: the same place and the same media, met by a ray given by hand."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,7 +15,8 @@ SHARES = (1e-3, 1e-6)  # of the ray's length: how far from the hit the turned ra
 
 def turned(world: World, tree: RayTree, row: int, angle: float) -> RayTree | None:
     """The tree of a ray that meets the surface at the hit of `row`, in its plane of incidence, at this angle from the
-    normal in degrees, 0 to STEEPEST. It is as deep as the tree below the hit, but shows the hit at least.
+    normal in degrees, 0 to STEEPEST. It is of the kind of the traced ray. The tree is as deep as that below the hit,
+    but has the rays that the hit sends out.
 
     None if there is no such ray: another surface is too near.
     """
@@ -32,7 +34,10 @@ def turned(world: World, tree: RayTree, row: int, angle: float) -> RayTree | Non
         found = tracer.trace(world, ray=(point - away * towards, towards), depth=depth, model=tree.model)
         met = found.nodes[0]
         if met["object"] == hit["object"] and np.linalg.norm(met["point"] - point) <= _rounding(hit, met):
-            return found
+            nodes = found.nodes.copy()
+            nodes["kind"][0] = hit["kind"]
+            nodes.flags.writeable = False
+            return replace(found, nodes=nodes)
     return None
 
 

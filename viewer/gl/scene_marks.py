@@ -75,10 +75,10 @@ class SceneMarks:
 
     # --- places -------------------------------------------------------------------------------------------------------
 
-    def at(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(places (n, 2), whether they are in the view) of points (n, 3) of the frame."""
+    def at(self, points: np.ndarray, room: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+        """(places (n, 2), whether they are in the view, so far from its border) of points (n, 3) of the frame."""
         places, depths = project(points, self.matrix, self.size)
-        inside = (places >= 0.0).all(axis=1) & (places <= self.size).all(axis=1)
+        inside = (places >= room).all(axis=1) & (places <= np.subtract(self.size, room)).all(axis=1)
         return places, (depths > 0.0) & np.isfinite(places).all(axis=1) & inside
 
     def seen(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -139,7 +139,7 @@ class SceneMarks:
             else:
                 assert light.position
                 point = session.frame.inside(light.position)
-            places, inside = self.at(point[None])
+            places, inside = self.at(point[None], 0.5 * size)
             name = scene.light_name(j)
             if not inside[0]:
                 if few or j == meant:
@@ -162,7 +162,7 @@ class SceneMarks:
     def _eye(self) -> None:
         assert self.session.world
         point = self.session.frame.inside(self.session.world.view().eye)
-        places, inside = self.at(point[None])
+        places, inside = self.at(point[None], EYE)
         if not inside[0]:
             self._way_out("eye", point, "eye", self.theme.text)
             return

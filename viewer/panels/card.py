@@ -64,7 +64,7 @@ class Card:
         for k, part in enumerate([whole] if self._wide(whole, LARGE) <= self.width else broken(source)):
             indent = INDENT * self.em if k else 0.0
             size = LARGE * min(1.0, (self.width - indent) / self._wide(part, LARGE))
-            self._row(part, size, indent, self.theme.accent, 1.5)
+            self._row(part, size, indent, self.theme.text, 1.5)
 
     def pairs(self, pairs: tuple[tuple[str, str], tuple[str, str]]) -> None:
         """Two symbols with their values, side by side if there is room."""

@@ -12,7 +12,7 @@ from viewer.session.view_state import Request
 def draw(session: Session, canvas: Canvas) -> None:
     assert session.lesson  # otherwise there is no such panel
     for block in session.lesson.text.split("\n\n"):
-        content = printable(" ".join(block.split()))
+        content = _plain(block)
         imgui.push_text_wrap_pos(0.0)
         if block.startswith("#"):
             imgui.text_colored(session.appearance.theme.accent, content.lstrip("# "))
@@ -20,11 +20,16 @@ def draw(session: Session, canvas: Canvas) -> None:
             for item in block.split("\n- "):
                 imgui.bullet()
                 imgui.same_line()
-                imgui.text(printable(" ".join(item.removeprefix("- ").split())))  # it wraps, unlike bullet_text
+                imgui.text(_plain(item.removeprefix("- ")))  # it wraps, unlike bullet_text
         else:
             imgui.text(content)
         imgui.pop_text_wrap_pos()
         imgui.spacing()
+
+
+def _plain(markdown: str) -> str:
+    """A paragraph on one line, without the marks of code."""
+    return printable(" ".join(markdown.split())).replace("`", "")
 
 
 PANEL = Panel("Lesson", draw, request=Request.SHOW_LESSON, exists=lambda session: session.lesson is not None)

@@ -123,13 +123,15 @@ def _marked(recording: Recording | None, moment: int | None) -> tuple[Statement 
 
 
 def wrapped_code(line: str, most: int) -> list[str]:
-    """A line of source text in parts of at most `most` characters, broken at blanks. The rest is indented further."""
+    """A line of source text in parts of at most `most` characters, broken at blanks, or before a dot. The rest is
+    indented further.
+    """
     indent = len(line) - len(line.lstrip())
     parts, left = [], line
     while len(left) > most:
         inner = len(left) - len(left.lstrip())
-        cut = left.rfind(" ", inner + 1, most + 1)
-        cut = cut if cut > 0 else most
+        cuts = (left.rfind(sign, inner + 1, most + 1) for sign in " .")
+        cut = next((cut for cut in cuts if cut > 0), most)
         parts.append(left[:cut].rstrip())
         left = " " * min(indent + HANG, most // 2) + left[cut:].lstrip()
     return [*parts, left]

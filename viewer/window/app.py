@@ -109,6 +109,9 @@ class App:
         say("draw the viewer")
         for _ in range(frames):
             self.frame()
+        session.recursion.wait()  # it begins when its panel is drawn
+        if session.calls.run_posted():
+            self.frame()
 
     def frame(self) -> None:
         """Draw all panels once. A part that fails is reported, and the others go on."""

@@ -65,7 +65,7 @@ def _depth(session: Session, has_signs: bool) -> None:
         d.hint(f"{does} the depth by one (key {sign.replace('−', '-')})")
     if session.depth > 3:
         imgui.same_line(0.0, 6 * d.unit())
-        imgui.text_colored(session.appearance.theme.accent, str(session.depth))
+        d.toggle(session.appearance.theme, str(session.depth), True)
 
 
 def _model(session: Session) -> None:

@@ -160,7 +160,6 @@ def _title(session: Session, panel: Panel, is_front: bool, is_choice: bool, word
         if is_front and is_choice:
             below = at.y + size.y + 1.0
             pad.add_line((at.x, below), (at.x + size.x, below), d.u32(theme.accent), 2.0 * d.unit())
-    d.hint("double click, or Z: all of the room")
     if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
         session.layout.maximise(panel.name)
     elif pressed:

@@ -134,7 +134,11 @@ class Tiles:
     def show_next(self) -> None:
         """Of the panels that share a place at the lower right, show the one after that on show."""
         panels, front = self._front(Corner.BOTTOM_RIGHT)
-        self._show(panels[(panels.index(front) + 1) % len(panels)])
+        # The tree shares this place in lecture mode, except while it stands beside the panel in front.
+        if self.session.layout.has_tree_beside(self.session.appearance.is_lecture_size):
+            self._arrangement.front[Corner.BOTTOM_RIGHT] = "tree"
+        else:
+            self._show(panels[(panels.index(front) + 1) % len(panels)])
 
     def _show(self, panel: Panel) -> None:
         self.session.layout.bring_to_front(panel.name, self.session.appearance.is_lecture_size)

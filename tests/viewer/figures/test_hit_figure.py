@@ -87,7 +87,7 @@ def test_formulas_carry_the_trees_own_numbers(worlds: dict[str, tracer.World]) -
     words = written(figure.marks)
     assert f"{1.0 - tree.nodes['radicand'][0]:.5g} ≥ 1: total internal reflection" in words
     assert "48.75°" in words  # the critical angle of water to air
-    assert "no T" in words
+    assert "no T: total reflection" in words
 
 
 @settings(max_examples=40, deadline=None)

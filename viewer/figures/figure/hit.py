@@ -52,6 +52,7 @@ TINTS = (0.06, 0.16)  # of the medium with the lower and with the higher index
 FULL, THINNEST = 150.0, 0.6  # length of rays with full line width, in points; least share of it, for shorter ones
 ARROW = 0.66  # distance of an arrow from the hit, in lengths of rays
 NORMAL = 1.08  # length of the normal, the same
+NO_RAY_WORDS = ("no T: total internal reflection", "no T: total reflection")  # the longest that fits
 SYMBOL = 1.15  # size of a symbol in the picture, in text sizes
 
 
@@ -228,8 +229,10 @@ class _Drawing:
             return
         (x, y), size, color = self.frame.center, self.size, self.theme.ray("refraction")
         title = "total internal reflection: no ray is refracted"
-        near = Text("bar", (x + 1.9 * size, y + 1.1 * size), NO_RAY, size, color, "start", title=title)
-        corner = (self.right - text_width(NO_RAY, size), self.low)
+        room = self.right - x - 1.9 * size
+        words = next((words for words in NO_RAY_WORDS if text_width(words, size) <= room), NO_RAY)
+        near = Text("bar", (x + 1.9 * size, y + 1.1 * size), words, size, color, "start", title=title)
+        corner = (self.right - text_width(words, size), self.low)
         crossed = any(clip_shares(stub, near.box()) for stub in self.lights.stubs())
         text = replace(near, at=corner) if crossed else near
         self.marks += [*signs.cross("bar", (text.at[0] - 0.7 * size, text.at[1]), size, color), text]
@@ -246,17 +249,21 @@ class _Drawing:
             places = [(left, y)]
         elif self.tree.from_inside(self.node) and not math.isnan(self.row["n2"]):
             places = [(left, y - 0.8 * size), (left, self.corners.third + LINE * size)]
+        x0, _, x1, _ = self.frame.picture
         lines = [(mark.start, mark.end) for mark in self.marks if isinstance(mark, Line)]
+        lines += [] if sheet else [((x0, y), (x1, y))]
         text = Text("surface", places[0], "", size, self.theme.text, "start", on_line=sheet)
         for share, at in itertools.product((1.0, 0.8, 0.6, 0.4), places):
             name = fitted(hit_label(self.tree, self.node), share * (x - left - 2.0 * size), size)
             text = replace(text, at=at, content=name)
             if is_free(text.box(), self.taken, lines) and self.lights.keeps_clear(text.box()):
                 break
-        hole = text.box() if sheet else None
-        x0, _, x1, _ = self.frame.picture
-        surface = Line("surface", (x0, y), (x1, y), Stroke(self.theme.text, 2.4), hole=hole)
-        self.marks += [surface, text]
+        else:  # no room for a name
+            text = None
+        hole = text.box() if sheet and text else None
+        title = hit_label(self.tree, self.node)
+        self.marks.append(Line("surface", (x0, y), (x1, y), Stroke(self.theme.text, 2.4), hole=hole, title=title))
+        self.marks += [text] if text else []
 
     def _formulas(self) -> None:
         sections = scattering_sections(self.tree, self.node) if self.going_on else []

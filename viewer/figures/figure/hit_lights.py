@@ -35,6 +35,7 @@ from viewer.figures.marks import (
     point_along,
     widened,
 )
+from viewer.figures.picking import distance
 from viewer.figures.steps import Step
 
 REACHES = (0.6, 0.77, 0.46, 1.14, 0.31)  # lengths of rays to lights, in lengths of other rays; the first that fits
@@ -100,17 +101,19 @@ class HitLights:
         return found
 
     def _end(self, turn: float, names: LabelPlacer, words: Sequence[Rectangle], rays: Sequence[Line]) -> Point:
-        """The end point of a ray to a light: at the first of the lengths that is free of marks and rays, else at the
-        shortest.
+        """The end point of a ray to a light: at the first of the lengths that is free of marks and rays; else, of those
+        that are free of texts, at the one that is farthest from the rays; else at the shortest.
         """
         center = self.frame.center
-        for reach in self.reaches:
-            end = self.frame.at(turn, reach)
+        ends = [self.frame.at(turn, reach) for reach in self.reaches]
+        free = []
+        for end in ends:
             box = widened((*end, *end), SIGN * self.size)
-            crossed = any(clip_shares((center, end), other) for other in words)
-            if names.free(box) and not crossed and not any(clip_shares((ray.start, ray.end), box) for ray in rays):
-                return end
-        return self.frame.at(turn, min(self.reaches))
+            if names.free(box) and not any(clip_shares((center, end), other) for other in words):
+                free.append(end)
+                if not any(clip_shares((ray.start, ray.end), box) for ray in rays):
+                    return end
+        return max(free, key=lambda end: min(distance(ray, end) for ray in rays), default=ends[-1])
 
     def _words(self, names: LabelPlacer) -> list[Mark]:
         """The line that stands for the rays to many lights."""

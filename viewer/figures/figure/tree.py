@@ -282,9 +282,14 @@ class _Drawing:
             self.marks.append(Text(name, at, LEVEL.format(depth), self.size, self.theme.muted, "start"))
 
     def _dim(self, rows: Sequence[int]) -> None:
-        """Dim the rays that are neither above nor below the selected one, and their hits."""
+        """Dim the rays that are neither above nor below the selected one, nor shown by this step, and their hits."""
         assert self.style.selected is not None
-        kept = relatives(self.tree, self.style.selected, rows)
+        selected, parents = self.style.selected, self.tree.nodes["parent"]
+        kept = relatives(self.tree, selected, rows)
+        below = (kept - ancestors(self.tree, selected)) | {selected}
+        kept |= self.step.current | {
+            row for row in self.plan.folds if row in self.step.rows and int(parents[row]) in below
+        }
         bright = {f"{what}-{i}" for what in OF_A_ROW for i in kept}
         dims = tuple(f"{what}-" for what in OF_A_ROW)
         self.marks = [

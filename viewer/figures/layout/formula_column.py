@@ -18,7 +18,8 @@ from viewer.figures.marks import Formula, Mark, Rectangle, Text
 
 LINE = 1.28  # from line to line, in text sizes
 BETWEEN = 0.64  # between two sections, if there is room, in text sizes
-LEADING = 0.22  # least distance between two rows, in text sizes
+LEADING, TALL_LEADING = 0.22, 0.42  # least distance between two rows, and to one with a fraction, in text sizes
+TALL = 1.7  # height of a row from which it has a fraction, in text sizes
 LARGE = 1.2  # of a section's formula, over the text size
 SYMBOL = 1.05  # of a symbol beside its number, whose letters are smaller than those of a text of its size
 INDENT = 1.2  # of a value below its name, and of the second line of a formula, in text sizes
@@ -50,7 +51,7 @@ def formula_columns(
 ) -> list[Mark]:
     """The marks of these sections. If they do not all fit, vectors are left out, then the definitions of symbols, then
     all of the last section but its `last` lines, then sections from the end, as far as need be; of the first, its
-    numbers.
+    numbers. A line says how many formulas are left out.
     """
     if not columns or not sections:
         return []
@@ -65,11 +66,14 @@ def formula_columns(
         if (marks := made.place([made.rows(s, style, s is sections[-1]) for s in sections])) is not None:
             return marks
     for count in range(len(sections) - 1, 0, -1):
+        note = made.note(len(sections) - count)
         for style in styles[1:3]:
             blocks = [made.rows(s, style, False) for s in sections[:count]]
-            if (marks := made.place(blocks)) is not None:
-                return made.with_part(blocks, made.rows(sections[count], style, False)) or marks
-    return made.place([made.rows(sections[0], _Style(numbers=False), False)]) or []
+            if (marks := made.place([*blocks, note])) is not None:
+                rest = made.note(len(sections) - count - 1)
+                return made.with_part(blocks, made.rows(sections[count], style, False), rest) or marks
+    first = made.rows(sections[0], _Style(numbers=False), False)
+    return made.place([first, made.note(len(sections) - 1)]) or made.place([first]) or []
 
 
 class _Columns:
@@ -84,10 +88,15 @@ class _Columns:
         heading = [self._row(part) for part in self._heading(section.formula)]
         return [*heading, *(row for line in lines for row in self._lines(line, style))] if style.numbers else heading
 
+    def note(self, left_out: int) -> list[_Row]:
+        """A line about so many formulas that are left out, or, for 0, about numbers."""
+        words = "… and more numbers" if not left_out else f"… and {left_out} more formula{'s' if left_out > 1 else ''}"
+        return [self._row(self._text(words, 0.0, muted=True))]
+
     def _heading(self, source: str) -> Iterator[Formula]:
         """The formula, in two lines or smaller where it is wider than the column."""
-        large, accent = LARGE * self.size, self.theme.accent
-        whole = Formula("formulas", joined(source), (0.0, 0.0), large, accent, "start")
+        large = LARGE * self.size
+        whole = Formula("formulas", joined(source), (0.0, 0.0), large, self.theme.text, "start")
         if self._width(whole) <= self.wide:
             yield whole
             return
@@ -167,11 +176,11 @@ class _Columns:
                 return marks
         return None
 
-    def with_part(self, blocks: Sequence[list[_Row]], more: list[_Row]) -> list[Mark] | None:
-        """The marks of these sections and as much of another as fits: at least its formula and one number."""
+    def with_part(self, blocks: Sequence[list[_Row]], more: list[_Row], note: list[_Row]) -> list[Mark] | None:
+        """The marks of these sections, as much of another as fits, at least formula and one number, and a note."""
         for count in range(len(more) - 1, 1, -1):
             is_value = more[count].marks[0].at[0] > 0.0  # of the name in the row before
-            if not is_value and (marks := self.place([*blocks, more[:count]])) is not None:
+            if not is_value and (marks := self.place([*blocks, more[:count], note])) is not None:
                 return marks
         return None
 
@@ -179,8 +188,10 @@ class _Columns:
         """A section's marks with its top at y, and its bottom."""
         marks: list[Mark] = []
         for row in rows:
-            pitch = max(LINE * self.size, row.above + row.below + LEADING * self.size)
-            baseline = y + row.above + 0.5 * (pitch - row.above - row.below)
+            extent = row.above + row.below
+            leading = TALL_LEADING if extent > TALL * self.size else LEADING
+            pitch = max(LINE * self.size, extent + leading * self.size)
+            baseline = y + row.above + 0.5 * (pitch - extent)
             marks += [replace(mark, at=(x + mark.at[0], baseline + mark.at[1])) for mark in row.marks]
             y += pitch
         return marks, y

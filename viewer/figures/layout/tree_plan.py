@@ -83,6 +83,13 @@ class TreePlan:
         return (self.fits, hits, not self.lights_left_out)
 
     @property
+    def shows_rays(self) -> bool:
+        """Whether it shows more than the first hit, or there is no more."""
+        nodes = self.tree.nodes
+        sent = np.flatnonzero((nodes["parent"] == 0) & (nodes["kind"] != SHADOW)).tolist()
+        return not self.rows.isdisjoint(sent) or all(nodes["weight"][i].max() < self.style.fold for i in sent)
+
+    @property
     def hang(self) -> float:
         """From a box's middle down to the signs below it."""
         return 0.5 * self.box[1] + STUB * self.size
@@ -115,12 +122,14 @@ class TreePlan:
 
 
 def plan_tree(rays: PlannedRays, style: TreeStyle) -> TreePlan:
-    """The plan for a tree. If text is so large that not even the first hit fits, it is smaller."""
+    """The plan for a tree. If text is so large that not even the first hit fits, or no ray that it sends out, it is
+    smaller.
+    """
     sizes = RaySizes(rays)
-    plan = _plan_forms(sizes, style)
-    while not plan.fits and plan.size > SMALLEST:
+    asked = plan = _plan_forms(sizes, style)
+    while not (plan.fits and plan.shows_rays) and plan.size > SMALLEST:
         plan = _plan_forms(sizes, replace(style, size=max(SMALLEST, math.ceil(plan.size) - 1.0)))
-    return plan
+    return plan if plan.shows_rays or not asked.fits else asked
 
 
 def _plan_forms(sizes: RaySizes, style: TreeStyle) -> TreePlan:

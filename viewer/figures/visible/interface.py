@@ -133,8 +133,8 @@ def cone_rim(hit: Hit, length: float) -> np.ndarray:
 
 
 def interface_names(hit: Hit, length: float, is_small: bool = False) -> list[Name]:
-    """The texts at a hit, the most important first. Where it `is_small`, they are symbols without numbers, since these
-    would cover it.
+    """The texts at a hit, the most important first. Where it `is_small`, they are the symbols of the normal and of the
+    angles, since more would cover it.
     """
 
     def name(content: str, *places: tuple[float, float], of_normal: bool = False) -> Name:
@@ -152,14 +152,12 @@ def interface_names(hit: Hit, length: float, is_small: bool = False) -> list[Nam
     if hit.theta2 is not None and hit.theta2 > SMALLEST:
         ways = _beside_arc(math.pi - hit.theta2, math.pi, RADIUS_2)
         found.append(name(valued("θ₂", format_angle(hit.theta2, hit.error)), *ways))
-    if hit.n2 is not None:
-        found.append(name(valued("n₁", f"= {format_number(hit.n1)}"), (1.1, 0.8), (1.1, 1.1), (1.3, 1.1), (-1.3, 1.1)))
-        found.append(
-            name(valued("n₂", f"= {format_number(hit.n2)}"), (-2.1, 0.8), (-2.1, 1.1), (-1.9, 1.1), (2.0, 1.1))
-        )
-    if hit.critical is not None:
+    if hit.n2 is not None and not is_small:
+        found.append(name(f"n₁ = {format_number(hit.n1)}", (1.1, 0.8), (1.1, 1.1), (1.3, 1.1), (-1.3, 1.1)))
+        found.append(name(f"n₂ = {format_number(hit.n2)}", (-2.1, 0.8), (-2.1, 1.1), (-1.9, 1.1), (2.0, 1.1)))
+    if hit.critical is not None and not is_small:
         rim = cone_rim(hit, 1.12 * length)
-        found.append(Name("θc" if is_small else f"critical {format_angle(hit.critical)}", rim[: len(rim) // 2 : 4]))
+        found.append(Name(f"critical {format_angle(hit.critical)}", rim[: len(rim) // 2 : 4]))
     return found
 
 

@@ -1,7 +1,6 @@
 """A pointer that the last row sees: a large disc at the mouse, or a spotlight that dims all but what is around it."""
 
 import math
-from itertools import pairwise
 
 from imgui_bundle import imgui
 
@@ -13,7 +12,6 @@ from viewer.session.view_state import Pointer
 DISC = 11.0  # radius in logical pixels
 SPOT = 95.0  # the same of the spotlight
 SIDES = 96  # of the spotlight
-ANTI_ALIASED_FILL = 1 << 2  # of ImDrawListFlags, which the bindings do not name
 DIM = 0.72  # opacity of the shade around it
 
 
@@ -30,17 +28,15 @@ def draw(session: Session) -> None:
 
 
 def _shade(pad: imgui.ImDrawList, at: imgui.ImVec2, radius: float, ink: int) -> None:
-    """Fill the window, except for a disc: quadrilaterals from its rim outwards, as far as any corner may be."""
+    """Fill the window, except for a disc: quadrilaterals from its rim outwards, as far as any corner may be. They are
+    made of bare triangles, since the smooth edges of imgui's shapes would leave seams between neighbours.
+    """
     size = imgui.get_io().display_size
-    far = size.x + size.y
-    turns = [2.0 * math.pi * k / SIDES for k in range(SIDES + 1)]
-    rim = [(math.cos(turn), math.sin(turn)) for turn in turns]
-    flags = pad.flags
-    pad.flags &= ~ANTI_ALIASED_FILL  # smooth edges would leave lines between neighbours
-    for (x0, y0), (x1, y1) in pairwise(rim):
-        inner = ((at.x + radius * x, at.y + radius * y) for x, y in ((x0, y0), (x1, y1)))
-        outer = ((at.x + far * x, at.y + far * y) for x, y in ((x1, y1), (x0, y0)))
-        a, b = inner
-        c, e = outer
-        pad.add_quad_filled(a, b, c, e, ink)
-    pad.flags = flags
+    far, white = size.x + size.y, imgui.get_font_tex_uv_white_pixel()
+    turns = [2.0 * math.pi * k / SIDES for k in range(SIDES)]
+    rims = [[(at.x + r * math.cos(turn), at.y + r * math.sin(turn)) for turn in turns] for r in (radius, far)]
+    pad.prim_reserve(6 * SIDES, 6 * SIDES)
+    for k in range(SIDES):
+        (a, b), (c, e) = ((rim[k - 1], rim[k]) for rim in rims)
+        for corner in (a, b, e, a, e, c):
+            pad.prim_vtx(corner, white, ink)
