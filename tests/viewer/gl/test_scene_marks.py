@@ -14,7 +14,7 @@ from viewer.base.theme import DARK
 from viewer.figures.marks import Disc, Shape, Text, overlap
 from viewer.figures.visible.interface import CONE, RADIUS, RADIUS_2, Hit, cone_rim, hit_of, interface_names
 from viewer.gl.interface import interface_lines
-from viewer.gl.scene_marks import NAMED, SceneMarks, longest_runs
+from viewer.gl.scene_marks import NAMED, SUN, SceneMarks, longest_runs
 from viewer.lessons import lesson
 
 VIEWS = ((0.3, 0.2, 2.0), (2.6, 0.9, 4.0), (-1.9, -0.3, 1.2), (4.0, 0.1, 0.4))  # azimuth, elevation, distance
@@ -118,7 +118,9 @@ def test_an_arrow_points_to_each_light_outside_the_view() -> None:
                     point = session.frame.inside(light.position)
                     found = [mark for mark in made.signs if mark.name == f"light-{j}"]
                     places, depths = project(point[None], made.matrix, made.size)
-                    in_view = depths[0] > 0 and (places[0] >= 0).all() and (places[0] <= made.size).all()
+                    half = 0.5 * SUN  # the whole sign must be in the view
+                    inside = (places[0] >= half).all() and (places[0] <= np.subtract(made.size, half)).all()
+                    in_view = depths[0] > 0 and inside
                     arrow = [mark for mark in found if isinstance(mark, Shape)]
                     assert bool(arrow) != in_view
                     suns += any(isinstance(mark, Disc) for mark in found)

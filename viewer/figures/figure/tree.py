@@ -287,9 +287,8 @@ class _Drawing:
         selected, parents = self.style.selected, self.tree.nodes["parent"]
         kept = relatives(self.tree, selected, rows)
         below = (kept - ancestors(self.tree, selected)) | {selected}
-        kept |= self.step.current | {
-            row for row in self.plan.folds if row in self.step.rows and int(parents[row]) in below
-        }
+        folded = self.plan.folds.keys() & self.step.rows
+        kept |= self.step.current | {row for row in folded if int(parents[row]) in below}
         bright = {f"{what}-{i}" for what in OF_A_ROW for i in kept}
         dims = tuple(f"{what}-" for what in OF_A_ROW)
         self.marks = [
