@@ -208,4 +208,4 @@ def _calls(session: Session, table: _Table) -> None:
             x += widths[k]
 
 
-PANEL = Panel("Recursion", draw, short="Code", request=Request.SHOW_RECURSION)
+PANEL = Panel("Recursion", draw, request=Request.SHOW_RECURSION)

@@ -16,6 +16,7 @@ from tracer.kernel.nodes import SHADOW
 from tracer.scene import Light, Material, Object
 from tracer.shapes.polygon import Polygon
 from viewer.base.theme import LIGHT
+from viewer.explain.scattering import scattering_sections
 from viewer.figures.figure.hit import hit_marks
 from viewer.figures.layout.hit_frame import hit_frame
 from viewer.figures.marks import HEIGHT, WIDTH, Figure, Formula, Line, Mark, Rectangle, Shape, Text, inside
@@ -214,3 +215,19 @@ def test_rays_angles_and_the_normal_are_named_in_the_picture(worlds: dict[str, t
     reflected, refracted = (tree.find(path) for path in "RT")
     assert {("v", "ray-0"), ("r", f"ray-{reflected}"), ("t", f"ray-{refracted}"), ("n", "normal")} <= found
     assert {("θ₁", "angle-ray-0"), ("θ₂", f"angle-ray-{refracted}")} <= found
+
+
+@pytest.mark.parametrize("high", [400.0, 500.0, 600.0, 900.0])
+def test_formulas_without_room_are_counted(worlds: dict[str, tracer.World], high: float) -> None:
+    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").pixel, depth=1)
+    sections = scattering_sections(tree, 0)
+    marks = hit_marks(by_depth([tree])[0], 0, 14.0, LIGHT, None, (0.0, 0.0, 300.0, high))
+    headings = {s.formula for s in sections} & {mark.source for mark in marks if isinstance(mark, Formula)}
+    texts = [mark.content for mark in marks if isinstance(mark, Text)]
+    notes = [content for content in texts if content.startswith("… and")]
+    missing = len(sections) - len(headings)
+    if notes:
+        (note,) = notes
+        assert note == "… and more numbers" if not missing else note.startswith(f"… and {missing} more formula")
+    else:
+        assert not missing

@@ -434,3 +434,26 @@ def test_a_ray_of_factor_0_says_so() -> None:
     assert "adds nothing: its factor is 0" in line.title
     assert line.stroke.dash == FATE["nothing"].dash
     assert "adds nothing: its factor is 0" in headline(none, i)[1]
+
+
+def test_a_step_is_not_dimmed_by_a_selection(worlds: dict[str, tracer.World]) -> None:
+    """The hit that a step sums up is as bright as without a selection, also beside the selected branch."""
+    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").pixel, depth=2)
+    selected, other = tree.find("T"), tree.find("R")
+    assert selected is not None and other is not None
+    step = next(step for step in by_ray(tree) if step.sum == other)
+
+    def box(**options: object) -> Box:
+        (figure,) = pages("tree", Subject([step]), FigureStyle(**options))  # type: ignore[arg-type]
+        return next(mark for mark in figure.marks if isinstance(mark, Box) and mark.name == f"hit-{other}")
+
+    assert box(selected=selected) == box()
+
+
+@pytest.mark.parametrize("page", [(300.0, 350.0), (250.0, 300.0)])
+def test_a_tree_shows_more_than_the_first_hit_in_smaller_text(page: tuple[float, float], worlds: dict) -> None:
+    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").pixel, depth=3)
+    (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle(text_size=PANEL_TEXT, swatches=True, page=page))
+    hits = {mark.name for mark in figure.marks if isinstance(mark, Box) and mark.name.startswith("hit-")}
+    assert "hit-0" in hits and len(hits) > 1
+    check(figure, SMALLEST)
