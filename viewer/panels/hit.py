@@ -64,11 +64,10 @@ def draw(session: Session, canvas: Canvas) -> None:
 
 def _drag(session: Session, marks: list[Mark], at: Point) -> bool:
     """Turn the ray with its handle. Returns whether the mouse is over the handle, or drags it."""
-    storage, key = imgui.get_state_storage(), imgui.get_id("handle")
     over = handle_at(marks, at, HANDLE_REACH)
     if imgui.is_item_activated():
-        storage.set_bool(key, over is not None)
-    is_held = imgui.is_item_active() and storage.get_bool(key)
+        session.holds_handle = over is not None
+    is_held = imgui.is_item_active() and session.holds_handle
     handle = next((mark for mark in marks if isinstance(mark, Handle)), None)
     if is_held and handle and imgui.is_mouse_dragging(imgui.MouseButton_.left):
         if session.turn is None:

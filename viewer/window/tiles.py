@@ -18,12 +18,14 @@ ORDER = (Corner.TOP_RIGHT, Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT, Corner.TOP_L
 
 
 class Tiles:
-    """Draws the panels of a session. `part` draws one part of the window, and reports it if that fails."""
+    """Draws the panels of a session."""
 
     def __init__(
         self, session: Session, canvas: Canvas, part: Callable[..., object], fulfil: Callable[[], object]
     ) -> None:
-        """`part` draws a part of the window. `fulfil` does what the session asks for, such as to show a panel."""
+        """`part` draws a part of the window, and reports a failure. `fulfil` does what the session asks for, such as to
+        show a panel.
+        """
         self.session = session
         self.canvas = canvas
         self.part = part
