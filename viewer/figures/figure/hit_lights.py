@@ -1,5 +1,5 @@
-"""The rays to lights in the figure of a hit: dashed, at their true angles from the normal; for many lights, a line of
-words.
+"""The rays to lights in the figure of a hit: dashed, at their true angles from the normal; for many lights, and in
+a small picture, a line of words.
 """
 
 import math
@@ -39,6 +39,7 @@ from viewer.figures.picking import distance
 from viewer.figures.steps import Step
 
 REACHES = (0.6, 0.77, 0.46, 1.14, 0.31)  # lengths of rays to lights, in lengths of other rays; the first that fits
+LEAST = 5.0  # length of other rays, in text sizes, below which a line of words stands for the rays to lights
 SIGN = 0.6  # half the width that is kept free for the sign of a light, in text sizes
 IN_PLANE = math.radians(1.0)  # a light that is out of the plane by less counts as in it
 
@@ -52,7 +53,8 @@ class HitLights:
         self.tree, self.node, self.frame, self.size, self.theme = step.tree, node, frame, size, theme
         self.reaches = [share * reach for share in REACHES]
         shadows = [child for child in below if self.tree.nodes["kind"][child] == SHADOW]
-        self.many = shadows if len(shadow_rays(self.tree, node)) > MOST_LIGHTS else []
+        is_small = reach < LEAST * size
+        self.many = shadows if is_small or len(shadow_rays(self.tree, node)) > MOST_LIGHTS else []
         # Of each light that is drawn: its angle from the normal, and that out of the plane, into which it is rotated.
         self.turns = {child: turn_to_light(self.tree, child) for child in shadows if not self.many}
 
@@ -126,7 +128,8 @@ class HitLights:
             """In the upper medium, then in the lower one, below or above what stands in the corners."""
             upper, low = top + (0.9 + 3 * LINE) * size, bottom - 0.9 * size - high
             uppers = [((left, upper), "start"), ((right, upper - LINE * size), "end")]
-            return [*uppers, ((left, low - LINE * size), "start"), ((left, low - 2 * LINE * size), "start")]
+            lowers = [((left, low - k * LINE * size), "start") for k in (1, 2)]
+            return [*uppers, *lowers, *(((right, low - k * LINE * size), "end") for k in (0, 1, 2))]
 
         title = light_title(self.tree, self.many)
         text = Text(f"lights-{self.node}", self.frame.center, "", size, self.theme.ray("shadow"), title=title)
