@@ -7,6 +7,8 @@ from imgui_bundle import imgui
 
 from viewer.base.theme import FONT_SIZE
 
+WIDE = 2048  # pixels: of the atlas, which formulas are drawn into as well: room for a line on a large screen
+
 
 def load_fonts() -> None:
     """Roboto, regular and bold, with the arrows and subscripts of DejaVu Sans that it lacks, and Inconsolata for source
@@ -15,6 +17,7 @@ def load_fonts() -> None:
     shipped = Path(imgui_bundle.__file__).parent / "assets" / "fonts"
     symbols = Path(__file__).parent.parent / "fonts" / "DejaVuSans-symbols.ttf"
     fonts = imgui.get_io().fonts
+    fonts.tex_min_width = WIDE  # the atlas grows in height only
     for weight in ("Regular", "Bold"):
         fonts.add_font_from_file_ttf(str(shipped / "Roboto" / f"Roboto-{weight}.ttf"), FONT_SIZE)
         config = imgui.ImFontConfig()

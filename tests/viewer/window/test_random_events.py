@@ -57,7 +57,7 @@ class Chaos:
 
     def event(self) -> None:
         kinds = {self.mouse: 30, self.wheel: 8, self.key: 30, self.character: 20}
-        kinds |= {self.file: 6, self.drop: 3, self.open: 2, self.size: 1}
+        kinds |= {self.file: 6, self.drop: 3, self.open: 2, self.size: 1, self.turn: 3}
         self.dice.choices(list(kinds), list(kinds.values()))[0]()
         self.driver.frames(1)
         if self.dice.random() < 0.2:
@@ -75,6 +75,12 @@ class Chaos:
             io.add_mouse_button_event(button, down)
             if dice.random() < 0.5:
                 self.driver.frames(1)
+
+    def turn(self) -> None:
+        """Turn the ray of the hit on show, as its handle does."""
+        session = self.driver.session
+        session.layout.bring_to_front("hit", session.appearance.is_lecture_size)
+        session.turn = self.dice.choice((0.0, 12.3, 45.0, 89.0))
 
     def wheel(self) -> None:
         imgui.get_io().add_mouse_wheel_event(0.0, self.dice.choice((-3.0, -1.0, 1.0, 5.0)))

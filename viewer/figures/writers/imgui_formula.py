@@ -26,23 +26,29 @@ class _Images:
     def __init__(self) -> None:
         self.found: OrderedDict[Key, int] = OrderedDict()  # the number of the image's rectangle in the atlas
 
-    def rectangle(self, key: Key) -> imgui.ImFontAtlasRect:
-        """The place in the atlas. It may change from call to call, when the atlas grows."""
+    def rectangle(self, key: Key) -> imgui.ImFontAtlasRect | None:
+        """The place in the atlas, which may change from call to call, when the atlas grows. None if the image is too
+        large for it.
+        """
         fonts, place = imgui.get_io().fonts, imgui.ImFontAtlasRect()
         number = self.found.pop(key, None)
         if number is None:
             while len(self.found) >= MOST:
                 fonts.remove_custom_rect(self.found.popitem(last=False)[1])
             number = self._add(key)
+        if number is None:
+            return None
         self.found[key] = number
         fonts.get_custom_rect(number, place)
         return place
 
-    def _add(self, key: Key) -> int:
+    def _add(self, key: Key) -> int | None:
         source, steps = key
         left, top, right, bottom = frame(key)
         fonts, place = imgui.get_io().fonts, imgui.ImFontAtlasRect()
         number = fonts.add_custom_rect(right - left, bottom - top, place)
+        if not place.w:
+            return None
         texture = fonts.tex_data
         pixels = texture.get_pixels_array().reshape(texture.height, texture.width, texture.bytes_per_pixel)
         image = pixels[place.y : place.y + place.h, place.x : place.x + place.w]
@@ -68,13 +74,16 @@ def frame(key: Key) -> tuple[int, int, int, int]:
 
 def draw_formula(pad: imgui.ImDrawList, mark: Formula, corner: Point, scale: float) -> None:
     """Draw a formula of a canvas whose top left is at `corner`, in pixels. `scale` is pixels per point. As texts, it
-    begins at a whole pixel.
+    begins at a whole pixel. One that is too large for the atlas is drawn from a smaller image.
     """
-    key = (mark.source, max(STEPS, round(STEPS * mark.size * scale)))
-    place = _images.rectangle(key)
+    steps, times = max(STEPS, round(STEPS * mark.size * scale)), 1
+    while (place := _images.rectangle((mark.source, steps // times))) is None:
+        times *= 2
+        if times > steps:  # not even a dot fits
+            return
     origin = mark.origin()
     x, y = (round(corner[k] + scale * origin[k]) for k in (0, 1))
-    left, top, right, bottom = frame(key)
+    left, top, right, bottom = (times * side for side in frame((mark.source, steps // times)))
     color = imgui.get_color_u32(mark.color)
     texture = imgui.get_io().fonts.tex_data.get_tex_ref()
     pad.add_image(texture, (x + left, y + top), (x + right, y + bottom), place.uv0, place.uv1, color)
