@@ -178,6 +178,11 @@ def run(folder: Path, seed: int) -> None:
         driver.session.shown.kinds = {"camera", "reflection"}
         driver.session.home()
         driver.frames(3)
+        while driver.session.export.making:
+            # The collector's list of objects must not hold a tuple that another thread is building: CPython then
+            # raises SystemError in that thread (bugs.python.org/issue15108).
+            driver.session.export.making.exception()
+            driver.frames(1)
         before = counts()
         driver.open("underwater")
         driver.open("mirror-balls")
