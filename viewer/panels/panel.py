@@ -17,6 +17,7 @@ class Panel:
     draw: Callable[[Session, Canvas], None]
     fills: bool = False  # its picture fills the panel, its title lies on it; otherwise it is text, which scrolls
     head: Callable[[Session, float], None] | None = None  # beside the title; it may be so many pixels wide
+    head_room: Callable[[Session], float] = lambda session: 0.0  # that it needs, in text sizes
     is_named: bool = True  # whether its title is shown, where it stands alone
     short: str = ""  # its title where there is little room
     is_covered: bool = True  # whether the title may cover a part of the picture

@@ -31,6 +31,7 @@ from viewer.panels.reveal import draw_position
 from viewer.session.session import Session
 
 ROW = 1.5  # from row to row of the legend, in its text sizes
+POSITION = 4.0  # width of the step's number beside the title, in text sizes
 EDGE = 6.0  # points: from the border of the panel to the legend
 REACH = 6.0  # logical pixels: the largest distance of a click from a mark
 GLOW = 4.0  # logical pixels: width of the line around the ray under the mouse
@@ -202,5 +203,5 @@ def _head(session: Session, room: float) -> None:
 
 PANEL = Panel(
     "Ray tree", draw, fills=True, head=_head, short="Tree", is_covered=False,
-    figure="tree", shows_ray=True,
+    figure="tree", shows_ray=True, head_room=lambda session: POSITION if session.step else 0.0,
 )  # fmt: skip

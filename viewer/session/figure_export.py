@@ -83,12 +83,12 @@ class FigureExport:
         theme = self.theme or shown.theme
         # White ink on no ground would be lost on a white slide.
         options = replace(shown.options, format=(name,), theme=theme, ground=THEMES[theme].dark)
-        self.command = shell_line(["raytree", "export", *words(options, leave_out=("output",))])
-        self._keep()
         depth = options.depth[-1] if options.depth else 0
         step = f"_{shown.step}" if shown.step else ""
         stem = f"{stem_of(shown.scene, options.pixel)}_{options.figure}_d{depth}{step}"
         target = Target(free_path(Path.cwd() / (stem + FORMATS[name].suffix)), is_folder=False, formats=(name,))
+        self.command = shell_line(["raytree", "export", *words(replace(options, output=target.path.name))])
+        self._keep()
         say("copying the figure ..." if copied else f"exporting {target.path.name} ...")
 
         def make() -> str:

@@ -89,7 +89,7 @@ def _row(session: Session, sharing: Sequence[Panel], front: Panel, head: Callabl
     imgui.set_cursor_pos((1.5 * MARGIN * unit, 0.75 * MARGIN * unit))
     imgui.begin_group()
     titles = sharing if len(sharing) > 1 or front.is_named else ()
-    room = imgui.get_content_region_avail().x
+    room = imgui.get_content_region_avail().x - front.head_room(session) * imgui.get_font_size()
     is_short = _row_width(panel.title for panel in titles) > room
     hidden = 0
     if is_short and _row_width(panel.short or panel.title for panel in titles) > room:

@@ -57,7 +57,7 @@ class SceneHit:
         found: list[Mark] = []
         for name in self.names:
             places = [view.place(point) for point in name.points]
-            spots = [Spot(at, upon=True) for at in places if at]
+            spots = [Spot(at, upon=True) for at in places if at] + [Spot(at) for at in places[:1] if at]
             color = theme.normal if name.of_normal else theme.text
             found += placer.label("interface", name.content, spots, color)
         return found
