@@ -104,7 +104,7 @@ def _from_xml(content: bytes) -> bytes | None:
     parser.CharacterDataHandler, parser.EntityDeclHandler = text, entity
     try:
         parser.Parse(content, True)
-    except (expat.ExpatError, ValueError) as error:
+    except (expat.ExpatError, ValueError, LookupError) as error:  # LookupError: an encoding that is not known
         raise Damaged(str(error) if isinstance(error, Damaged) else f"not XML: {error}") from None
     return _decoded("".join(found)) if found else None
 

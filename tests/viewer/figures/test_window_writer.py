@@ -106,20 +106,16 @@ def test_outlines_with_holes_are_filled_around_them(surface: Offscreen) -> None:
 
 
 @pytest.mark.parametrize("size", [115.0, 250.0, 300.0])
-def test_a_formula_that_is_wider_than_the_atlas_is_drawn_all_the_same(size: float) -> None:
+def test_a_formula_that_is_wider_than_the_atlas_is_drawn_all_the_same(surface: Offscreen, size: float) -> None:
     """The atlas is at most 2048 pixels wide here. The ink ends where that of a file does, also at the border."""
 
     def figure(size: float) -> Figure:
         mark = Formula("f", r"n_1 \sin \theta_1 = n_2 \sin \theta_2", (20.0, 300.0), size, DARK.text, "start")
         return Figure("", "", "", (mark,), DARK.ground, ground=True, width=float(SIZE[0]), height=float(SIZE[1]))
 
-    made = Offscreen(SIZE)
-    try:
-        imgui.get_io().fonts.tex_max_width = 2048
-        edges = []
-        for picture in (in_window(made, figure(size)), in_file(figure(size))):
-            rows, columns = np.nonzero(ink(picture))
-            edges.append((columns.min(), rows.min(), columns.max(), rows.max()))
-    finally:
-        made.close()
+    imgui.get_io().fonts.tex_max_width = 2048
+    edges = []
+    for picture in (in_window(surface, figure(size)), in_file(figure(size))):
+        rows, columns = np.nonzero(ink(picture))
+        edges.append((columns.min(), rows.min(), columns.max(), rows.max()))
     assert np.abs(np.subtract(*edges)).max() <= 3

@@ -87,6 +87,22 @@ def test_damage_is_one_line(figures: dict[str, Path], suffix: str, data: st.Data
         scenes.close()
 
 
+@pytest.mark.parametrize("encoding", ["U-TF-8", "rot13", "uu", "punycode", "utf-16"])
+def test_an_encoding_that_is_not_that_of_the_file_is_one_line(
+    figures: dict[str, Path], encoding: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "a.svg"
+    path.write_bytes(figures[".svg"].read_bytes().replace(b'encoding="UTF-8"', f'encoding="{encoding}"'.encode(), 1))
+    assert encoding.encode() in path.read_bytes()
+    scenes = FigureScenes()
+    try:
+        scenes.find(path)
+    except Unusable as unusable:
+        assert len(unusable.faults) == 1 and unusable.faults[0].startswith(f"{path}: ")
+    finally:
+        scenes.close()
+
+
 @settings(max_examples=300, deadline=None)
 @given(data=st.data())
 def test_a_damaged_table_is_refused(data: st.DataObject) -> None:
