@@ -94,6 +94,7 @@ MAP = (rgb("#0B1026"), rgb("#2F2A7A"), rgb("#8C2F7F"), rgb("#DD5A4F"), rgb("#F7A
 
 FONT_SIZE = 17.0  # pixels at 1280x720, from ascender to descender: room for four panels
 SMALL = 0.9  # of the font's size, for labels in figures
+LABEL_TEXT = 12.5  # logical pixels: of labels in the 3D view
 PANEL_TEXT = 14.5  # points: of figures in panels, as large as the window's text
 LECTURE_ZOOM = 28.0 / FONT_SIZE  # of all sizes in lecture mode: capitals are 17 pixels high, as 18 points on a slide
 

@@ -10,6 +10,7 @@ from typing import Any
 from tracer.formats import READERS
 
 MAX_PIXELS = 16384  # across an image
+STEEPEST_INCIDENCE = 89.0  # degrees: beyond, a ray grazes the surface
 LEAST_SHARE = 0.15  # of a panel in the window
 PAPER_LEAST, PAPER_MOST = 200, 4000  # points: the sides of a figure's page
 SMALLEST_ZOOM, LARGEST_ZOOM = 0.01, 1000.0  # of a picture in its panel
@@ -177,7 +178,7 @@ LIGHT = number("a number >= 0", lambda x: 0.0 <= x < math.inf, "E")
 POSITIVE = number("a number > 0", lambda x: 0.0 < x < math.inf, "E")
 SHARE = number("a number from 0 to 1", lambda x: 0.0 <= x <= 1.0, "W")
 PIXELS = whole(16, MAX_PIXELS, "PX", f"pixels from 16 to {MAX_PIXELS}")
-INCIDENCE = number("degrees from 0 to 89", lambda x: 0.0 <= x <= 89.0, "DEG")
+INCIDENCE = number(f"degrees from 0 to {STEEPEST_INCIDENCE:g}", lambda x: 0.0 <= x <= STEEPEST_INCIDENCE, "DEG")
 POINTS = number("points from 8 to 48", lambda x: 8.0 <= x <= 48.0, "PT")
 
 

@@ -9,25 +9,21 @@ import tracer
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 
-STEEPEST = 89.0  # degrees: beyond, the ray grazes the surface
+NORMAL_INCIDENCE = 1e-14  # radians: below this angle rounding decides on the plane of incidence
 SHARES = (1e-3, 1e-6)  # of the ray's length: how far from the hit the turned ray starts, so that nothing is in its way
 
 
 def turned(world: World, tree: RayTree, row: int, angle: float) -> RayTree | None:
     """The tree of a ray that meets the surface at the hit of `row`, in its plane of incidence, at this angle from the
-    normal in degrees, 0 to STEEPEST. It is of the kind of the traced ray. The tree is as deep as that below the hit,
-    but has the rays that the hit sends out.
+    normal in degrees, 0 to STEEPEST_INCIDENCE (`viewer.base.values`). It is of the kind of the traced ray. The tree is
+    as deep as that below the hit, but has the rays that the hit sends out.
 
     None if there is no such ray: another surface is too near.
     """
     hit = tree.nodes[row]
     point, normal, direction = hit["point"], hit["normal"], hit["direction"]
-    along = direction - float(direction @ normal) * normal
-    length = float(np.linalg.norm(along))
-    # At normal incidence every plane through the normal is one of incidence.
-    along = along / length if length > 0.0 else _across(normal)
     theta = math.radians(angle)
-    towards = math.sin(theta) * along - math.cos(theta) * normal
+    towards = math.sin(theta) * along_surface(direction, normal) - math.cos(theta) * normal
     for share in SHARES:
         away = share * float(hit["t"])
         depth = max(1, tree.depth - int(hit["depth"]))
@@ -41,12 +37,15 @@ def turned(world: World, tree: RayTree, row: int, angle: float) -> RayTree | Non
     return None
 
 
-def _across(normal: np.ndarray) -> np.ndarray:
-    """A unit vector at right angles to the normal."""
-    axis = np.zeros(3)
-    axis[int(np.argmin(np.abs(normal)))] = 1.0
-    across = np.cross(normal, axis)
-    return across / np.linalg.norm(across)
+def along_surface(direction: np.ndarray, normal: np.ndarray) -> np.ndarray:
+    """The unit vector in the surface and the plane of incidence, to where a ray of this direction runs.
+
+    At normal incidence, every plane through the normal is one of incidence, and the vector is one of any of them.
+    """
+    along = direction - (direction @ normal) * normal
+    if np.linalg.norm(along) < NORMAL_INCIDENCE:
+        along = np.cross(normal, np.eye(3)[int(np.argmin(np.abs(normal)))])
+    return along / np.linalg.norm(along)
 
 
 def _rounding(hit: np.void, met: np.void) -> float:

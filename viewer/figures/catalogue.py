@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING
 
-from viewer.reopen.view_state import ORDERS
+from viewer.reopen.view_state import GRANULARITIES, ORDERS
 
 if TYPE_CHECKING:
     from tracer.tree.raytree import RayTree
@@ -43,7 +43,7 @@ FIGURE_NAMES = tuple(kind.name for kind in FIGURES)
 
 # One page per depth, with whole trees; or one tree, in which rays appear by level or one by one, and then colours are
 # summed up; or only the latter.
-STEPS = ("depth", "levels", "rays", "colour")
+STEPS = ("depth", *GRANULARITIES, "colour")
 BREADTH, RECURSION = ORDERS  # of rays and sums: the kernel's, or a recursive procedure's
 
 

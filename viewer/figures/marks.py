@@ -5,10 +5,9 @@ Lengths are points (1/72 inch) from the canvas's top left corner, y downwards. T
 text of 18 points is 18 points high if the figure fills the slide.
 """
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from itertools import groupby, pairwise
+from itertools import groupby
 
 from tracer.printable import printable
 from viewer.base.theme import Arrow, Color, blend
@@ -66,6 +65,12 @@ def widened(box: Rectangle, by: float) -> Rectangle:
 def point_along(piece: Piece, share: float) -> Point:
     (x0, y0), (x1, y1) = piece
     return (x0 + share * (x1 - x0), y0 + share * (y1 - y0))
+
+
+def clipped(piece: Piece, box: Rectangle) -> Piece | None:
+    """The part of a line segment inside a rectangle; None if it is outside."""
+    shares = clip_shares(piece, box)
+    return (point_along(piece, shares[0]), point_along(piece, shares[1])) if shares else None
 
 
 @dataclass(frozen=True)
@@ -223,10 +228,9 @@ class Handle(Mark):
     """A disc that is dragged along a path and changes a parameter of the figure, where a figure can be changed. A file
     does not show it.
 
-    `path` are places at equal steps of the value, from the lowest to the highest.
+    Its name is the parameter's. `path` are places at equal steps of the value, from the lowest to the highest.
     """
 
-    parameter: str
     value: float
     range: tuple[float, float]  # the lowest and the highest value
     path: tuple[Point, ...]
@@ -239,22 +243,6 @@ class Handle(Mark):
         step = min(1.0, max(0.0, (self.value - low) / (high - low))) * (len(self.path) - 1)
         k = min(int(step), len(self.path) - 2)
         return point_along((self.path[k], self.path[k + 1]), step - k)
-
-    def nearest(self, point: Point) -> float:
-        """The value whose place is nearest to a point."""
-
-        def along(piece: Piece) -> float:
-            (x0, y0), (x1, y1) = piece
-            dx, dy = x1 - x0, y1 - y0
-            share = ((point[0] - x0) * dx + (point[1] - y0) * dy) / (dx * dx + dy * dy)
-            return min(1.0, max(0.0, share))
-
-        pieces = list(pairwise(self.path))
-        shares = list(map(along, pieces))
-        away = [math.dist(point, point_along(piece, share)) for piece, share in zip(pieces, shares, strict=True)]
-        k = min(range(len(pieces)), key=away.__getitem__)
-        low, high = self.range
-        return low + (high - low) * (k + shares[k]) / len(pieces)
 
 
 def with_line_width(mark: Mark, share: float) -> Mark:

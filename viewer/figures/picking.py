@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-from viewer.figures.marks import Box, Disc, Formula, Handle, Line, Mark, Point, Rectangle, Shape, Text
+from viewer.figures.marks import Box, Disc, Formula, Handle, Line, Mark, Point, Rectangle, Shape, Text, point_along
 
 PICKED = ("ray", "hit")  # the kinds of names that can be picked: `ray-3` and `hit-3` belong to row 3 of a tree
 
@@ -30,6 +30,16 @@ def handle_at(marks: Iterable[Mark], point: Point, reach: float) -> Handle | Non
     handles = [mark for mark in marks if isinstance(mark, Handle)]
     near = min(handles, key=lambda handle: math.dist(handle.at, point), default=None)
     return near if near and math.dist(near.at, point) <= reach else None
+
+
+def nearest_value(handle: Handle, point: Point) -> float:
+    """The value of the handle whose place is nearest to a point."""
+    pieces = list(pairwise(handle.path))
+    shares = [_nearest_share(*piece, point) for piece in pieces]
+    away = [math.dist(point, point_along(piece, share)) for piece, share in zip(pieces, shares, strict=True)]
+    k = min(range(len(pieces)), key=away.__getitem__)
+    low, high = handle.range
+    return low + (high - low) * (k + shares[k]) / len(pieces)
 
 
 def row_of(name: str | None) -> int | None:
@@ -73,11 +83,15 @@ def _to_curve(corners: Sequence[Point], point: Point, width: float) -> float:
 
 
 def _to_segment(a: Point, b: Point, point: Point) -> float:
+    return math.dist(point_along((a, b), _nearest_share(a, b, point)), point)
+
+
+def _nearest_share(a: Point, b: Point, point: Point) -> float:
+    """The share of the length of a segment at which it is nearest to a point."""
     along = (b[0] - a[0], b[1] - a[1])
     square = along[0] ** 2 + along[1] ** 2
     share = ((point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1]) / square if square else 0.0
-    share = min(1.0, max(0.0, share))
-    return math.dist((a[0] + share * along[0], a[1] + share * along[1]), point)
+    return min(1.0, max(0.0, share))
 
 
 def _winds(corners: Sequence[Point], point: Point) -> bool:

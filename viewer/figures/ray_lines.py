@@ -116,11 +116,16 @@ def ancestors(tree: RayTree, row: int) -> set[int]:
 
 def relatives(tree: RayTree, row: int, rows: Sequence[int]) -> set[int]:
     """A ray with its ancestors, and its descendants among the drawn `rows`: they stay bright while it is selected."""
-    below = {row}
+    return ancestors(tree, row) | branch(tree, row, rows)
+
+
+def branch(tree: RayTree, row: int, rows: Sequence[int]) -> set[int]:
+    """A ray, and its descendants among `rows`, which are in order."""
+    found = {row}
     for i, parent in zip(rows, tree.nodes["parent"][rows].tolist(), strict=True):
-        if parent in below:
-            below.add(i)
-    return ancestors(tree, row) | below
+        if parent in found:
+            found.add(i)
+    return found
 
 
 def nearest_row(

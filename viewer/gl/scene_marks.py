@@ -14,7 +14,7 @@ import numpy as np
 from tracer.formulas.vector import rescale, unit
 from tracer.kernel.nodes import KINDS, SHADOW
 from viewer.base.orbit import project
-from viewer.base.theme import DIMMED, QUIET, Color, faded
+from viewer.base.theme import DIMMED, LABEL_TEXT as TEXT, QUIET, Color, faded
 from viewer.figures import signs
 from viewer.figures.font import text_box
 from viewer.figures.labels import ray_label
@@ -22,7 +22,6 @@ from viewer.figures.marks import Disc, Line, Mark, Point, Rectangle, Shape, Stro
 from viewer.gl.canvas import Canvas
 from viewer.session.session import Session
 
-TEXT = 12.5  # size of labels
 SUN, EYE, CROSS = 22.0, 17.0, 15.0  # sizes of signs
 NAMED, SMALL_SUN = 8, 13.0  # of more lights, the signs are small, and only that of the selected shadow ray is named
 DOT = 4.5  # radius of the selected hit's disc

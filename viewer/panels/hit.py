@@ -13,7 +13,7 @@ from viewer.explain.ray import headline
 from viewer.explain.turned import turned
 from viewer.figures.figure.hit import hit_marks
 from viewer.figures.marks import Handle, Mark, Point, with_line_width
-from viewer.figures.picking import handle_at, mark_at, row_of
+from viewer.figures.picking import handle_at, mark_at, nearest_value, row_of
 from viewer.figures.steps import Step
 from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas
@@ -72,7 +72,7 @@ def _drag(session: Session, marks: list[Mark], at: Point) -> bool:
     if is_held and handle and imgui.is_mouse_dragging(imgui.MouseButton_.left):
         if session.turn is None:
             session.notice.say("turned by hand; a double click brings back the traced ray")
-        session.turn = round(handle.nearest(at), DIGITS)
+        session.turn = round(nearest_value(handle, at), DIGITS)
     if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
         session.turn_back()
     if over and imgui.is_item_hovered():

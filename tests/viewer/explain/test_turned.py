@@ -12,7 +12,8 @@ from tests.conftest import LESSONS
 from tests.scenes import box, plane, world_of
 from tracer.kernel.nodes import SHADOW
 from tracer.scene import Light
-from viewer.explain.turned import STEEPEST, turned
+from viewer.base.values import STEEPEST_INCIDENCE as STEEPEST
+from viewer.explain.turned import turned
 
 ANGLES = (0.0, 12.5, 41.0, 41.3, 60.0, STEEPEST)
 EPS = np.finfo(float).eps

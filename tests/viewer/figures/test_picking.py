@@ -9,7 +9,7 @@ from tests.viewer.figures.geometry import rectangle
 from viewer.base.theme import LIGHT
 from viewer.figures.figure.tree import pages
 from viewer.figures.marks import Box, Disc, Handle, Line, Point, Shape, Stroke, Text
-from viewer.figures.picking import distance, handle_at, mark_at, row_of
+from viewer.figures.picking import distance, handle_at, mark_at, nearest_value, row_of
 from viewer.figures.steps import by_depth
 from viewer.figures.subject import FigureStyle, Subject
 
@@ -86,12 +86,12 @@ def test_a_handle_goes_to_the_nearest_place_of_its_path(path: list[Point], share
     low, high = -3.0, 17.0
 
     def handle(value: float) -> Handle:
-        return Handle("turn", "turn", value, (low, high), tuple(path), BLACK)
+        return Handle("turn", value, (low, high), tuple(path), BLACK)
 
     value = low + share * (high - low)
     at = handle(value).at
-    assert math.dist(handle(handle(value).nearest(at)).at, at) <= 1e-6
-    nearest = math.dist(handle(handle(value).nearest(mouse)).at, mouse)
+    assert math.dist(handle(nearest_value(handle(value), at)).at, at) <= 1e-6
+    nearest = math.dist(handle(nearest_value(handle(value), mouse)).at, mouse)
     others = [handle(low + k / 60 * (high - low)) for k in range(61)]
     assert nearest <= min(math.dist(other.at, mouse) for other in others) + 1e-6
     assert handle_at([LINE, handle(value)], at, 1.0) == handle(value)

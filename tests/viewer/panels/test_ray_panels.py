@@ -9,11 +9,13 @@ from imgui_bundle.imgui import internal
 
 from tests.viewer.driver import Driver, are_equal, body, viewer
 from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import RayTree
 from viewer.explain.interfaces import interfaces
 from viewer.figures.marks import Handle, Line, Mark, Rectangle, Text
 from viewer.panels import PANELS, hit, ray
 from viewer.panels.hit import shown_row
 from viewer.panels.panel import Panel
+from viewer.session.session import Session
 
 Key = imgui.Key
 
@@ -108,20 +110,30 @@ def marks(room: Driver) -> list[Mark]:
 def place_of(room: Driver, row: int, share: float) -> tuple[float, float]:
     """The screen position of a point of a ray in the panel."""
     line = next(mark for mark in marks(room) if isinstance(mark, Line) and mark.name == f"ray-{row}")
+    return on_screen(line.at(share))
+
+
+def on_screen(point: tuple[float, float]) -> tuple[float, float]:
+    """The screen position of a point of the picture of a hit."""
     left, top, _, _ = inner(body(hit.PANEL.title))
     unit = imgui.get_style().font_scale_main
-    x, y = line.at(share)
-    return left + unit * x, top + unit * y
+    return left + unit * point[0], top + unit * point[1]
 
 
-@pytest.mark.parametrize("lecture", (False, True))
-def test_a_ray_in_the_picture_of_a_hit_is_hovered_and_selected_by_the_mouse(room: Driver, lecture: bool) -> None:
+def show_hit_of_t(room: Driver, lecture: bool) -> tuple[Session, RayTree]:
+    """Show the hit of the ray T, at the desk or in lecture mode."""
     if lecture:
         room.press(Key.tab)
     session, tree = room.session, room.session.tree
     assert tree
     session.select(tree.find("T"))
     show(room, hit.PANEL)
+    return session, tree
+
+
+@pytest.mark.parametrize("lecture", (False, True))
+def test_a_ray_in_the_picture_of_a_hit_is_hovered_and_selected_by_the_mouse(room: Driver, lecture: bool) -> None:
+    session, tree = show_hit_of_t(room, lecture)
     for path, after in (("TR", "TR"), ("TT", "TT")):
         session.select(tree.find("T"))
         room.frames(3)
@@ -148,20 +160,10 @@ def test_a_ray_in_the_picture_of_a_hit_is_hovered_and_selected_by_the_mouse(room
 @pytest.mark.parametrize("lecture", (False, True))
 def test_the_ray_in_the_picture_of_a_hit_is_turned_by_its_handle(room: Driver, lecture: bool) -> None:
     """To 60 degrees inside the glass: all light is reflected. A double click, or another ray, ends it."""
-    if lecture:
-        room.press(Key.tab)
-    session, tree = room.session, room.session.tree
-    assert tree
-    session.select(tree.find("T"))
-    show(room, hit.PANEL)
-    left, top, _, _ = inner(body(hit.PANEL.title))
-    unit = imgui.get_style().font_scale_main
+    session, tree = show_hit_of_t(room, lecture)
 
     def handle() -> Handle:
         return next(mark for mark in marks(room) if isinstance(mark, Handle))
-
-    def on_screen(point: tuple[float, float]) -> tuple[float, float]:
-        return left + unit * point[0], top + unit * point[1]
 
     def words() -> list[str]:
         return [mark.content for mark in marks(room) if isinstance(mark, Text)]
@@ -173,9 +175,8 @@ def test_the_ray_in_the_picture_of_a_hit_is_turned_by_its_handle(room: Driver, l
         room.drag([start, (start[0] - 8.0, start[1]), stop])
         assert session.turn == pytest.approx(60.0, abs=1.0)
         assert "v: turned by hand" in words() and f"θ₁ = {session.turn:.2f}°" in " ".join(words())
-        assert (
-            any(content.startswith("no T") for content in words()) and session.selection == "T" and session.tree is tree
-        )
+        assert any(content.startswith("no T") for content in words())
+        assert session.selection == "T" and session.tree is tree
         assert not are_equal(room.picture(), traced)
         if end == "double click":
             x, y = on_screen(handle().at)

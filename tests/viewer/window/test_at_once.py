@@ -1,4 +1,4 @@
-"""What is picked or selected is shown by all panels in the same frame: it looks as after many frames.
+"""All panels show a picked pixel and a selected ray in the same frame: it looks as after many frames.
 
 Scroll bars and tooltips are left out, since imgui shows them a frame late.
 """

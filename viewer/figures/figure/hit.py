@@ -14,11 +14,11 @@ from tracer.kernel.nodes import SHADOW
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import STYLES, Theme, faded
+from viewer.base.values import STEEPEST_INCIDENCE
 from viewer.base.wording import format_number
 from viewer.explain.formulas import Lecture
 from viewer.explain.lighting import local_light
 from viewer.explain.scattering import scattering_sections
-from viewer.explain.turned import STEEPEST
 from viewer.figures import signs
 from viewer.figures.figure.hit_corners import HitCorners
 from viewer.figures.figure.hit_lights import HitLights
@@ -79,7 +79,7 @@ def hit_marks(
     """The marks of a hit, laid out for a rectangle and a text size. `node` is its row (`hit_row`). Without a `world`,
     the local term has no numbers. A ray that `is_turned` by hand is none of the pixel's tree, and has no label.
 
-    The incoming ray ends in a handle: its parameter `turn` is the angle of incidence in degrees.
+    The incoming ray ends in the handle `turn`: the angle of incidence in degrees.
     """
     return _Drawing(step, node, size, theme, world, where, is_turned).marks
 
@@ -117,9 +117,9 @@ class _Drawing:
     def _handle(self) -> None:
         """The handle at the start of the incoming ray."""
         degrees, color = math.degrees(self.theta1), self.theme.ray(self.tree.kind(self.node))
-        path = tuple(self.frame.at(-math.radians(angle), self.reach) for angle in range(int(STEEPEST) + 1))
+        path = tuple(self.frame.at(-math.radians(angle), self.reach) for angle in range(int(STEEPEST_INCIDENCE) + 1))
         title = "drag to turn the ray"
-        self.marks.append(Handle("turn", "turn", degrees, (0.0, STEEPEST), path, color, title=title))
+        self.marks.append(Handle("turn", degrees, (0.0, STEEPEST_INCIDENCE), path, color, title=title))
 
     def _turn(self, child: int) -> float:
         """The direction of a ray that is sent out, clockwise from the normal."""
@@ -249,19 +249,18 @@ class _Drawing:
             places = [(left, y)]
         elif self.tree.from_inside(self.node) and not math.isnan(self.row["n2"]):
             places = [(left, y - 0.8 * size), (left, self.corners.third + LINE * size)]
-        x0, _, x1, _ = self.frame.picture
+        (x0, _, x1, _), title = self.frame.picture, hit_label(self.tree, self.node)
         lines = [(mark.start, mark.end) for mark in self.marks if isinstance(mark, Line)]
         lines += [] if sheet else [((x0, y), (x1, y))]
         text = Text("surface", places[0], "", size, self.theme.text, "start", on_line=sheet)
         for share, at in itertools.product((1.0, 0.8, 0.6, 0.4), places):
-            name = fitted(hit_label(self.tree, self.node), share * (x - left - 2.0 * size), size)
+            name = fitted(title, share * (x - left - 2.0 * size), size)
             text = replace(text, at=at, content=name)
             if is_free(text.box(), self.taken, lines) and self.lights.keeps_clear(text.box()):
                 break
         else:  # no room for a name
             text = None
         hole = text.box() if sheet and text else None
-        title = hit_label(self.tree, self.node)
         self.marks.append(Line("surface", (x0, y), (x1, y), Stroke(self.theme.text, 2.4), hole=hole, title=title))
         self.marks += [text] if text else []
 

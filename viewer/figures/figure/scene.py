@@ -146,7 +146,7 @@ class _Drawing:
         halo = 2.0 * HALO if line.kind != "shadow" else 0.0
         is_strong = line.row in self.step.current or line.row == self.selected
         stroke = Stroke(color, (STRONG if is_strong else 1.0) * slim * style.width, line.dash)
-        faint = Stroke((*color[:3], FAINT * color[3]), style.width, line.dash)
+        faint = Stroke(faded(color, FAINT), style.width, line.dash)
         strong = self.share * STRONG * style.width
         arrow = self.view.arrow_at(line, 0.0 if style.arrow is Arrow.NONE else HEAD_ROOM * strong)
         widest = strong + self.share * halo  # on any page: a ray keeps its ends

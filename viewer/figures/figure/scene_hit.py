@@ -6,14 +6,12 @@ from itertools import pairwise
 import numpy as np
 
 from tracer.tree.raytree import RayTree
-from viewer.base.theme import HALO, Arrow, Color, Theme, faded
+from viewer.base.theme import HALO, HIDDEN, LABEL_TEXT, Arrow, Theme, faded
 from viewer.figures.layout.label_placement import LabelPlacer, Spot
-from viewer.figures.marks import Line, Mark, Piece, Point, Stroke, clip_shares, inside, point_along
+from viewer.figures.marks import Line, Mark, Piece, Point, Stroke, clipped
 from viewer.figures.visible.interface import Curve, Name, hit_of, interface_curves, interface_names
 from viewer.figures.visible.scene_view import NEAR, SceneView
 
-TEXT = 12.5  # size of the labels in the 3D view, beside which LENGTH was chosen
-HIDDEN = 0.3  # opacity behind something opaque
 LIFT = 1e-3  # from the surface towards the ray: there it is tested whether the hit is seen
 
 
@@ -29,7 +27,7 @@ class SceneHit:
     def of(view: SceneView, tree: RayTree, row: int, size: float, theme: Theme) -> "SceneHit | None":
         """The interface at the end of a ray, for a text size; None if there is none in front of the camera."""
         hit = hit_of(tree, row, view.frame)
-        point = view.point_size(hit.foot) * size / TEXT if hit else 0.0
+        point = view.point_size(hit.foot) * size / LABEL_TEXT if hit else 0.0
         if hit is None or not point > 0.0:
             return None
         length = hit.length(point)
@@ -43,7 +41,7 @@ class SceneHit:
         lines: list[Mark] = []
         for curve in self.curves:
             stroke = curve.stroke
-            ink = Stroke(_fainter(stroke.color, self.opacity), stroke.width, stroke.dash)
+            ink = Stroke(faded(stroke.color, self.opacity), stroke.width, stroke.dash)
             border = Stroke(faded(theme.ground, ink.color[3]), stroke.width + 1.5 * HALO, stroke.dash)
             room = 0.5 * share * border.width
             for piece in _pieces(view, curve.points, room):
@@ -63,10 +61,6 @@ class SceneHit:
         return found
 
 
-def _fainter(color: Color, opacity: float) -> Color:
-    return (*color[:3], color[3] * opacity)
-
-
 def _pieces(view: SceneView, points: np.ndarray, room: float) -> list[Piece]:
     """The segments of a curve (n, 3) on the canvas, as far as they are inside the figure by so much."""
     places, depths = view.at(points)
@@ -77,8 +71,6 @@ def _pieces(view: SceneView, points: np.ndarray, room: float) -> list[Piece]:
     for (a, near), (b, far) in pairwise(zip(corners, depths.tolist(), strict=True)):
         if near <= NEAR or far <= NEAR:
             continue
-        if inside(a, box) and inside(b, box):
-            found.append((a, b))
-        elif shares := clip_shares((a, b), box):
-            found.append((point_along((a, b), shares[0]), point_along((a, b), shares[1])))
+        if piece := clipped((a, b), box):
+            found.append(piece)
     return found

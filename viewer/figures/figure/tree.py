@@ -24,7 +24,7 @@ from viewer.figures.layout.tree_plan import TreePlan, plan_tree
 from viewer.figures.legend import legend
 from viewer.figures.lights import MOST_LIGHTS, fate_of, light_title, ray_dash, shadow_rays
 from viewer.figures.marks import Line, Mark, Point, Rectangle, Stroke, Text, blended
-from viewer.figures.ray_lines import ancestors, relatives
+from viewer.figures.ray_lines import ancestors, branch
 from viewer.figures.steps import Step
 from viewer.figures.subject import FigureStyle, Pages, Subject
 
@@ -285,10 +285,9 @@ class _Drawing:
         """Dim the rays that are neither above nor below the selected one, nor shown by this step, and their hits."""
         assert self.style.selected is not None
         selected, parents = self.style.selected, self.tree.nodes["parent"]
-        kept = relatives(self.tree, selected, rows)
-        below = (kept - ancestors(self.tree, selected)) | {selected}
-        folded = self.plan.folds.keys() & self.step.rows
-        kept |= self.step.current | {row for row in folded if int(parents[row]) in below}
+        below = branch(self.tree, selected, rows)
+        folded = {row for row in self.plan.folds.keys() & self.step.rows if int(parents[row]) in below}
+        kept = ancestors(self.tree, selected) | below | self.step.current | folded
         bright = {f"{what}-{i}" for what in OF_A_ROW for i in kept}
         dims = tuple(f"{what}-" for what in OF_A_ROW)
         self.marks = [

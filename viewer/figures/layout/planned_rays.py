@@ -30,6 +30,11 @@ class PlannedRays:
         return self.tree.nodes["depth"].tolist()
 
     @cached_property
+    def deepest(self) -> int:
+        """The largest depth."""
+        return max(self.depths)
+
+    @cached_property
     def parents(self) -> list[int]:
         return self.tree.nodes["parent"].tolist()
 

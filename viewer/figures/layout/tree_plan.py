@@ -147,7 +147,7 @@ def _plan_forms(sizes: RaySizes, style: TreeStyle) -> TreePlan:
         bare = _named(sizes, replace(low, lights=0, line=NO_LINE))
         plans.append(replace(bare, lights_left_out=True))
     left, top, right, bottom = style.where
-    too_deep = _levels(rays, low) < int(rays.tree.nodes["depth"].max())
+    too_deep = _levels(rays, low) < rays.deepest
     if style.eye == "top" and (too_deep or right - left < NARROW * (bottom - top)):
         plans.append(_named(sizes, replace(low, eye=OUTLINE)))
     return max(plans, key=lambda plan: plan.seen)
@@ -155,7 +155,7 @@ def _plan_forms(sizes: RaySizes, style: TreeStyle) -> TreePlan:
 
 def _levels(rays: PlannedRays, style: TreeStyle) -> int:
     """The number of the tree's levels for which there is room."""
-    return min(levels_down(style, hung=False), int(rays.tree.nodes["depth"].max()))
+    return min(levels_down(style, hung=False), rays.deepest)
 
 
 def _plan_lights(sizes: RaySizes, style: TreeStyle) -> TreePlan:
@@ -191,12 +191,12 @@ def _named(sizes: RaySizes, style: TreeStyle) -> TreePlan:
 def fitting_size(rays: PlannedRays, style: TreeStyle) -> float | None:
     """The largest text size, in whole points, with which all rays fit; None if no size does."""
     hits = {i for i in rays.rows if not rays.is_shadow[i]}
-    deepest, sizes = max(rays.depths), RaySizes(rays)
+    sizes = RaySizes(rays)
     for size in range(int(style.size), int(SMALLEST) - 1, -1):
         for compact in (False, True):
             asked = replace(style, size=float(size), longest=SHORT, named=False, line=NO_LINE, compact=compact)
             measured = sizes.in_style(asked)
-            if deepest <= _last_level(measured) and _try(measured, hits, deepest):
+            if rays.deepest <= _last_level(measured) and _try(measured, hits, rays.deepest):
                 return float(size)
     return None
 
@@ -205,7 +205,7 @@ def _plan(sizes: RaySizes, style: TreeStyle) -> TreePlan:
     """The plan with as many levels as possible, or with one less if that shows more of the weight."""
     measured, rays = sizes.in_style(style), sizes.rays
     last = _last_level(measured)
-    count = 1 if last > max(rays.depths) else 2  # below the deepest level, one less changes nothing
+    count = 1 if last > rays.deepest else 2  # below the deepest level, one less changes nothing
     plans = [_plan_of(measured, levels) for levels in range(last, max(last - count, -1), -1)]
     return max(plans, key=lambda plan: sum(rays.weights[i] for i in sorted(plan.rows) if not rays.is_shadow[i]))
 
@@ -256,8 +256,7 @@ def _heaviest(measured: HitSizes, last: int) -> list[int]:
 
 def _last_level(measured: HitSizes) -> int:
     """The level below which there are no boxes."""
-    style = measured.style
-    deepest = int(measured.tree.nodes["depth"].max())
+    style, deepest = measured.style, measured.rays.deepest
     if style.eye == "left":
         return levels_right(Sizes.of(measured, measured.rays.rows, {}), style)
     if style.eye == OUTLINE:

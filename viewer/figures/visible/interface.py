@@ -15,6 +15,7 @@ from viewer.base.orbit import Frame
 from viewer.base.theme import NORMAL_WIDTH, Theme, faded
 from viewer.base.wording import format_angle, format_number
 from viewer.explain.scattering import direction_error
+from viewer.explain.turned import along_surface
 from viewer.figures.marks import Stroke
 
 LENGTH = 96.0  # logical pixels: of the normal, if it is seen from the side
@@ -75,16 +76,13 @@ def hit_of(tree: RayTree, row: int, frame: Frame) -> Hit | None:
     node = tree.nodes[row]
     if node["kind"] == SHADOW or node["object"] < 0 or not np.isfinite(node["normal"]).all():
         return None
-    v, normal = np.array(node["direction"]), np.array(node["normal"])
-    along = v - (v @ normal) * normal
-    if np.linalg.norm(along) < 1e-9:
-        along = np.cross(normal, np.eye(3)[int(np.argmin(np.abs(normal)))])
+    normal = np.array(node["normal"])
     clear = not math.isnan(node["radicand"])
     n1, n2 = float(node["n1"]), float(node["n2"])
     return Hit(
         frame.inside(node["point"]),
         normal,
-        along / np.linalg.norm(along),
+        along_surface(node["direction"], normal),
         float(node["theta1"]),
         None if math.isnan(node["theta2"]) else float(node["theta2"]),
         n1,

@@ -12,7 +12,7 @@ import tracer
 from tracer.kernel.world import World
 from viewer.base.orbit import Frame, Orbit, project
 from viewer.base.theme import ARROW_AT
-from viewer.figures.marks import Piece, Point, Rectangle, clip_shares, inside, point_along, widened
+from viewer.figures.marks import Piece, Point, Rectangle, clipped, inside, widened
 from viewer.figures.ray_lines import RayLine
 from viewer.figures.visible.scenery import occluder_world, orbit_camera, visible_parts
 
@@ -69,8 +69,7 @@ class SceneView:
         aside, above = half * abs(y1 - y0), half * abs(x1 - x0)
         left, top, right, bottom = self.where
         piece: Piece = ((x0, y0), (x1, y1))
-        within = clip_shares(piece, (left + aside, top + above, right - aside, bottom - above))
-        return (point_along(piece, within[0]), point_along(piece, within[1])) if within else None
+        return clipped(piece, (left + aside, top + above, right - aside, bottom - above))
 
     def arrow_at(self, line: RayLine, room: float) -> float:
         """The place of a ray's arrow: the usual one, or the middle of the visible part. 0 if there is none that is at

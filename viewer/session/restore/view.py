@@ -42,8 +42,7 @@ class Viewed(Protocol):
 
 
 def state_of(viewed: Viewed) -> ViewState:
-    """The state of the view on show. What is as in a new window is None, except for panels, theme
-    and size of type."""
+    """The state of the view on show. What is as in a new window is None, except for panels, theme and size of type."""
     shown, look = viewed.shown, viewed.appearance
     hidden = tuple(name for name in SWITCHES if not getattr(shown, name))
     return ViewState(

@@ -82,7 +82,8 @@ class Reveal:
     @property
     def step(self) -> Step | None:
         """The current step; None if the whole tree is on show."""
-        position, steps = self.position, self.steps if self.place else None
+        position = self.position
+        steps = None if position is None else self.steps
         if not steps or position is None:
             return None
         return self._step.get((steps, position), lambda: steps[position])
