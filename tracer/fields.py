@@ -96,6 +96,17 @@ def text() -> Mapping[str, Callable[[Any], Any]]:
     return rule(read, lambda values: set(map(type, values)) <= {str} and all(map(str.strip, values)))
 
 
+def texts() -> Mapping[str, Callable[[Any], Any]]:
+    """A list of non-empty strings."""
+
+    def read(value: Any) -> tuple[str, ...]:
+        if not isinstance(value, list) or not all(isinstance(item, str) and item.strip() for item in value):
+            raise Refused("a list of non-empty strings")
+        return tuple(value)
+
+    return rule(read)
+
+
 def choice(*allowed: str) -> Mapping[str, Callable[[Any], Any]]:
     def read(value: Any) -> str:
         if not isinstance(value, str) or value not in allowed:

@@ -5,9 +5,10 @@ Importing this package loads no reader.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from pkgutil import resolve_name
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tracer.progress import Progress, ignore
 
@@ -22,6 +23,7 @@ MESH_READERS = {
     ".glb": "tracer.formats.gltf.reader:read_gltf",
     ".gltf": "tracer.formats.gltf.reader:read_gltf",
 }
+CHANGEABLE = ".toml"  # suffix of the scenes whose values can be replaced
 UP_AXES = ("y", "z")  # of a mesh file that may point upwards
 
 OTHER_MESHES = (".dae", ".3mf", ".usd", ".usda", ".usdc", ".usdz", ".fbx", ".blend", ".3ds", ".x3d", ".wrl")
@@ -34,11 +36,17 @@ READERS = {
 }
 
 
-def load(path: str | Path, progress: Progress = ignore, up: str = UP_AXES[0]) -> Scene:
+def load(
+    path: str | Path,
+    progress: Progress = ignore,
+    up: str = UP_AXES[0],
+    changes: Mapping[str, Any] | None = None,
+) -> Scene:
     """Read the scene in a file. The suffix decides on the format.
 
     `progress` is called with the fraction that has been read, if the reader knows it. `up` is the axis of a mesh file
-    that points upwards, one of UP_AXES. Raises SceneError with every fault.
+    that points upwards, one of UP_AXES. `changes` are values that replace those of a .toml file, in nested tables as
+    `{"material": {"glass": {"ior": 1.5}}}`. Raises SceneError with every fault.
     """
     from tracer.formats.source import Fault, check_regular
     from tracer.printable import shown_path
@@ -53,9 +61,13 @@ def load(path: str | Path, progress: Progress = ignore, up: str = UP_AXES[0]) ->
     if reader is None:
         got = shown_path(path.suffix) or "no suffix"
         raise SceneError([f"{shown_path(path)}: a scene must be one of {', '.join(READERS)}, got {got}"])
-    options = {} if up == UP_AXES[0] else {"up": up}
+    options: dict[str, Any] = {} if up == UP_AXES[0] else {"up": up}
     if options and suffix not in MESH_READERS:
         raise SceneError([f"{shown_path(path)}: only a mesh file has an axis that points upwards (up)"])
+    if changes:
+        if suffix != CHANGEABLE:
+            raise SceneError([f"{shown_path(path)}: only a {CHANGEABLE} scene can be changed (set)"])
+        options["changes"] = changes
     try:
         check_regular(path)
         with no_garbage_collection():

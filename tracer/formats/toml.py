@@ -4,7 +4,7 @@ A fault is one line: `scene.toml: object[2] "ball": radius must be > 0, got -1`.
 """
 
 import tomllib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -15,6 +15,7 @@ from tracer.formats.meshes import load_mesh, part_objects
 from tracer.formats.source import MOST_TEXT, Fault, decode, read_bytes
 from tracer.printable import shown_path
 from tracer.scene import Background, Camera, Checker, Image, Light, Material, Object, Scene, SceneError, Tracing
+from tracer.scene.changes import overridden
 from tracer.scene.scene import place
 from tracer.shapes import SHAPE_NAMES, SHAPES
 from tracer.shapes.mesh import Mesh
@@ -31,12 +32,18 @@ NO_MATERIAL = Material()
 OBJECT_KEYS = ("shape", "material", *OWN_KEYS)
 
 
-def read_scene(path: Path, progress: Callable[[float], None]) -> Scene:
-    """Read a file. Raises SceneError with every fault, and OSError if it cannot be read."""
+def read_scene(path: Path, progress: Callable[[float], None], changes: Mapping[str, Any] | None = None) -> Scene:
+    """Read a file, with these changes to its document (`tracer.scene.changes`). Raises SceneError with every fault,
+    and OSError if it cannot be read.
+    """
     try:
         document = parsed(read_bytes(path, MOST_TEXT))
     except Fault as fault:
         raise SceneError([fault.within(shown_path(path))]) from None
+    if changes:
+        document, faults = overridden(document, changes, TABLES, LISTS)
+        if faults:
+            raise SceneError([f"{shown_path(path)}: {fault}" for fault in faults], (path,))
     return Reader(path).scene(document, progress)
 
 

@@ -16,6 +16,7 @@ PAPER_LEAST, PAPER_MOST = 200, 4000  # points: the sides of a figure's page
 SMALLEST_ZOOM, LARGEST_ZOOM = 0.01, 1000.0  # of a picture in its panel
 NEAREST, FARTHEST = 1e-9, 1e9  # distance of the 3D view, in radii of the scene
 FAR = 1e6  # limit of the coordinates of a picture's middle
+AT_HELP = "of a lesson: its step, from 1; 3.2 is two presses of a key after the beginning of step 3"
 UP_HELP = "axis of a mesh file that points upwards, y by default"
 DEPTH_HELP = "recursion depth, the scene's own by default"
 MODEL_HELP = "the scene's own by default"
@@ -66,6 +67,18 @@ def _size(text: str) -> tuple[int, int]:
     if not (1 <= width <= MAX_PIXELS and 1 <= height <= MAX_PIXELS):
         raise Unreadable(f'a size from 1x1 to {MAX_PIXELS}x{MAX_PIXELS}, got "{text}"')
     return width, height
+
+
+def _moment(text: str) -> tuple[int, int]:
+    found = re.fullmatch(r"([1-9]\d{0,5})(?:\.(\d{1,5}))?", text.strip())
+    if not found:
+        raise Unreadable(f'a step from 1, like 3, or with the presses after its beginning, like 3.2, got "{text}"')
+    return int(found[1]), int(found[2] or 0)
+
+
+def _show_moment(moment: tuple[int, int]) -> str:
+    step, press = moment
+    return f"{step}.{press}" if press else str(step)
 
 
 def _paper(text: str) -> tuple[int, int]:
@@ -144,6 +157,7 @@ def _show_numbers(numbers: Sequence[float]) -> str:
 
 TEXT = Value(str)
 FILE = Value(Path, metavar="FILE")
+MOMENT = Value(_moment, _show_moment, "STEP")
 PIXEL = Value(lambda text: _two(text, ","), lambda pixel: f"{pixel[0]},{pixel[1]}", "X,Y")
 SIZE = Value(_size, lambda size: f"{size[0]}x{size[1]}", "WxH")
 PAPER = Value(_paper, lambda size: f"{size[0]}x{size[1]}", "WxH")  # of a figure

@@ -20,7 +20,7 @@ from viewer.session.restore.figure_scene import FigureScene
 def export(options: ExportOptions) -> int:
     with contextlib.ExitStack() as stack:
         scene, target, _ = collect(
-            lambda: stack.enter_context(found_scene(options.scene)),
+            lambda: stack.enter_context(found_scene(options.scene, options.at)),
             lambda: target_of(options),
             lambda: check_options(options),
         )
@@ -40,10 +40,10 @@ def make_files(options: ExportOptions, scene: FigureScene, target: Target) -> Ma
     """Make the files of a scene's figures, and write them."""
     compile_once()
     with faults():
-        world = prepared(scene.path, options.up)
+        world = prepared(scene.path, options.up, changes=scene.changes)
         with Progress("export") as progress:
             lesson = scene.lesson
-            name, view = (lesson.name, lesson.view) if lesson else (scene.path.stem, None)
+            name, view = (lesson.name, scene.step.state.view) if lesson and scene.step else (scene.path.stem, None)
             files = scene_files(world.scene, lesson.path if lesson else None, scene.home if scene.copy_of else None)
             size = (world.scene.image.width, world.scene.image.height)
             carried = embedded(files, options.state(size)) if files else None

@@ -1,9 +1,10 @@
 """Finding and loading the scene that a command line names."""
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import tracer
 from tracer.extras import MissingExtra
@@ -16,7 +17,7 @@ from viewer.base.values import SCENE_HELP
 from viewer.lessons import lesson
 from viewer.lessons.lesson import Lesson
 from viewer.reopen.places import CARRYING, is_figure
-from viewer.reopen.view_state import UNCHANGED
+from viewer.reopen.view_state import UNCHANGED, ViewState, merged
 from viewer.session.restore.figure_scene import FigureScene, FigureScenes
 from viewer.session.scene_loader import with_lesson
 
@@ -42,15 +43,19 @@ def find(name: str, takes_figures: bool = False) -> tuple[Path, Lesson | None]:
 
 
 @contextlib.contextmanager
-def found_scene(name: str) -> Iterator[FigureScene]:
-    """The scene of a file, a lesson or a figure, with the state that it opens with. A copy that a figure carries is
-    there until the end. Unusable if there is none.
+def found_scene(name: str, at: tuple[int, int] | None = None) -> Iterator[FigureScene]:
+    """The scene of a file, a lesson or a figure, with the state that it opens with. `at` is the place in a lesson. A
+    copy that a figure carries is there until the end. Unusable if there is none.
     """
     path, lesson = find(name, takes_figures=True)
+    if at and lesson is None and not is_figure(path):
+        raise Unusable(f"{name}: --at is for a lesson; this is a scene")
     figures = FigureScenes()
     try:
         found = figures.find(path) if is_figure(path) else FigureScene(path, lesson, UNCHANGED, path.parent)
-        yield replace(found, state=with_lesson(found.state, found.lesson))
+        state = merged(found.state, ViewState(at=at))
+        found = replace(found, state=with_lesson(state, found.lesson))
+        yield replace(found, path=found.step.scene) if found.step else found
     finally:
         figures.close()
 
@@ -77,10 +82,12 @@ def faults() -> Iterator[None]:
         raise Unusable(f"raytree: {error}") from None
 
 
-def prepared(path: Path, up: str = UP_AXES[0], prints_notes: bool = True) -> tracer.World:
-    """Load and prepare a scene."""
+def prepared(
+    path: Path, up: str = UP_AXES[0], prints_notes: bool = True, changes: Mapping[str, Any] | None = None
+) -> tracer.World:
+    """Load and prepare a scene, with changes to the values of its file."""
     with Progress(f"load {path.name}") as progress:
-        scene = tracer.load(path, progress, up)
+        scene = tracer.load(path, progress, up, changes)
         progress.say(f"prepare {path.name}")
         world = tracer.prepare(scene)
         for note in world.notes if prints_notes else []:

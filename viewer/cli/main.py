@@ -54,7 +54,10 @@ COMMANDS = (
         "check", "numbers against exact answers: cases where textbook formulas fail", options.CheckOptions,
         "viewer.cli.check:check",
     ),
-    Command("lessons", "the lessons, one per line", options.LessonsOptions, "viewer.cli.lessons:lessons"),
+    Command(
+        "lessons", "the lessons, one per line; the check of a lesson; a new one", options.LessonsOptions,
+        "viewer.cli.lessons:lessons",
+    ),
 )  # fmt: skip
 
 

@@ -9,12 +9,14 @@ from tracer.formats import UP_AXES
 from viewer.base.options import argument, option, switch
 from viewer.base.pictures import WRITERS
 from viewer.base.values import (
+    AT_HELP,
     DEPTH_HELP,
     FIGURE_TOO,
     FILE,
     LIGHT,
     MAX_RAYS_HELP,
     MODEL_HELP,
+    MOMENT,
     PIXEL,
     POSITIVE,
     RAY,
@@ -90,6 +92,7 @@ class TraceOptions:
     """`raytree trace`."""
 
     scene: str = argument("SCENE", TEXT, FIGURE_TOO)
+    at: tuple[int, int] | None = option(MOMENT, AT_HELP)
     pixel: tuple[int, int] | None = option(PIXEL, "counted from the image's top left", group="where", required=True)
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where", required=True)
     depth: int | None = _depth()
@@ -182,3 +185,6 @@ class CheckOptions:
 @dataclass(frozen=True, kw_only=True)
 class LessonsOptions:
     """`raytree lessons`."""
+
+    check: str | None = option(TEXT, "say everything that is wrong with a lesson", metavar="FOLDER", group="what")
+    new: str | None = option(TEXT, "write a new lesson to begin with", metavar="FOLDER", group="what")

@@ -15,9 +15,9 @@ def trace(options: TraceOptions) -> int:
         check_writable(options.output)
     if options.verify and options.format not in ("text", "json"):
         raise Unusable(f"raytree trace: --verify is written as text or json, not as {options.format}")
-    with found_scene(options.scene) as scene, faults():
+    with found_scene(options.scene, options.at) as scene, faults():
         compile_once()
-        world = prepared(scene.path, options.up)
+        world = prepared(scene.path, options.up, changes=scene.changes)
         ray = (options.ray[:3], options.ray[3:]) if options.ray else None
         tree = tracer.trace(world, options.pixel, ray, **limits_of(options))
     most = options.rays or None

@@ -76,7 +76,11 @@ def _opening(options: ViewOptions) -> Opening:
     path, lesson = find(options.scene or lessons.names()[0], takes_figures=True)
     if not is_there(path):  # a file that cannot be read is shown with its faults: perhaps it is being written
         raise Unusable(f"{shown_path(path)}: file not found")
-    return Opening(path, lesson, options.state)
+    state = options.state
+    if lesson and not state.panels and not state.at:
+        state = replace(state, at=(1, 0))
+    is_whole = options.depth is not None or options.page is not None  # as in a copied command line
+    return Opening(path, lesson, state, shows_stage=bool(lesson) and not is_whole)
 
 
 def _with_last_session(options: ViewOptions, folder: Path | None) -> tuple[LastSession | None, Opening]:
@@ -94,7 +98,7 @@ def _with_last_session(options: ViewOptions, folder: Path | None) -> tuple[LastS
     except Unusable as unusable:
         return last, replace(first, note=f"{NOT_RESTORED}{unusable.faults[0]}")
     instead = replace(first, note=NOT_RESTORED)
-    return last, replace(opening, state=merged(last.state, options.state), instead=instead)
+    return last, replace(opening, state=merged(last.state, options.state), shows_stage=False, instead=instead)
 
 
 class TreeCheck:
@@ -157,9 +161,9 @@ def without_display(options: ViewOptions, reason: str) -> int:
     compile_once()
     opening = _opening(options)
     with contextlib.ExitStack() as stack, faults():
-        scene = stack.enter_context(found_scene(options.scene or lessons.names()[0]))
+        scene = stack.enter_context(found_scene(options.scene or lessons.names()[0], options.at))
         state = merged(scene.state, options.state)
-        world = prepared(scene.path, state.up)
+        world = prepared(scene.path, state.up, changes=scene.changes)
         image = world.scene.image
         pixel = state.pixel or (image.width // 2, image.height // 2)
         tree = tracer.trace(world, pixel, depth=state.depth, model=state.model)

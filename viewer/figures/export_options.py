@@ -7,10 +7,12 @@ from tracer.formats import UP_AXES
 from viewer.base.options import argument, option, switch
 from viewer.base.theme import THEMES
 from viewer.base.values import (
+    AT_HELP,
     DEPTHS,
     FIGURE_TOO,
     INCIDENCE,
     MAX_RAYS_HELP,
+    MOMENT,
     ORBIT,
     PAPER,
     PIXEL,
@@ -43,6 +45,7 @@ class ExportOptions:
     """`raytree export`."""
 
     scene: str = argument("SCENE", TEXT, FIGURE_TOO)
+    at: tuple[int, int] | None = option(MOMENT, AT_HELP)
     pixel: tuple[int, int] | None = option(PIXEL, "from the image's top left; a lesson's own by default", group="where")
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where")
     figure: str = option(one_of(FIGURE_NAMES), "tree by default", "tree")
@@ -97,6 +100,7 @@ class ExportOptions:
         image of another size is none of the window's, and a ray given by hand is not either.
         """
         own = ViewState(
+            at=self.at,
             pixel=self.pixel if self.size in (None, size) else None,
             depth=self.depth[-1] if self.depth else None,
             model=self.model,

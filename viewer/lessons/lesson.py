@@ -1,43 +1,32 @@
 """Lessons: one folder each in `lessons/`, written without Python.
 
-`lesson.md` begins with its data in TOML, between two lines `+++`. Below, Markdown says what there is to see:
+`lesson.md` begins with its data in TOML, between two lines `+++`. Below, in Markdown, each heading is a step:
 
     +++
-    title = "Mirror balls"
-    scene = "scene.toml"
-    pixel = [400, 300]      # picked when the lesson is opened
-    depth = 3
-    [view]                  # of the 3D scene, optional: angles in degrees, distance in radii of the scene
-    azimuth = 35
-    elevation = 20
-    distance = 2.5
+    title = "Critical angle"
+    question = "Can light be locked into water?"
     +++
-    What to look at.
+    ## Below the critical angle
+    ```step
+    pixel = [300, 320]
+    ```
+    The ray meets the surface at {theta1}. Will it leave the water at 50 degrees?
+    ???
+    No: beyond 48.75 degrees all of it is reflected.
+
+docs/lessons.md lists the keys.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
 from tracer import fields
 from tracer.formats.source import MOST_TEXT, Fault, read_bytes, utf8
-from tracer.formats.toml import parsed
 from tracer.printable import shown_path
 from viewer.base.files import Unusable, is_there
-from viewer.base.orbit import AZIMUTH, DISTANCE, ELEVATION
-
-MARK = "+++"
-
-
-@dataclass(frozen=True)
-class LessonView:
-    """The first view of the 3D scene."""
-
-    azimuth: float = field(default=AZIMUTH, metadata=fields.number())  # degrees from the side of the scene's camera
-    elevation: float = field(default=ELEVATION, metadata=fields.number(above=-90, below=90))  # degrees
-    distance: float = field(default=DISTANCE, metadata=fields.number(above=0))  # in radii of the scene
-    target: tuple[float, float, float] | None = field(default=None, metadata=fields.point())  # None: its centre
+from viewer.lessons.reader import MARK, Source, read_head, read_steps, split
+from viewer.lessons.step import Step
 
 
 @dataclass(frozen=True)
@@ -45,11 +34,23 @@ class Lesson:
     name: str
     title: str
     path: Path  # of lesson.md
-    scene: Path
-    text: str
-    pixel: tuple[int, int] | None
-    depth: int | None
-    view: LessonView
+    question: str
+    minutes: int | None
+    objectives: tuple[str, ...]
+    steps: tuple[Step, ...]
+
+    @property
+    def first(self) -> Step:
+        return self.steps[0]
+
+    def step_at(self, number: int) -> Step:
+        """The step of this number from 0; beyond the last one, the last."""
+        return self.steps[min(max(number, 0), len(self.steps) - 1)]
+
+    @property
+    def scene(self) -> Path:
+        """The scene of its first step."""
+        return self.first.scene
 
 
 def folder() -> Path:
@@ -57,10 +58,23 @@ def folder() -> Path:
 
 
 def names() -> list[str]:
-    """All lessons in teaching order: those in the file ORDER first, then the others by name."""
-    found = {path.parent.name for path in folder().glob("*/lesson.md")}
-    order = (folder() / "ORDER").read_text("utf-8").split()
-    return [name for name in order if name in found] + sorted(found - set(order))
+    """All lessons: those of the course in their order, then the deeper ones by name."""
+    return [*course(), *deeper()]
+
+
+def course() -> list[str]:
+    """The lessons of the file ORDER, which make a course."""
+    found = _found()
+    return [name for name in (folder() / "ORDER").read_text("utf-8").split() if name in found]
+
+
+def deeper() -> list[str]:
+    """The lessons beside the course."""
+    return sorted(_found().difference(course()))
+
+
+def _found() -> set[str]:
+    return {path.parent.name for path in folder().glob("*/lesson.md")}
 
 
 def read(name: str) -> Lesson:
@@ -72,39 +86,27 @@ def read(name: str) -> Lesson:
 
 
 def read_file(path: Path) -> Lesson:
-    """Read a lesson from any file. Raises Unusable with all its faults."""
+    """Read a lesson from any file. Raises Unusable with all its faults, each with its line."""
     place = shown_path(path)
     try:
         text = _text(path)
         if text.count(f"{MARK}\n") < 2 or not text.startswith(MARK):
             raise Fault(f"a lesson begins with its data between two lines {MARK}")
         _, head, body = text.split(f"{MARK}\n", 2)
-        data = parsed(head.encode("utf-8"))
     except FileNotFoundError:
         raise Unusable(f"{place}: file not found") from None
     except OSError as error:
         raise Unusable(f"{place}: cannot be read: {error.strerror}") from None
     except Fault as fault:
         raise Unusable(fault.within(place)) from None
-    faults: list[str] = []
-    angles = data.pop("view", {})
-    if not isinstance(angles, dict):
-        faults.append(fields.refusal("view", "a table", angles))
-        angles = {}
-    view = fields.read_fields(LessonView, angles, faults)
-    values = fields.read_fields(_Head, data, faults)
-    if faults:
-        raise Unusable(*(f"{place}: {fault}" for fault in faults))
-    head_values = _Head(**values)
+    source = Source(path.parent)
+    data = read_head(source, head, 2)
+    sections = split(body, head.count("\n") + 3)
+    steps = read_steps(source, data.state, sections)
+    if source.faults:
+        raise Unusable(*(fault.within(place) for fault in source.faults))
     return Lesson(
-        name=path.absolute().parent.name,
-        title=head_values.title,
-        path=path,
-        scene=path.parent / head_values.scene,
-        text=body.strip(),
-        pixel=head_values.pixel,
-        depth=head_values.depth,
-        view=LessonView(**view),
+        path.absolute().parent.name, data.title, path, data.question, data.minutes, data.objectives, tuple(steps)
     )
 
 
@@ -116,21 +118,3 @@ def _text(path: Path) -> str:
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise Fault("a lesson is UTF-8 text, got something else", line) from None
-
-
-def _pixel() -> Any:
-    def read(value: Any) -> tuple[int, int]:
-        whole = isinstance(value, list) and len(value) == 2 and all(type(item) is int for item in value)
-        if not whole or min(value) < 0:
-            raise fields.Refused("two whole numbers [x, y] >= 0")
-        return (value[0], value[1])
-
-    return fields.rule(read)
-
-
-@dataclass(frozen=True)
-class _Head:
-    title: str = field(metadata=fields.text())
-    scene: str = field(default="scene.toml", metadata=fields.text())
-    pixel: tuple[int, int] | None = field(default=None, metadata=_pixel())
-    depth: int | None = field(default=None, metadata=fields.whole(0, 1000))

@@ -12,7 +12,7 @@ from viewer.base.theme import FONT_SIZE, SMALL, Color, Theme, faded
 Point = tuple[float, float]
 
 ROOMY = (1060.0, 560.0)  # a panel from this size on, in logical pixels, is large
-BOLD, SOURCE = 1, 2  # numbers of fonts, after the usual one
+BOLD, ITALIC, SOURCE = 1, 2, 3  # numbers of fonts, after the usual one
 
 
 def u32(color: Color) -> int:

@@ -1,10 +1,9 @@
-"""The image as an inset of the scene, in lecture mode. It can be clicked; F3 enlarges it."""
+"""The image as an inset of the scene, in lecture mode and beside a lesson. It can be clicked; F3 enlarges it."""
 
 from imgui_bundle import imgui
 
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d, image
-from viewer.session.layout import Corner
 from viewer.session.session import Session
 
 SHARE = 0.42  # of the scene's width, at most
@@ -14,7 +13,8 @@ MARGIN = 10.0  # logical pixels
 
 def place(session: Session, room: imgui.ImVec2) -> tuple[float, float, float, float] | None:
     """(left, top, right, bottom) of the inset in a scene of this size; None if the image is on show elsewhere."""
-    if not session.appearance.is_lecture_size or Corner.TOP_RIGHT in session.layout.on_show or not session.world:
+    layout, is_lecture = session.layout, session.appearance.is_lecture_size
+    if not (is_lecture or layout.taught) or layout.place_in("image", is_lecture) in layout.on_show or not session.world:
         return None
     width, height = session.size
     scale = min(SHARE * room.x / width, HEIGHT * room.y / height)

@@ -1,35 +1,78 @@
-"""The lesson's text. A scene that belongs to no lesson has no such panel."""
+"""The lesson: the step's text as far as it is revealed. A scene that belongs to no lesson has no such panel."""
+
+import math
 
 from imgui_bundle import imgui
 
-from tracer.printable import printable
+from viewer.base.theme import Color
 from viewer.gl.canvas import Canvas
+from viewer.lessons.text import filled
+from viewer.lessons.values import ABSENT, value_text
+from viewer.panels import draw as d
 from viewer.panels.panel import Panel
+from viewer.panels.text_flow import BETWEEN, Colors, TextFlow
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
+TITLE = 1.25  # size of a step's title, in font sizes
+
 
 def draw(session: Session, canvas: Canvas) -> None:
-    assert session.lesson  # otherwise there is no such panel
-    for block in session.lesson.text.split("\n\n"):
-        content = _plain(block)
-        imgui.push_text_wrap_pos(0.0)
-        if block.startswith("#"):
-            imgui.text_colored(session.appearance.theme.accent, content.lstrip("# "))
-        elif block.startswith("- "):
-            for item in block.split("\n- "):
-                imgui.bullet()
-                imgui.same_line()
-                imgui.text(_plain(item.removeprefix("- ")))  # it wraps, unlike bullet_text
-        else:
-            imgui.text(content)
-        imgui.pop_text_wrap_pos()
-        imgui.spacing()
+    step = session.lesson_step
+    assert step  # otherwise there is no such panel
+    corner, (width, height) = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
+    colors = Colors(session.appearance.theme, lambda target: _color(session, target))
+    flow = TextFlow(colors, corner.x, corner.y, width)
+    flow.heading(step.title, TITLE, session.appearance.theme.accent)
+    flow.y += 0.5 * BETWEEN * flow.em
+    for part in step.parts[: session.player.shown.parts]:
+        flow.blocks(filled(part.blocks, lambda name: _value(session, name)))
+    imgui.dummy((1.0, max(1.0, flow.y - corner.y)))
+    line = imgui.get_text_line_height_with_spacing()
+    session.player.lines_too_many = max(0, math.ceil((flow.y - BETWEEN * flow.em - corner.y - height) / line))
+    _follow(session, canvas, flow.pointed)
 
 
-def _plain(markdown: str) -> str:
-    """A paragraph on one line, without the marks of code."""
-    return printable(" ".join(markdown.split())).replace("`", "")
+def _value(session: Session, name: str) -> str:
+    """The text of a number that the lesson names."""
+    step = session.lesson_step
+    return value_text(session.tree, step.state.hit if step else None, name) or ABSENT
 
 
-PANEL = Panel("Lesson", draw, request=Request.SHOW_LESSON, exists=lambda session: session.lesson is not None)
+def _color(session: Session, target: str) -> Color:
+    """The colour of a link: that of the kind of its ray, if the tree on show has it."""
+    theme, row = session.appearance.theme, _row(session, target)
+    return theme.accent if row is None or not session.tree else theme.ray(session.tree.kind(row))
+
+
+def _row(session: Session, target: str) -> int | None:
+    return session.tree.find(target[1:]) if session.tree and target.startswith("#") else None
+
+
+def _follow(session: Session, canvas: Canvas, target: str | None) -> None:
+    """Light the ray of the link under the mouse, and select it with a click."""
+    row = _row(session, target) if target else None
+    if row is None:
+        canvas.leave("lesson")
+        return
+    canvas.hover("lesson", row)
+    imgui.set_mouse_cursor(imgui.MouseCursor_.hand)
+    if imgui.is_mouse_clicked(imgui.MouseButton_.left):
+        session.select(row)
+
+
+def _head(session: Session, room: float) -> None:
+    """The lesson's title, and the place of the step."""
+    lesson, theme = session.lesson, session.appearance.theme
+    if lesson:
+        place = f"{session.player.moment.step + 1}/{len(lesson.steps)}"
+        size = imgui.get_font_size()
+        left = room - d.text_size(place, size)[0] - size
+        imgui.text_colored(theme.muted, place)
+        imgui.same_line(0.0, 0.6 * size)
+        imgui.text(d.shortened(lesson.title, size, left))
+
+
+PANEL = Panel(
+    "Lesson", draw, head=_head, request=Request.SHOW_LESSON, exists=lambda session: session.lesson is not None
+)

@@ -14,9 +14,11 @@ from tracer.formats import UP_AXES
 from viewer.base.options import flag, option, spelling, words
 from viewer.base.theme import DARK, LIGHT, STYLES
 from viewer.base.values import (
+    AT_HELP,
     DEPTH_HELP,
     INCIDENCE,
     MODEL_HELP,
+    MOMENT,
     ORBIT,
     PAN_ZOOM,
     PIXEL,
@@ -44,6 +46,7 @@ PANEL_NAMES = ("scene", "image", "tree", "ray", "hit", "lesson", "error", "recur
 class ViewState:
     """The choices in a window. None: the scene's or the lesson's own, or those that the window has already."""
 
+    at: tuple[int, int] | None = option(MOMENT, AT_HELP)
     pixel: tuple[int, int] | None = option(PIXEL, "pick this pixel, counted from the top left")
     depth: int | None = option(whole(0, metavar="D"), DEPTH_HELP)
     model: str | None = option(one_of(MODELS), MODEL_HELP)

@@ -4,6 +4,7 @@ from tracer.choices import MODELS
 from viewer.base.files import Unusable
 from viewer.base.orbit import Orbit
 from viewer.lessons import lesson as lessons
+from viewer.lessons.moments import Moment
 from viewer.session.history import Place
 from viewer.session.refinement import Strategy
 from viewer.session.session import Session
@@ -79,7 +80,7 @@ def open_lesson(session: Session, name: str) -> None:
     except Unusable as unusable:
         session.show_faults(list(unusable.faults))
         return
-    session.loader.open(lesson.scene, lesson)
+    session.player.show(lesson, Moment())
 
 
 def step_line(session: Session, by: int) -> None:

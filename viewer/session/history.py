@@ -14,11 +14,7 @@ class Place:
 
     def is_in(self, opening: Opening) -> bool:
         """Whether it is a place of this scene."""
-        return (self.opening.path, self.opening.lesson, self.opening.up) == (
-            opening.path,
-            opening.lesson,
-            opening.up,
-        )
+        return self.opening.lesson == opening.lesson and self.opening.is_of(opening)
 
 
 class History:

@@ -33,6 +33,10 @@ PLACES = dict.fromkeys(PANEL_NAMES, (Corner.BOTTOM_RIGHT, Corner.BOTTOM_RIGHT)) 
 }
 
 
+LESSON = "lesson"
+TAUGHT = (Corner.TOP_LEFT, Corner.BOTTOM_LEFT, Corner.BOTTOM_RIGHT)  # places of the panels beside the text of a lesson
+
+
 def place_of(name: str, is_lecture: bool) -> Corner:
     return PLACES[name][is_lecture]
 
@@ -74,12 +78,20 @@ def in_a_lecture() -> Arrangement:
     return Arrangement(columns=0.54, closed={Corner.TOP_RIGHT, Corner.BOTTOM_LEFT})
 
 
+def while_taught() -> Arrangement:
+    return Arrangement(columns=0.66)
+
+
 @dataclass
 class Layout:
-    """Both arrangements, and the panel that has all of the room."""
+    """All arrangements, and the panel that has all of the room."""
 
     desk: Arrangement = field(default_factory=at_the_desk)
     lecture: Arrangement = field(default_factory=in_a_lecture)
+    lesson: Arrangement = field(default_factory=while_taught)
+    taught: tuple[
+        str, ...
+    ] = ()  # the panels of a lesson's step, which stand beside its text; empty: no lesson is given
     maximised: str | None = None  # its name
     on_show: set[Corner] = field(default_factory=set)  # places of the last frame
     papers: dict[str, tuple[int, int]] = field(default_factory=dict)  # sizes of the figures in panels, in points
@@ -87,22 +99,42 @@ class Layout:
 
     def reset(self) -> None:
         """Put all panels back in place."""
-        self.desk, self.lecture, self.maximised = at_the_desk(), in_a_lecture(), None
+        self.desk, self.lecture, self.lesson = at_the_desk(), in_a_lecture(), while_taught()
+        self.taught, self.maximised = (), None
 
     def current(self, is_lecture: bool) -> Arrangement:
+        if self.taught:
+            return self.lesson
         return self.lecture if is_lecture else self.desk
 
+    def teach(self, names: Sequence[str]) -> None:
+        """Show the text of a lesson, and beside it at most three of the other panels."""
+        self.taught, self.maximised = tuple(names[: len(TAUGHT)]), None
+        self.lesson.front = dict(zip(TAUGHT, self.taught, strict=False))
+
     def has_tree_beside(self, is_lecture: bool) -> bool:
-        return is_lecture and self.lecture.front.get(Corner.BOTTOM_RIGHT) == BESIDE_TREE
+        return is_lecture and not self.taught and self.lecture.front.get(Corner.BOTTOM_RIGHT) == BESIDE_TREE
 
     def place_in(self, name: str, is_lecture: bool) -> Corner:
         """The place of a panel."""
+        if self.taught:
+            return self._place_beside(name)
         if name == "tree" and self.has_tree_beside(is_lecture):
             return Corner.BOTTOM_LEFT
         return place_of(name, is_lecture)
 
+    def _place_beside(self, name: str) -> Corner:
+        """The place of a panel beside the text of a lesson. The others share those of the scene and of the tree."""
+        if name == LESSON:
+            return Corner.TOP_RIGHT
+        if name in self.taught:
+            return TAUGHT[self.taught.index(name)]
+        return {"scene": Corner.TOP_LEFT, "image": Corner.BOTTOM_RIGHT}.get(name, Corner.BOTTOM_LEFT)
+
     def closed(self, is_lecture: bool) -> set[Corner]:
         """The places that are closed."""
+        if self.taught:
+            return set(TAUGHT[len(self.taught) :])
         closed = self.current(is_lecture).closed
         if self.has_tree_beside(is_lecture):
             return (closed - {Corner.BOTTOM_LEFT}) | {Corner.TOP_LEFT, Corner.TOP_RIGHT}
@@ -125,6 +157,8 @@ class Layout:
         """The names of the panels on show."""
         if self.maximised:
             return (self.maximised,)
+        if self.taught:
+            return (LESSON, *(self.lesson.front.get(self._place_beside(name), name) for name in self.taught))
         arrangement, found = self.current(is_lecture), {}
         for name in PLACES:
             place = self.place_in(name, is_lecture)
@@ -133,7 +167,13 @@ class Layout:
         return tuple(found.values())
 
     def show(self, names: Sequence[str], is_lecture: bool) -> None:
-        """Show these panels and no others; a single one has all of the room."""
+        """Show these panels and no others; a single one has all of the room. If the lesson is the first, the others
+        stand beside its text.
+        """
+        if names[0] == LESSON and len(names) > 1:
+            self.teach(names[1:])
+            return
+        self.taught = ()
         self.maximised = names[0] if len(names) == 1 else None
         if not self.maximised:
             front = {place_of(name, is_lecture): name for name in reversed(names)}
@@ -148,6 +188,11 @@ class Layout:
         """The shares of the left column, and of the upper place in each column."""
         arrangement = self.current(is_lecture)
         return (arrangement.columns, arrangement.rows[0], arrangement.rows[1])
+
+
+def usual_borders(layout: Layout, is_lecture: bool) -> tuple[float, float, float]:
+    """The borders of a new window in the arrangement on show."""
+    return Layout(taught=layout.taught).borders(is_lecture)
 
 
 def tile(

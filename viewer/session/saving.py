@@ -29,6 +29,7 @@ def export_figure(session: Session, copied: bool = False) -> None:
     step = session.step if figure != "hit" else None  # a hit has no steps
     options = ExportOptions(
         scene=scene_word(opening.path, lesson, opening.figure),
+        at=session.at if session.at != (1, 0) else None,
         pixel=session.pixel,
         figure=figure,
         view=session.orbit.view(session.frame) if figure in ("both", "scene") else None,
@@ -48,7 +49,7 @@ def export_figure(session: Session, copied: bool = False) -> None:
     restore_camera(session, state)  # the view that the figure opens, which may differ by rounding
     more = differing(state, options.state(session.size))
     options = replace(options, reopen=more if more != UNCHANGED else None)
-    name, angles = (lesson.name, lesson.view) if lesson else (opening.path.stem, None)
+    name, angles = (lesson.name, opening.step.state.view) if lesson and opening.step else (opening.path.stem, None)
     part = step.name if step else ""
     shown = Shown(options, session.appearance.theme.name, session.world, name, angles, opening.files, part)
     session.export.start(shown, copied, session.notice.say, session.show_faults)

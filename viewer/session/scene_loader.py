@@ -1,15 +1,18 @@
 """Loads scenes in the background, and again when their files are saved."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import tracer
 from tracer.kernel.world import World
 from tracer.printable import shown_path
 from viewer.base.files import Unusable
 from viewer.lessons.lesson import Lesson, read_file
+from viewer.lessons.moments import Moment, view_of
+from viewer.lessons.step import Step
 from viewer.reopen.places import is_figure
 from viewer.reopen.scene_files import SceneFiles, scene_files
 from viewer.reopen.view_state import UNCHANGED, ViewState, merged
@@ -28,6 +31,7 @@ class Opening:
     lesson: Lesson | None = None
     state: ViewState = UNCHANGED
     is_return: bool = False  # to a place that was looked at before
+    shows_stage: bool = False  # of the reveal of the lesson's step, after the presses that the state says
     sets_view: bool = False  # the state is taken over even if the scene is on show already
     figure: Path | None = None  # whose copy of the scene this is
     files: SceneFiles | None = None  # the content of the scene's files, when it is loaded
@@ -38,6 +42,26 @@ class Opening:
     def up(self) -> str:
         """The axis of a mesh file that points upwards."""
         return self.state.up
+
+    @property
+    def step(self) -> Step | None:
+        """The step of the lesson."""
+        return self.lesson and self.lesson.step_at(self.moment.step)
+
+    @property
+    def moment(self) -> Moment:
+        """The place in the lesson."""
+        step, press = self.state.at or (1, 0)
+        return Moment(step - 1, press)
+
+    @property
+    def changes(self) -> Mapping[str, Any]:
+        """The values of the scene that the step replaces."""
+        return self.step.state.set if self.step else {}
+
+    def is_of(self, other: "Opening") -> bool:
+        """Whether both open the same scene with the same values."""
+        return (self.path, self.up, self.changes) == (other.path, other.up, other.changes)
 
 
 class SceneLoader:
@@ -66,8 +90,14 @@ class SceneLoader:
 
     def load(self, opening: Opening) -> None:
         """Load a scene in the background. A lesson opens on its own pixel and depth, if the state has none."""
-        if not opening.is_return:
-            opening = replace(opening, state=with_lesson(opening.state, opening.lesson))
+        try:
+            if not opening.is_return:
+                opening = replace(opening, state=with_lesson(opening.state, opening.lesson))
+        except Unusable as unusable:
+            self._fail(list(unusable.faults), opening)
+            return
+        if opening.step:
+            opening = replace(opening, path=opening.step.scene)
         self.opening = opening
         self._follow(opening)
         if self.loading:
@@ -77,7 +107,7 @@ class SceneLoader:
             if not self.warmup.ready and self.warmup.compiles:
                 self.warmup.wait()  # the kernels that prepare a large scene are being compiled as well
             found = self._read(opening) if is_figure(opening.path) else opening
-            scene = tracer.load(found.path, up=found.up)
+            scene = tracer.load(found.path, up=found.up, changes=found.changes)
             home = found.files.folder if found.figure and found.files else None
             files = scene_files(scene, found.lesson.path if found.lesson else None, home)
             return tracer.prepare(scene), replace(found, files=files)
@@ -110,9 +140,10 @@ class SceneLoader:
         found = self.figures.find(opening.path)
         state = merged(complete(found.state), opening.state)
         files = SceneFiles(found.home, "") if found.copy_of else None
-        return Opening(
+        opened = Opening(
             found.path, found.lesson, state, sets_view=True, figure=found.copy_of, files=files, note=found.note
         )
+        return replace(opened, path=opened.step.scene) if opened.step else opened
 
     def _follow(self, opening: Opening) -> None:
         """Look at the files of an opening that are known before it is read."""
@@ -152,8 +183,13 @@ class SceneLoader:
 
 
 def with_lesson(state: ViewState, lesson: Lesson | None) -> ViewState:
-    """The state with the pixel and the depth of a lesson, if there is one, and the state has none."""
+    """The state, with what the lesson's step asks for where the state has nothing. Raises Unusable for a step that the
+    lesson does not have. Only a step that is asked for decides on the panels.
+    """
     if lesson is None:
         return state
-    depth = lesson.depth if state.depth is None else state.depth
-    return replace(state, depth=depth, pixel=state.pixel or lesson.pixel)
+    number = state.at[0] if state.at else 1
+    if number > len(lesson.steps):
+        raise Unusable(f"{shown_path(lesson.path)}: --at must be within 1 .. {len(lesson.steps)}, got {number}")
+    asked = view_of(lesson.steps[number - 1])
+    return merged(asked if state.at else replace(asked, panels=None), state)

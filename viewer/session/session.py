@@ -5,41 +5,38 @@ Only the window's thread changes it. Panels read it and call its methods. It imp
 
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
 import tracer
-from tracer.choices import MODELS
 from tracer.compile.numba_private import NOTE
-from tracer.formats import UP_AXES
-from tracer.kernel.limits import Limits, image_max_nodes, make_limits
 from tracer.kernel.world import World
 from tracer.printable import shown_path
 from tracer.tree.raytree import RayTree
 from viewer.base.cached import Cached
 from viewer.base.orbit import Frame, Orbit, initial_orbit
 from viewer.figures.steps import Step
-from viewer.lessons.lesson import Lesson
 from viewer.reopen.view_state import ViewState
 from viewer.session.call_queue import CallQueue
 from viewer.session.figure_export import FigureExport
 from viewer.session.guard import Guard
 from viewer.session.history import History, Place
 from viewer.session.image_renderer import ImageRenderer
+from viewer.session.lecture.player import LessonPlayer
 from viewer.session.refinement import Refinement
 from viewer.session.restore.view import restore
 from viewer.session.scene_loader import Opening, SceneLoader
+from viewer.session.scene_on_show import OnShow
 from viewer.session.stepping.recursion import Recursion
 from viewer.session.stepping.reveal import Reveal
 from viewer.session.verification import Verification
-from viewer.session.view_state import Looks, Request
+from viewer.session.view_state import Request
 from viewer.session.warmup import Warmup
 
 LAYOUT_DEPTH = 3  # the tree is laid out for at least this depth, so that no node moves when the depth is stepped 0..3
 
 
-class Session(Looks):
+class Session(OnShow):
     """One scene, one picked pixel, one selected ray."""
 
     def __init__(self) -> None:
@@ -55,16 +52,14 @@ class Session(Looks):
         self.verification = Verification(self.calls.post)
         self.reveal = Reveal(lambda: self.tree, lambda: "shadow" in self.shown.kinds)
         self.recursion = Recursion(self.reveal, self.calls.post)
+        self.player = LessonPlayer(self)
         # The scene on show.
         self.faults: list[str] = []  # of the last opened scene or the last action; the last good scene stays on show
         self.faults_in_files = False  # whether they are of the scene's files
         self.notes: list[str] = []  # on the scene on show, until they are closed
-        self.opening: Opening | None = None
-        self.world: World | None = None
         self._good: tuple[World, Opening] | None = None  # the last scene that was drawn without an exception
         self.frame = Frame(np.zeros(3), 1.0)
         self.orbit = Orbit()
-        self.depth, self.model = 3, MODELS[0]
         self.pixel: tuple[int, int] | None = None
         self.tree: RayTree | None = None  # of the picked pixel
         self.full_tree: RayTree | None = None  # the same at least LAYOUT_DEPTH deep; `tree` is its first rows
@@ -77,11 +72,12 @@ class Session(Looks):
 
     def _show(self, world: World, opening: Opening) -> None:
         """Show a scene. If it was on show already, pixel, depth and view stay."""
-        again = self.world is not None and opening.path == self.path and not opening.sets_view
+        again = bool(self.world and self.opening and opening.is_of(self.opening)) and not opening.sets_view
         self.faults = []
-        self.guard.open_all()
-        self.image.forget()
-        self.refinement.forget()
+        if world is not self.world:
+            self.guard.open_all()
+            self.image.forget()
+            self.refinement.forget()
         if opening.lesson and not again:
             self.requests.append(Request.SHOW_LESSON)
         self.world, self.opening = world, opening
@@ -93,6 +89,7 @@ class Session(Looks):
         if not again:
             self.depth = tracing.depth if state.depth is None else state.depth
             self.pixel, self.selection = state.pixel, state.select
+            self.player.is_due = opening.shows_stage
             self.home()
             restore(self, state, opening.note)
         self._check_pixel(again or opening.instead is not None)
@@ -107,11 +104,23 @@ class Session(Looks):
         (x, y), (width, height) = self.pixel, self.size
         inside = self.inside(x, y)
         if inside != self.pixel and not moves:
-            said = f"{shown_path(self.lesson.path)}: " if self.lesson and self.lesson.pixel == self.pixel else ""
+            step = self.lesson_step
+            said = (
+                f"{shown_path(self.lesson.path)}: " if self.lesson and step and step.state.pixel == self.pixel else ""
+            )
             self.show_faults([f"{said}pixel must be within 0,0 .. {width - 1},{height - 1}, got {x},{y}"])
             self.pixel = None
         else:
             self.pixel = inside
+
+    def show_moment(self, opening: Opening) -> None:
+        """Show a moment of a lesson: at once if its scene is on show, otherwise when it is loaded."""
+        if self.world and self.opening and self.opening.is_of(opening):
+            self._show(self.world, replace(opening, files=self.opening.files, figure=self.opening.figure))
+            self.render()
+            self.update()
+        else:
+            self.loader.load(opening)
 
     def approve(self) -> None:
         """Keep the scene on show as the last good one. Called after a frame without an exception."""
@@ -142,6 +151,7 @@ class Session(Looks):
             if self.pixel and not self.tree:
                 self._trace()
                 self.reveal.go_to_asked()
+                self.player.show_stage()
             if self.tree:
                 self.verification.ask(self.tree)
 
@@ -163,36 +173,7 @@ class Session(Looks):
         taken, self.requests = self.requests, []
         return taken
 
-    @property
-    def path(self) -> Path | None:
-        """The file of the scene on show."""
-        return self.opening.path if self.opening else None
-
-    @property
-    def lesson(self) -> Lesson | None:
-        """The lesson on show, if the scene belongs to one."""
-        return self.opening.lesson if self.opening else None
-
-    @property
-    def up(self) -> str:
-        """The axis of a mesh file that points upwards."""
-        return self.opening.up if self.opening else UP_AXES[0]
-
     # --- the tree behind a pixel --------------------------------------------------------------------------------------
-
-    @property
-    def size(self) -> tuple[int, int]:
-        """Width and height of the image, in pixels."""
-        assert self.world
-        return (self.world.scene.image.width, self.world.scene.image.height)
-
-    @property
-    def limits(self) -> Limits:
-        """The limits of the image's trees."""
-        assert self.world
-        width, height = self.size
-        max_nodes = image_max_nodes(self.world, width * height)
-        return make_limits(self.world, self.depth, max_nodes=max_nodes, model=self.model, records=False)
 
     def pick(self, x: int, y: int, series: object = None) -> None:
         """Show the tree behind a pixel; outside the image, behind the nearest pixel. The selection stays, if the tree
@@ -205,11 +186,6 @@ class Session(Looks):
             self.turn_back()
             self.history.add(Place(self._now(), series))
             self.update()
-
-    def inside(self, x: int, y: int) -> tuple[int, int]:
-        """The nearest pixel of the image."""
-        width, height = self.size
-        return (min(max(x, 0), width - 1), min(max(y, 0), height - 1))
 
     @property
     def selected(self) -> int | None:
@@ -237,10 +213,17 @@ class Session(Looks):
         step, selected = self.step, self.selected
         return None if step and selected not in step.rows else selected
 
+    @property
+    def at(self) -> tuple[int, int] | None:
+        """The place in the lesson on show: the step, from 1, and the presses after its beginning."""
+        moment = self.player.moment
+        return (moment.step + 1, moment.press) if self.lesson else None
+
     def _now(self) -> Opening:
         """An opening that leads back to the place on show."""
         assert self.opening
-        now = ViewState(pixel=self.pixel, depth=self.depth, model=self.model, select=self.selection, up=self.up)
+        tracing = {"depth": self.depth, "model": self.model, "up": self.up}
+        now = ViewState(at=self.at, pixel=self.pixel, select=self.selection, **tracing)
         return replace(self.opening, state=now, is_return=True, sets_view=False, note="", instead=None)
 
     def set_depth(self, depth: int) -> None:
@@ -292,7 +275,9 @@ class Session(Looks):
     def reset_orbit(self) -> None:
         """Look at the scene as at first."""
         if self.world:
-            self.orbit = initial_orbit(self.world, self.frame, self.lesson.view if self.lesson else None)
+            self.orbit = initial_orbit(
+                self.world, self.frame, self.opening.step.state.view if self.opening and self.opening.step else None
+            )
 
     def close(self) -> None:
         self.warmup.close()

@@ -102,13 +102,21 @@ def _scroll(by: int) -> Act:
 
 
 def _page(by: int) -> Act:
+    """Go on in the lesson; without one, in the steps of the tree."""
+
     def act(session: Session) -> None:
         if _has_shift():
             step_line(session, by)
-        else:
+        elif not session.player.go(by):
             session.reveal.go(by)
 
     return act
+
+
+def _home(session: Session) -> None:
+    """Show the lesson's step again; without a lesson, the first step of the tree."""
+    if not session.player.come_back():
+        session.reveal.first()
 
 
 def _speed(by: int) -> Act:
@@ -141,13 +149,21 @@ BINDINGS = (
         alt={K.down_arrow: lambda session: step(session, 1), K.up_arrow: lambda session: step(session, -1)},
     ),
     Binding(
-        "Page Down, Page Up", "reveal the tree: next step, the one before",
+        "Page Down, Page Up", "the lesson: next moment, the one before (a scene without a lesson: steps of the tree)",
         pressed={K.page_down: _page(1), K.page_up: _page(-1)},
+    ),
+    Binding(
+        "Ctrl+Page Down, Up", "reveal the tree: next step, the one before",
+        ctrl={K.page_down: lambda s: s.reveal.go(1), K.page_up: lambda s: s.reveal.go(-1)},
     ),
     Binding("Shift+Page Down, Up", "the recursion: next line of its code, the one before"),
     Binding(
-        "Home, End", "first step, last step",
-        pressed={K.home: lambda s: s.reveal.first(), K.end: lambda s: s.reveal.last()},
+        "Home", "back to the lesson's step, after looking elsewhere (without a lesson: first step of the tree)",
+        pressed={K.home: _home},
+    ),
+    Binding(
+        "Ctrl+Home, End", "the tree: first step, last step",
+        pressed={K.end: lambda s: s.reveal.last()}, ctrl={K.home: lambda s: s.reveal.first()},
     ),
     Binding(
         "F5 or Space", "play the steps, pause", pressed=dict.fromkeys((K.f5, K.space), lambda s: s.reveal.toggle_play())

@@ -11,14 +11,14 @@ WIDE = 2048  # pixels: of the atlas, which formulas are drawn into as well: room
 
 
 def load_fonts() -> None:
-    """Roboto, regular and bold, with the arrows and subscripts of DejaVu Sans that it lacks, and Inconsolata for source
-    text. Panels take the fonts in this order: `viewer.panels.draw`.
+    """Roboto, regular, bold and italic, with the arrows and subscripts of DejaVu Sans that it lacks, and Inconsolata
+    for source text. Panels take the fonts in this order: `viewer.panels.draw`.
     """
     shipped = Path(imgui_bundle.__file__).parent / "assets" / "fonts"
     symbols = Path(__file__).parent.parent / "fonts" / "DejaVuSans-symbols.ttf"
     fonts = imgui.get_io().fonts
     fonts.tex_min_width = WIDE  # the atlas grows in height only
-    for weight in ("Regular", "Bold"):
+    for weight in ("Regular", "Bold", "RegularItalic"):
         fonts.add_font_from_file_ttf(str(shipped / "Roboto" / f"Roboto-{weight}.ttf"), FONT_SIZE)
         config = imgui.ImFontConfig()
         config.merge_mode = True

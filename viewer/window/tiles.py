@@ -8,7 +8,7 @@ from imgui_bundle.imgui import internal
 from viewer.gl.canvas import Canvas
 from viewer.panels import PANELS, draw as d
 from viewer.panels.panel import Panel
-from viewer.session.layout import GAP, Arrangement, Corner, Rectangle, at_the_desk, in_a_lecture, tile
+from viewer.session.layout import GAP, Arrangement, Corner, Layout, Rectangle, tile
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 from viewer.window import frame
@@ -108,8 +108,8 @@ class Tiles:
                 ink = imgui.get_color_u32(self.session.appearance.theme.accent)
                 imgui.get_window_draw_list().add_rect_filled((left, top), (left + width, top + height), ink)
             if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
-                at_first = in_a_lecture() if self.session.appearance.is_lecture_size else at_the_desk()
-                arrangement.reset_split(which, at_first)
+                layout = Layout(taught=self.session.layout.taught)
+                arrangement.reset_split(which, layout.current(self.session.appearance.is_lecture_size))
             elif imgui.is_item_active():
                 mouse = imgui.get_mouse_pos()
                 share = (mouse.x - room[0]) / room[2] if which is None else (mouse.y - room[1]) / room[3]

@@ -7,7 +7,7 @@ from tracer.kernel.world import World
 from viewer.base.orbit import Frame, Orbit, orbit_beside
 from viewer.base.theme import DARK, LIGHT
 from viewer.reopen.view_state import GRANULARITIES, KINDS, ORDERS, SWITCHES, TYPE_SIZES, ViewState
-from viewer.session.layout import Layout
+from viewer.session.layout import Layout, usual_borders
 from viewer.session.stepping.reveal import Reveal
 from viewer.session.view_state import Appearance, Notice, PanZoom, Request, Visibility
 
@@ -36,6 +36,8 @@ class Viewed(Protocol):
 
     def show_faults(self, faults: list[str]) -> None: ...
     @property
+    def at(self) -> tuple[int, int] | None: ...
+    @property
     def up(self) -> str: ...
     @property
     def selected(self) -> int | None: ...
@@ -46,6 +48,7 @@ def state_of(viewed: Viewed) -> ViewState:
     shown, look = viewed.shown, viewed.appearance
     hidden = tuple(name for name in SWITCHES if not getattr(shown, name))
     return ViewState(
+        at=viewed.at,
         pixel=viewed.pixel,
         depth=viewed.depth,
         model=viewed.model,
@@ -61,7 +64,9 @@ def state_of(viewed: Viewed) -> ViewState:
         theme=look.theme.name,
         type_size=type_size_of(look),
         panels=viewed.layout.shown(look.is_lecture_size),
-        borders=_unless_usual(viewed.layout.borders(look.is_lecture_size), Layout().borders(look.is_lecture_size)),
+        borders=_unless_usual(
+            viewed.layout.borders(look.is_lecture_size), usual_borders(viewed.layout, look.is_lecture_size)
+        ),
         image_zoom=_pan_zoom(viewed.image_view),
         tree_zoom=_pan_zoom(viewed.tree_view),
     )

@@ -1,0 +1,171 @@
+"""Everything that is wrong with a lesson, each with its line: what can be said without a window."""
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import tracer
+from tracer import fields
+from tracer.formats.source import Fault
+from tracer.kernel.nodes import SHADOW
+from tracer.kernel.world import World
+from tracer.printable import shown_path
+from tracer.tree.raytree import RayTree
+from viewer.base.files import Unusable
+from viewer.explain.plain_formula import FormulaError
+from viewer.figures.formula.typeset import typeset
+from viewer.lessons.expectation import failures
+from viewer.lessons.lesson import Lesson, read_file
+from viewer.lessons.step import PIXEL, Step
+from viewer.lessons.text import Block, Formula, InlineFormula, Items, Quote, Run, count_words, inlines, names_of_values
+from viewer.lessons.values import ABSENT, NAMES, OF_TREE, split_name, value_text
+
+MOST_AT_ONCE, MOST_WORDS = 40, 90  # words between two presses, and in a step
+
+
+def check(path: Path) -> list[str]:
+    """The faults of a lesson.md, one line each, in the order of the file."""
+    place = shown_path(path)
+    try:
+        lesson = read_file(path)
+    except Unusable as unusable:
+        return list(unusable.faults)
+    found = list(_Check(lesson).faults())
+    found.sort(key=lambda fault: fault.line or 0)
+    return [fault.within(place) for fault in found]
+
+
+class _Check:
+    def __init__(self, lesson: Lesson) -> None:
+        self.lesson = lesson
+        self.worlds: list[tuple[tuple[Path, Mapping[str, Any]], World | None]] = []
+
+    def faults(self) -> Iterator[Fault]:
+        if not self.lesson.question:
+            yield Fault('question is missing: a lesson begins with one, like question = "Why is it dark?"', 2)
+        for step in self.lesson.steps:
+            yield from self._words(step)
+            yield from self._formulas(step)
+            world, faults = self._world(step)
+            yield from faults
+            if world:
+                yield from self._rays(step, world)
+
+    def _world(self, step: Step) -> tuple[World | None, list[Fault]]:
+        """The step's scene, and its faults if this step is the first that shows it."""
+        key = (step.scene, step.state.set)
+        for known, world in self.worlds:
+            if known == key:
+                return world, []
+        world, faults = None, list[Fault]()
+        try:
+            world = tracer.prepare(tracer.load(step.scene, changes=step.state.set))
+        except tracer.SceneError as error:
+            line = step.line_of("set" if step.state.set and "set" in step.lines else "scene")
+            faults = [Fault(fault, line) for fault in error.faults]
+        self.worlds.append((key, world))
+        return world, faults
+
+    def _words(self, step: Step) -> Iterator[Fault]:
+        counts = [count_words(part.blocks) for part in step.parts]
+        for part, count in zip(step.parts, counts, strict=True):
+            if count > MOST_AT_ONCE:
+                line = part.blocks[0].line
+                yield Fault(f"{count} words appear at once; at most {MOST_AT_ONCE} are allowed: hide some by ???", line)
+        if sum(counts) > MOST_WORDS:
+            yield Fault(f"{sum(counts)} words in a step; at most {MOST_WORDS} are allowed", step.line)
+
+    def _formulas(self, step: Step) -> Iterator[Fault]:
+        for line, source in _formulas_of(block for part in step.parts for block in part.blocks):
+            try:
+                typeset(source)
+            except FormulaError as error:
+                yield Fault(str(error), line)
+
+    def _rays(self, step: Step, world: World) -> Iterator[Fault]:
+        """What is wrong about the pixel and its rays."""
+        state, image = step.state, world.scene.image
+        yield from self._sweep(step, world)
+        if state.pixel is None:
+            yield from (Fault(f"{{{name}}}: the step has no pixel", line) for line, name in _values(step))
+            return
+        x, y = state.pixel
+        if not (x < image.width and y < image.height):
+            allowed = f"within 0,0 .. {image.width - 1},{image.height - 1}"
+            yield Fault(f"pixel must be {allowed}, got {x},{y}", step.line_of("pixel"))
+            return
+        tree = tracer.trace(world, state.pixel, depth=state.depth, model=state.model)
+        if state.hit and tree.find(state.hit) is None:
+            yield Fault(f"hit must be a ray of this pixel ({_paths(tree)}), got {state.hit}", step.line_of("hit"))
+            return
+        for key, fault in failures(state.expect, tree, state.hit):
+            yield Fault(f"expect: {fault}", step.line_of(key, "expect"))
+        for key, fault in failures(state.goal, tree, state.hit):
+            if "unknown name" in fault or "in quotes" in fault:  # a goal is reached elsewhere
+                yield Fault(f"goal: {fault}", step.line_of(key, "goal"))
+        yield from self._text(step, tree)
+
+    def _text(self, step: Step, tree: RayTree) -> Iterator[Fault]:
+        """Values and links that resolve to nothing."""
+        for line, name in _values(step):
+            path, quantity = split_name(name)
+            found = value_text(tree, step.state.hit, name)
+            if found is None:
+                known = (*NAMES, *OF_TREE)
+                hint = fields.nearest(quantity, known) or f" (known: {', '.join(known)})"
+                yield Fault(f'{{{name}}}: unknown value "{quantity}"{hint}', line)
+            elif path and tree.find(path) is None:
+                yield Fault(f"{{{name}}}: this pixel has no ray {path} ({_paths(tree)})", line)
+            elif found == ABSENT:
+                yield Fault(f"{{{name}}}: this hit has no such number", line)
+        for part in step.parts:
+            for line, item in inlines(part.blocks):
+                if isinstance(item, Run) and item.ray is not None and tree.find(item.ray) is None:
+                    yield Fault(f"link #{item.ray}: this pixel has no such ray ({_paths(tree)})", line)
+
+    def _sweep(self, step: Step, world: World) -> Iterator[Fault]:
+        sweep, image = step.state.sweep, world.scene.image
+        if not sweep:
+            return
+        line = step.line_of("sweep")
+        if sweep.of == PIXEL:
+            for x, y in (sweep.start, sweep.end):
+                if not (0 <= x < image.width and 0 <= y < image.height):
+                    yield Fault(f"sweep: pixel must be within 0,0 .. {image.width - 1},{image.height - 1}", line)
+            return
+        for value in (*sweep.start, *sweep.end):
+            try:
+                changes = tomllib.loads(f"{sweep.of} = {value!r}")
+                tracer.load(step.scene, changes=changes)
+            except tomllib.TOMLDecodeError:
+                yield Fault(f'sweep: of must be "pixel" or a key like material.water.ior, got "{sweep.of}"', line)
+                return
+            except tracer.SceneError as error:
+                yield from (Fault(f"sweep: {fault}", line) for fault in error.faults)
+                return
+
+
+def _values(step: Step) -> Iterator[tuple[int, str]]:
+    for part in step.parts:
+        yield from names_of_values(part.blocks)
+
+
+def _paths(tree: RayTree) -> str:
+    """The rays of a tree, for a message."""
+    paths = [tree.path(i) for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW]
+    return "it has " + ", ".join(paths[:12]) + (" ..." if len(paths) > 12 else "")
+
+
+def _formulas_of(blocks: Iterator[Block]) -> Iterator[tuple[int, str]]:
+    """(line, source) of all formulas."""
+    for block in blocks:
+        match block:
+            case Formula():
+                yield block.line, block.source
+            case Items():
+                yield from _formulas_of(inner for item in block.items for inner in item)
+            case Quote():
+                yield from _formulas_of(iter(block.blocks))
+            case _:
+                yield from ((line, item.source) for line, item in inlines([block]) if isinstance(item, InlineFormula))

@@ -1,0 +1,1 @@
+"""Giving a lesson: going from moment to moment with two keys."""

@@ -1,0 +1,139 @@
+"""Gives a lesson: one key leads to the next moment, another to the one before. Each moment is an absolute state."""
+
+from dataclasses import replace
+from typing import Protocol
+
+from viewer.base.files import Unusable
+from viewer.lessons import lesson as lessons
+from viewer.lessons.lesson import Lesson
+from viewer.lessons.moments import Moment, Shown, count_presses, shown_at, view_of
+from viewer.lessons.step import COLOUR, DEPTH, Step
+from viewer.session.scene_loader import Opening
+from viewer.session.stepping.reveal import Reveal
+from viewer.session.view_state import Notice
+
+LAST = 99_999  # presses after the beginning of a step: its end, however many there are
+
+
+class Taught(Protocol):
+    """The parts of a session that a lesson changes."""
+
+    reveal: Reveal
+    notice: Notice
+
+    @property
+    def opening(self) -> Opening | None: ...
+    def show_moment(self, opening: Opening) -> None: ...
+    def show_faults(self, faults: list[str]) -> None: ...
+    def set_depth(self, depth: int) -> None: ...
+    @property
+    def scene_depth(self) -> int: ...
+
+
+class LessonPlayer:
+    """The place in the lesson on show."""
+
+    def __init__(self, session: Taught) -> None:
+        self.session = session
+        self.lines_too_many = 0  # of the step's text in its panel, when it was drawn last
+        self.is_due = False  # whether the stage is to be shown as soon as there is a tree
+
+    @property
+    def lesson(self) -> Lesson | None:
+        return self.session.opening.lesson if self.session.opening else None
+
+    @property
+    def step(self) -> Step | None:
+        return self.session.opening.step if self.session.opening else None
+
+    @property
+    def moment(self) -> Moment:
+        """The place in the lesson, not beyond the end of its step."""
+        opening, step = self.session.opening, self.step
+        if not opening or not step:
+            return Moment()
+        return replace(opening.moment, press=min(opening.moment.press, count_presses(step, self.stages)))
+
+    @property
+    def shown(self) -> Shown:
+        """What is shown of the step."""
+        return shown_at(self.step, self.stages, self.moment.press) if self.step else Shown()
+
+    @property
+    def stages(self) -> int:
+        """The stages of the step's reveal; 1 if it has none, or no tree yet."""
+        step = self.step
+        if not step or not step.state.reveal:
+            return 1
+        if step.state.reveal == DEPTH:
+            return (self.session.scene_depth if step.state.depth is None else step.state.depth) + 1
+        return len(self._pages)
+
+    @property
+    def _pages(self) -> range:
+        """The pages by ray that are the stages of the reveal."""
+        steps = self.session.reveal.steps
+        if not steps or not self.step:
+            return range(1)
+        revealed = sum(not change.sums for change in steps.changes)
+        return range(revealed - 1, len(steps)) if self.step.state.reveal == COLOUR else range(revealed)
+
+    # --- going on -----------------------------------------------------------------------------------------------------
+
+    def go(self, by: int) -> bool:
+        """Go to the next moment (1), or to the one before (-1). Returns False if no lesson is on show."""
+        lesson, step, moment = self.lesson, self.step, self.moment
+        if not lesson or not step:
+            return False
+        press = moment.press + by
+        if 0 <= press <= count_presses(step, self.stages):
+            self.show(lesson, Moment(moment.step, press))
+        elif 0 <= moment.step + by < len(lesson.steps):
+            self.show(lesson, Moment(moment.step + by, 0 if by > 0 else LAST))
+        else:
+            self._go_to_lesson(lesson, by)
+        return True
+
+    def go_to_step(self, number: int) -> None:
+        """Go to the beginning of a step."""
+        if self.lesson:
+            self.show(self.lesson, Moment(number))
+
+    def come_back(self) -> bool:
+        """Show the moment as it was, after wandering off. Returns False if no lesson is on show."""
+        if self.lesson:
+            self.show(self.lesson, self.moment)
+        return self.lesson is not None
+
+    def _go_to_lesson(self, lesson: Lesson, by: int) -> None:
+        """Go to the beginning of the next lesson, or to the end of the one before."""
+        names = lessons.names()
+        is_own = lesson.path.absolute().parent == lessons.folder() / lesson.name
+        k = names.index(lesson.name) + by if is_own else -1
+        if not 0 <= k < len(names):
+            self.session.notice.say(f"the {'first' if by < 0 else 'last'} step of {lesson.title}")
+            return
+        try:
+            other = lessons.read(names[k])
+        except Unusable as unusable:
+            self.session.show_faults(list(unusable.faults))
+            return
+        self.show(other, Moment() if by > 0 else Moment(len(other.steps) - 1, LAST))
+
+    def show(self, lesson: Lesson, moment: Moment) -> None:
+        """Show a moment of a lesson."""
+        step = lesson.step_at(moment.step)
+        state = replace(view_of(step), at=(moment.step + 1, moment.press))
+        opening = Opening(step.scene, lesson, state, is_return=True, shows_stage=True, sets_view=True)
+        self.session.show_moment(opening)
+
+    def show_stage(self) -> None:
+        """Show the stage of the reveal. Called when there is a tree."""
+        step = self.step
+        if not self.is_due or not step or not step.state.reveal:
+            return
+        self.is_due = False
+        if step.state.reveal == DEPTH:
+            self.session.set_depth(self.shown.stage)
+        else:
+            self.session.reveal.go_to(self._pages[self.shown.stage])

@@ -1,0 +1,67 @@
+"""The scene on show and what follows from it: the part of a session that only reads the scene."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from tracer.choices import MODELS
+from tracer.formats import UP_AXES
+from tracer.kernel.limits import Limits, image_max_nodes, make_limits
+from tracer.kernel.world import World
+from viewer.lessons.lesson import Lesson
+from viewer.lessons.step import Step
+from viewer.session.scene_loader import Opening
+from viewer.session.view_state import Looks
+
+
+@dataclass(eq=False)
+class OnShow(Looks):
+    """The scene on show, and how deep it is traced."""
+
+    opening: Opening | None = None
+    world: World | None = None
+    depth: int = 3
+    model: str = MODELS[0]
+
+    @property
+    def path(self) -> Path | None:
+        """The file of the scene on show."""
+        return self.opening.path if self.opening else None
+
+    @property
+    def lesson(self) -> Lesson | None:
+        """The lesson on show, if the scene belongs to one."""
+        return self.opening.lesson if self.opening else None
+
+    @property
+    def lesson_step(self) -> Step | None:
+        """The step of the lesson on show."""
+        return self.opening.step if self.opening else None
+
+    @property
+    def up(self) -> str:
+        """The axis of a mesh file that points upwards."""
+        return self.opening.up if self.opening else UP_AXES[0]
+
+    @property
+    def scene_depth(self) -> int:
+        """The depth of the scene on show, by its file."""
+        return self.world.scene.tracing.depth if self.world else 0
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the image, in pixels."""
+        assert self.world
+        return (self.world.scene.image.width, self.world.scene.image.height)
+
+    @property
+    def limits(self) -> Limits:
+        """The limits of the image's trees."""
+        assert self.world
+        width, height = self.size
+        max_nodes = image_max_nodes(self.world, width * height)
+        return make_limits(self.world, self.depth, max_nodes=max_nodes, model=self.model, records=False)
+
+    def inside(self, x: int, y: int) -> tuple[int, int]:
+        """The nearest pixel of the image."""
+        width, height = self.size
+        return (min(max(x, 0), width - 1), min(max(y, 0), height - 1))
