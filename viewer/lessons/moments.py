@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from viewer.figures.catalogue import BREADTH
 from viewer.lessons.step import DEPTH, Step
-from viewer.reopen.view_state import GRANULARITIES, KINDS, ViewState
+from viewer.reopen.view_state import GRANULARITIES, ViewState
 
 
 @dataclass(frozen=True, order=True)
@@ -52,6 +52,7 @@ def view_of(step: Step) -> ViewState:
         step=GRANULARITIES[by_ray],
         order=BREADTH,
         camera=(view.azimuth, view.elevation, view.distance, *(view.target or ())),
-        filter=None if state.show == KINDS else state.show,
+        filter=state.show,
+        hide=(),
         panels=("lesson", *state.panels) if state.panels else None,
     )

@@ -29,7 +29,7 @@ def export_figure(session: Session, copied: bool = False) -> None:
     step = session.step if figure != "hit" else None  # a hit has no steps
     options = ExportOptions(
         scene=scene_word(opening.path, lesson, opening.figure),
-        at=session.at if session.at != (1, 0) else None,
+        at=session.at,
         pixel=session.pixel,
         figure=figure,
         view=session.orbit.view(session.frame) if figure in ("both", "scene") else None,

@@ -125,8 +125,11 @@ class SceneLoader:
         except Unusable as unusable:
             self.failed(list(unusable.faults))
             return
-        path = lesson.scene if lesson else self.opening.path
-        self.load(replace(self.opening, path=path, lesson=lesson, sets_view=False, note="", instead=None))
+        again = replace(self.opening, lesson=lesson, sets_view=False, note="", instead=None)
+        before, after = self.opening.step, again.step
+        if before and after and before.state != after.state:  # the lesson's author has changed it
+            again = replace(again, state=replace(view_of(after), at=again.state.at), sets_view=True, shows_stage=True)
+        self.load(again)
 
     def look(self) -> None:
         """Load the scene again if one of its files has been saved. Called before every frame."""

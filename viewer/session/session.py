@@ -16,6 +16,7 @@ from tracer.tree.raytree import RayTree
 from viewer.base.cached import Cached
 from viewer.base.orbit import Frame, Orbit, initial_orbit
 from viewer.figures.steps import Step
+from viewer.lessons.moments import Moment
 from viewer.reopen.view_state import ViewState
 from viewer.session.call_queue import CallQueue
 from viewer.session.figure_export import FigureExport
@@ -215,9 +216,9 @@ class Session(OnShow):
 
     @property
     def at(self) -> tuple[int, int] | None:
-        """The place in the lesson on show: the step, from 1, and the presses after its beginning."""
+        """The place in the lesson on show: the step, from 1, and the presses after its beginning. None at its first."""
         moment = self.player.moment
-        return (moment.step + 1, moment.press) if self.lesson else None
+        return None if moment == Moment() else (moment.step + 1, moment.press)
 
     def _now(self) -> Opening:
         """An opening that leads back to the place on show."""

@@ -20,6 +20,7 @@ STRATEGIES: dict[Value, st.SearchStrategy] = {
     values.TEXT: WORD,
     values.FILE: WORD.map(values.FILE.read),
     values.PIXEL: st.tuples(st.integers(-99, 9999), st.integers(-99, 9999)),
+    values.MOMENT: st.tuples(st.integers(1, 999), st.integers(0, 99)),
     values.SIZE: st.tuples(st.integers(1, 9999), st.integers(1, 9999)),
     values.RAY: st.tuples(*[NUMBER] * 6),
     values.RAY_NAME: st.sampled_from(("T", "T4", "TIR12", "E", "r7", "TRI")),

@@ -197,7 +197,7 @@ def test_a_name_on_the_command_line_is_the_lesson_of_that_name() -> None:
     for name in LESSONS:
         found = lesson.read(name)
         assert found.scene.is_file()
-        assert found.pixel is not None
+        assert found.first.state.pixel is not None
 
 
 def test_plan_and_statistics_leave_out_the_same(tmp_path: Path, capsysbinary: pytest.CaptureFixture) -> None:

@@ -25,7 +25,7 @@ ENDS = {"scale": {"whitted": "E", "fresnel": "E"}, "panes": {"whitted": "T2", "f
 
 
 def tree_of(worlds: dict[str, tracer.World], name: str, **how: object) -> RayTree:
-    return tracer.trace(worlds[name], lesson.read(name).pixel, depth=3, **how)  # type: ignore[arg-type]
+    return tracer.trace(worlds[name], lesson.read(name).first.state.pixel, depth=3, **how)  # type: ignore[arg-type]
 
 
 @pytest.fixture

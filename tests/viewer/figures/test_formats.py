@@ -30,7 +30,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def trees(worlds: dict[str, tracer.World], name: str) -> list[RayTree]:
-    return [tracer.trace(worlds[name], lesson.read(name).pixel, depth=d) for d in range(4)]
+    return [tracer.trace(worlds[name], lesson.read(name).first.state.pixel, depth=d) for d in range(4)]
 
 
 def words(figure: Figure) -> list[str]:
@@ -48,7 +48,7 @@ def figures(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> 
     """Each figure of each shipped scene, from depth 0 to 3."""
     name, kind = request.param
     found = lesson.read(name)
-    orbit = initial_orbit(worlds[name], Frame.of(worlds[name]), found.view)
+    orbit = initial_orbit(worlds[name], Frame.of(worlds[name]), found.first.state.view)
     subject = Subject(by_depth(trees(worlds, name)), worlds[name], orbit)
     return pages(kind, subject, FigureStyle(DARK, swatches=True, ground=True), "raytree export ...")
 

@@ -70,7 +70,7 @@ def test_angles_are_true(degrees: float, ior: float, model: bool) -> None:
 
 def test_hits_of_the_lessons(worlds: dict[str, tracer.World]) -> None:
     for name in LESSONS:
-        tree = tracer.trace(worlds[name], lesson.read(name).pixel, depth=3)
+        tree = tracer.trace(worlds[name], lesson.read(name).first.state.pixel, depth=3)
         for i in range(len(tree)):
             if tree.object_name(i) and tree.nodes["kind"][i] != SHADOW:
                 check_angles(tree, i)
@@ -83,7 +83,7 @@ def written(marks: Iterable[Mark]) -> set[str]:
 
 
 def test_formulas_carry_the_trees_own_numbers(worlds: dict[str, tracer.World]) -> None:
-    tree = tracer.trace(worlds["underwater"], lesson.read("underwater").pixel, depth=2)
+    tree = tracer.trace(worlds["underwater"], lesson.read("underwater").first.state.pixel, depth=2)
     (figure,) = pages("hit", Subject(by_depth([tree])), FigureStyle())
     words = written(figure.marks)
     assert f"{1.0 - tree.nodes['radicand'][0]:.5g} ≥ 1: total internal reflection" in words
@@ -113,7 +113,7 @@ def test_lights_stand_at_their_true_angle(degrees: float, from_normal: float, ab
 
 def test_a_hit_without_rays_to_go_on_has_no_formulas_of_them(worlds: dict[str, tracer.World]) -> None:
     """At depth 0 the figure shows the light at the hit and why no ray follows; at depth 1 the rays."""
-    world, pixel = worlds["glass-ball"], lesson.read("glass-ball").pixel
+    world, pixel = worlds["glass-ball"], lesson.read("glass-ball").first.state.pixel
     trees = [tracer.trace(world, pixel, depth=d) for d in (0, 1)]
     first, second = pages("hit", Subject(by_depth(trees), world), FigureStyle())
     words = [written(page.marks) for page in (first, second)]
@@ -175,7 +175,7 @@ def test_a_hit_fits_every_panel(room: tuple[float, float], size: float, worlds: 
     """Nothing overlaps or leaves the rectangle, which may begin anywhere; angles stay true, and rays long."""
     where: Rectangle = (30.0, 20.0, 30.0 + room[0], 20.0 + room[1])
     for name in ("glass-ball", "underwater", "two-lights"):
-        tree = tracer.trace(worlds[name], lesson.read(name).pixel, depth=2)
+        tree = tracer.trace(worlds[name], lesson.read(name).first.state.pixel, depth=2)
         for node in (i for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW and tree.object_name(i)):
             marks = hit_marks(by_depth([tree])[0], node, size, LIGHT, worlds[name], where)
             figure = Figure("", "", "", tuple(marks), LIGHT.panel, width=where[2], height=where[3])
@@ -193,7 +193,7 @@ def test_a_hit_fits_every_panel(room: tuple[float, float], size: float, worlds: 
 
 
 def test_the_formulas_stand_on_the_right_of_a_wide_picture_and_below_another(worlds: dict[str, tracer.World]) -> None:
-    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").pixel, depth=2)
+    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").first.state.pixel, depth=2)
     shown = {}
     for room in ((960.0, 540.0), (640.0, 600.0), (460.0, 250.0)):
         marks = hit_marks(by_depth([tree])[0], 0, 16.0, LIGHT, worlds["glass-ball"], (0.0, 0.0, *room))
@@ -209,7 +209,7 @@ def test_the_formulas_stand_on_the_right_of_a_wide_picture_and_below_another(wor
 
 
 def test_rays_angles_and_the_normal_are_named_in_the_picture(worlds: dict[str, tracer.World]) -> None:
-    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").pixel, depth=2)
+    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").first.state.pixel, depth=2)
     marks = hit_marks(by_depth([tree])[0], 0, 18.0, LIGHT)
     found = {(mark.plain, mark.name) for mark in marks if isinstance(mark, Formula) and mark.name != "formulas"}
     reflected, refracted = (tree.find(path) for path in "RT")
@@ -219,7 +219,7 @@ def test_rays_angles_and_the_normal_are_named_in_the_picture(worlds: dict[str, t
 
 @pytest.mark.parametrize("high", [400.0, 500.0, 600.0, 900.0])
 def test_formulas_without_room_are_counted(worlds: dict[str, tracer.World], high: float) -> None:
-    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").pixel, depth=1)
+    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").first.state.pixel, depth=1)
     sections = scattering_sections(tree, 0)
     marks = hit_marks(by_depth([tree])[0], 0, 14.0, LIGHT, None, (0.0, 0.0, 300.0, high))
     headings = {s.formula for s in sections} & {mark.source for mark in marks if isinstance(mark, Formula)}

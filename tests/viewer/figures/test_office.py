@@ -23,8 +23,8 @@ pytestmark = [pytest.mark.office, pytest.mark.timeout(600)]
 
 def figures(worlds: dict[str, tracer.World], name: str, kind: str) -> list[Figure]:
     found = lesson.read(name)
-    stages = by_depth([tracer.trace(worlds[name], found.pixel, depth=d) for d in range(4)])
-    orbit = initial_orbit(worlds[name], Frame.of(worlds[name]), found.view)
+    stages = by_depth([tracer.trace(worlds[name], found.first.state.pixel, depth=d) for d in range(4)])
+    orbit = initial_orbit(worlds[name], Frame.of(worlds[name]), found.first.state.view)
     return pages(kind, Subject(stages, worlds[name], orbit), FigureStyle(swatches=True))
 
 

@@ -56,8 +56,8 @@ def within(point: tuple[float, float], rim: float = 0.0) -> bool:
 
 def subject(world: tracer.World, name: str, depths: range = range(4)) -> Subject:
     found = lesson.read(name)
-    trees = [tracer.trace(world, found.pixel, depth=d) for d in depths]
-    return Subject(by_depth(trees), world, initial_orbit(world, Frame.of(world), found.view))
+    trees = [tracer.trace(world, found.first.state.pixel, depth=d) for d in depths]
+    return Subject(by_depth(trees), world, initial_orbit(world, Frame.of(world), found.first.state.view))
 
 
 @pytest.fixture(scope="module", params=LESSONS)

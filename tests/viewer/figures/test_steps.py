@@ -22,7 +22,7 @@ def tree(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> Ray
         case "one ray":
             return tracer.trace(worlds["glass-ball"], (0, 0), depth=0)
         case str(name):
-            return tracer.trace(worlds[name], lesson.read(name).pixel, depth=3)
+            return tracer.trace(worlds[name], lesson.read(name).first.state.pixel, depth=3)
         case seed:
             return random_tree(seed, 60, seed % 4, 5)
 

@@ -140,7 +140,7 @@ def test_a_tree_of_five_hundred_rays(lights: int) -> None:
 @pytest.mark.parametrize(("theme", "eye"), ((LIGHT, "top"), (DARK, "left"), (MONO, "top")))
 def test_trees_of_the_lessons_grow_and_nothing_moves(worlds: dict[str, tracer.World], theme: Theme, eye: str) -> None:
     for name in LESSONS:
-        trees = [tracer.trace(worlds[name], lesson.read(name).pixel, depth=d) for d in range(5)]
+        trees = [tracer.trace(worlds[name], lesson.read(name).first.state.pixel, depth=d) for d in range(5)]
         figures = pages("tree", Subject(by_depth(trees)), FigureStyle(theme, swatches=True, eye=eye))
         last = places(figures[-1])
         for figure, tree in zip(figures, trees, strict=True):
@@ -193,7 +193,7 @@ def test_the_sum_at_a_hit_has_the_numbers_of_the_table(figure: str, worlds: dict
     """Each page that sums up a hit says how: local light, factors, colours of the children, colour."""
     for name in LESSONS:
         found = lesson.read(name)
-        tree = tracer.trace(worlds[name], found.pixel, depth=3)
+        tree = tracer.trace(worlds[name], found.first.state.pixel, depth=3)
         orbit = initial_orbit(worlds[name], Frame.of(worlds[name]), None)
         steps = by_color(tree)
         plain = pages(figure, Subject([steps[-1]], worlds[name], orbit), FigureStyle())[0]
@@ -304,7 +304,7 @@ def words_in_boxes(tree: RayTree) -> set[str]:
 
 
 def test_total_internal_reflection_has_a_stub_with_a_bar(worlds: dict[str, tracer.World]) -> None:
-    tree = tracer.trace(worlds["underwater"], lesson.read("underwater").pixel, depth=3)
+    tree = tracer.trace(worlds["underwater"], lesson.read("underwater").first.state.pixel, depth=3)
     assert tree.kind(int(tree.children[0][-1])) == "tir"
     (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle())
     assert [m.content for m in figure.marks if m.name == "bar-0" and isinstance(m, Text)] == ["no T"]
@@ -330,7 +330,7 @@ def test_shares_are_said_as_people_say_them() -> None:
 def test_the_legend_explains_every_sign_and_hides_nothing(worlds: dict[str, tracer.World]) -> None:
     """Also in the narrow half of two panels, in which it stands below the tree."""
     world = worlds["underwater"]
-    tree = tracer.trace(world, lesson.read("underwater").pixel, depth=3)
+    tree = tracer.trace(world, lesson.read("underwater").first.state.pixel, depth=3)
     orbit = initial_orbit(world, Frame.of(world), lesson.read("underwater").view)
     for name in ("tree", "both"):
         (figure,) = pages(name, Subject(by_depth([tree]), world, orbit), FigureStyle())
@@ -438,7 +438,7 @@ def test_a_ray_of_factor_0_says_so() -> None:
 
 def test_a_step_is_not_dimmed_by_a_selection(worlds: dict[str, tracer.World]) -> None:
     """The hit that a step sums up is as bright as without a selection, also beside the selected branch."""
-    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").pixel, depth=2)
+    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").first.state.pixel, depth=2)
     selected, other = tree.find("T"), tree.find("R")
     assert selected is not None and other is not None
     step = next(step for step in by_ray(tree) if step.sum == other)
@@ -452,7 +452,7 @@ def test_a_step_is_not_dimmed_by_a_selection(worlds: dict[str, tracer.World]) ->
 
 @pytest.mark.parametrize("page", [(300.0, 350.0), (250.0, 300.0)])
 def test_a_tree_shows_more_than_the_first_hit_in_smaller_text(page: tuple[float, float], worlds: dict) -> None:
-    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").pixel, depth=3)
+    tree = tracer.trace(worlds["glass-ball"], lesson.read("glass-ball").first.state.pixel, depth=3)
     (figure,) = pages("tree", Subject(by_depth([tree])), FigureStyle(text_size=PANEL_TEXT, swatches=True, page=page))
     hits = {mark.name for mark in figure.marks if isinstance(mark, Box) and mark.name.startswith("hit-")}
     assert "hit-0" in hits and len(hits) > 1

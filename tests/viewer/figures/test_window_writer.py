@@ -61,7 +61,7 @@ def without_texts(figure: Figure) -> Figure:
 
 
 def figures(world: tracer.World, name: str, theme: Theme) -> Iterable[Figure]:
-    pixel = lesson.read(name).pixel
+    pixel = lesson.read(name).first.state.pixel
     steps = by_depth([tracer.trace(world, pixel, depth=3)])
     for figure in ("tree", "hit"):
         style = FigureStyle(theme, text_size=16.0, swatches=True, ground=True, levels=True, selected=0)

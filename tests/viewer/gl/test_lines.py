@@ -18,7 +18,7 @@ from viewer.lessons import lesson
 
 
 def trees(name: str, worlds: dict[str, tracer.World]) -> list[RayTree]:
-    x, y = lesson.read(name).pixel or (0, 0)
+    x, y = lesson.read(name).first.state.pixel or (0, 0)
     return [tracer.trace(worlds[name], (x + dx, y), depth=6) for dx in (-40, 0, 35)]
 
 

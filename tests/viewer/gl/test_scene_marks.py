@@ -148,7 +148,7 @@ def test_a_light_straight_behind_the_camera_has_no_arrow() -> None:
 
 
 def hits(worlds: dict[str, tracer.World], name: str) -> list[tuple[tracer.RayTree, int, Hit]]:
-    x, y = lesson.read(name).pixel or (0, 0)
+    x, y = lesson.read(name).first.state.pixel or (0, 0)
     tree = tracer.trace(worlds[name], (x, y), depth=4)
     found = [(i, hit_of(tree, i, Frame.of(worlds[name]))) for i in range(len(tree))]
     return [(tree, i, hit) for i, hit in found if hit]

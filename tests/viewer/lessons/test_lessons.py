@@ -16,11 +16,11 @@ from viewer.lessons import lesson
 @pytest.mark.parametrize("name", LESSONS)
 def test_lesson_is_complete(name: str) -> None:
     found = lesson.read(name)
-    assert found.title and len(found.text) > 300
+    assert found.title and found.steps
     scene = tracer.load(found.scene)
     assert scene.title
-    assert found.pixel
-    assert found.pixel[0] < scene.image.width and found.pixel[1] < scene.image.height
+    assert found.first.state.pixel
+    assert found.first.state.pixel[0] < scene.image.width and found.first.state.pixel[1] < scene.image.height
 
 
 def test_the_order_names_every_lesson_once() -> None:
@@ -29,12 +29,12 @@ def test_the_order_names_every_lesson_once() -> None:
 
 def opened(name: str, worlds: dict[str, tracer.World]) -> tracer.RayTree:
     found = lesson.read(name)
-    return tracer.trace(worlds[name], found.pixel, depth=found.depth)
+    return tracer.trace(worlds[name], found.first.state.pixel, depth=found.first.state.depth)
 
 
 def test_mirror_balls_add_something_at_every_depth(worlds: dict[str, tracer.World]) -> None:
     found = lesson.read("mirror-balls")
-    colors = [tracer.trace(worlds["mirror-balls"], found.pixel, depth=depth).radiance for depth in range(4)]
+    colors = [tracer.trace(worlds["mirror-balls"], found.first.state.pixel, depth=depth).radiance for depth in range(4)]
     for shallow, deep in itertools.pairwise(colors):
         assert abs(deep - shallow).max() > 0.05
 
@@ -113,7 +113,7 @@ def test_a_lesson_may_come_from_a_windows_editor(tmp_path: Path) -> None:
     copy = tmp_path / "lesson.md"
     copy.write_bytes(b"\xef\xbb\xbf" + source.read_bytes().replace(b"\n", b"\r\n"))
     found = lesson.read_file(copy)
-    assert (found.title, found.text, found.pixel) == (plain.title, plain.text, plain.pixel)
+    assert (found.title, found.first.parts, found.first.state) == (plain.title, plain.first.parts, plain.first.state)
 
 
 def test_a_lesson_that_is_a_pipe_is_not_waited_for(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ import numpy as np
 
 from tests.viewer.driver import Driver, viewer
 from viewer.lessons import lesson
+from viewer.lessons.text import Run, inlines
 
 
 def write_ball(path: Path, radius: str, color: str = "[1, 0, 0]") -> None:
@@ -139,9 +140,14 @@ def test_saving_a_material_library_shows_the_change(tmp_path: Path) -> None:
         assert driver.session.world.scene.objects[0].material.color == (0.0, 1.0, 0.0)
 
 
+def text_of(found: lesson.Lesson) -> str:
+    """The text of the first step."""
+    return "".join(item.text for _, item in inlines(found.first.parts[0].blocks) if isinstance(item, Run))
+
+
 def test_a_saved_lesson_is_read_again(tmp_path: Path) -> None:
     write_ball(tmp_path / "scene.toml", "1")
-    text = '+++\ntitle = "Mine"\nscene = "scene.toml"\npixel = [3, 4]\n+++\n'
+    text = '+++\ntitle = "Mine"\nscene = "scene.toml"\npixel = [3, 4]\n+++\n## One\n'
     (tmp_path / "lesson.md").write_text(f"{text}before")
     with viewer() as driver:
         found = lesson.read_file(tmp_path / "lesson.md")
@@ -150,11 +156,15 @@ def test_a_saved_lesson_is_read_again(tmp_path: Path) -> None:
         driver.session.pick(20, 20)
         (tmp_path / "lesson.md").write_text(f"{text}after")
         saved(driver, tmp_path / "lesson.md")
-        assert driver.session.lesson and driver.session.lesson.text == "after"
+        assert driver.session.lesson and text_of(driver.session.lesson) == "after"
         assert driver.session.pixel == (20, 20)
+        other = text.replace("[3, 4]", "[5, 6]")
+        (tmp_path / "lesson.md").write_text(f"{other}after")  # another state of the step is shown
+        saved(driver, tmp_path / "lesson.md")
+        assert driver.session.pixel == (5, 6)
         (tmp_path / "lesson.md").write_text("no data")
         saved(driver, tmp_path / "lesson.md")
-        assert driver.session.lesson.text == "after" and "a lesson begins with" in driver.session.faults[0]
+        assert text_of(driver.session.lesson) == "after" and "a lesson begins with" in driver.session.faults[0]
         driver.frames()
 
 

@@ -247,12 +247,12 @@ def test_a_changed_lesson_opens_as_it_was(room: Driver, tmp_path: Path) -> None:
     room.session.loader.open(found.scene, found)
     room.app.settle()
     room.frames()
-    figure, picture, text = save(room), still(room), found.text
+    figure, picture, text = save(room), still(room), found.first.parts
     assert shlex.split(room.session.export.command)[:3] == ["raytree", "export", str(home)]
     (home / "lesson.md").write_text((home / "lesson.md").read_text() + "\nMore.")
     other = fresh(room)
     drop(other, figure)
-    assert other.session.lesson and other.session.lesson.text == text and other.session.lesson.name == "mine"
+    assert other.session.lesson and other.session.lesson.first.parts == text and other.session.lesson.name == "mine"
     assert other.session.notice.text.endswith(f"this is the copy in {figure.name}")
     assert are_equal(still(other), picture)
 

@@ -42,7 +42,7 @@ def position_of(reveal: Reveal) -> int:
 @pytest.mark.parametrize("name", LESSONS)
 def test_the_state_is_absolute(name: str, granularity: str, order: str, worlds: dict[str, tracer.World]) -> None:
     """Forwards, backwards and by a jump, each step is the exported one."""
-    show = Show(tracer.trace(worlds[name], lesson.read(name).pixel, depth=3))
+    show = Show(tracer.trace(worlds[name], lesson.read(name).first.state.pixel, depth=3))
     show.set(granularity, order)
     reveal = show.reveal
     assert show.tree and reveal.step is None and reveal.position is None

@@ -42,7 +42,7 @@ def key(desk: Desk, *names: str) -> None:
 
 def test_tab_changes_the_size_and_nothing_else(desk: Desk) -> None:
     hand("mousemove", *desk.pixel_at(300, 200), "click", 1)
-    desk.until(lambda: desk.session.pixel != desk.session.lesson.pixel, "the click")  # type: ignore[union-attr]
+    desk.until(lambda: desk.session.pixel != desk.session.lesson.first.state.pixel, "the click")  # type: ignore[union-attr]
     pixel = desk.session.pixel
     for large in (True, False, True, False):
         key(desk, "Tab")
@@ -289,7 +289,7 @@ def test_back_to_the_lesson_before() -> None:
         assert (session.pixel, session.selection) == ((100, 120), "E")
         driver.press(imgui.Key.mod_alt, imgui.Key.right_arrow)
         driver.app.settle()
-        assert session.lesson.name == "underwater" and session.pixel == session.lesson.pixel
+        assert session.lesson.name == "underwater" and session.pixel == session.lesson.first.state.pixel
 
 
 def scroll_of_numbers() -> float:

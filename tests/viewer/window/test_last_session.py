@@ -115,7 +115,7 @@ def test_the_window_comes_back_as_it_was(tmp_path: Path) -> None:
     last = kept_in(tmp_path)
     assert last.scene == "two-lights" and last.window and not last.window.full_screen
     assert (last.state.depth, last.state.theme, last.state.type_size) == (2, "light", "lecture")
-    found = lesson.read("two-lights").pixel
+    found = lesson.read("two-lights").first.state.pixel
     assert found and last.state.pixel == (found[0] + 1, found[1])
     with program(tmp_path) as second:
         assert second.geometry() == {**place, "WINDOW": second.geometry()["WINDOW"]}

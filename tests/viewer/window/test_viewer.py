@@ -276,7 +276,7 @@ def test_every_lesson_opens_on_its_pixel_and_draws_every_panel(name: str) -> Non
         driver.open(name)
         session = driver.session
         assert session.lesson and session.tree
-        assert session.pixel == session.lesson.pixel
+        assert session.pixel == session.lesson.first.state.pixel
         picture = driver.picture()
         left, top, width, height = (int(value) for value in driver.canvas.stage_place)
         stage = picture[top : top + height, left : left + width].reshape(-1, 3)

@@ -1,0 +1,108 @@
+"""The check of a lesson finds each fault that is planted, with its line; the skeleton has none."""
+
+from pathlib import Path
+
+import pytest
+
+import tracer
+from viewer.cli.main import main
+from viewer.lessons.check import check
+from viewer.lessons.expectation import failures
+from viewer.lessons.skeleton import SCENE, write_skeleton
+from viewer.lessons.values import QUANTITIES, value_text
+
+HEAD = '+++\ntitle = "Mine"\nquestion = "Why?"\npixel = [160, 150]\n+++\n## One\n'
+STEP = '```step\nhit = "E"\n%s\n```\n%s\n'
+
+
+def checked(folder: Path, step: str = "", text: str = "", head: str = HEAD) -> list[str]:
+    """The faults of a lesson with one step, without the name of the file. The step's block begins on line 8."""
+    (folder / "scene.toml").write_text(SCENE, "utf-8")
+    (folder / "lesson.md").write_text(head + STEP % (step, text), "utf-8")
+    return [fault.partition("lesson.md: ")[2] for fault in check(folder / "lesson.md")]
+
+
+def test_the_skeleton_passes_and_is_never_written_over(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["lessons", "--new", "mine"]) == 0
+    assert main(["lessons", "--check", "mine"]) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == "mine/lesson.md: nothing is wrong"
+    before = (tmp_path / "mine" / "lesson.md").read_bytes()
+    assert main(["lessons", "--new", "mine"]) == 2
+    assert capsys.readouterr().err == "mine: is there already: name a new folder\n"
+    assert (tmp_path / "mine" / "lesson.md").read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("step", "text", "said"),
+    [
+        ("", "{theta3}", 'line 11: {theta3}: unknown value "theta3" (did you mean "theta2"?)'),
+        ("", "- a\n- {TT.t}", "line 12: {TT.t}: this pixel has no ray TT (it has E, R)"),
+        ("", "{theta2}", "line 11: {theta2}: this hit has no such number"),
+        ("", "a [b](#T)", "line 11: link #T: this pixel has no such ray (it has E, R)"),
+        ('expect = { object = "floor" }', "", 'line 9: expect: object must be "floor", got "ball"'),
+        ('expect = { children = ["T"] }', "", 'line 9: expect: children must be ["T"], got ["R"]'),
+        ('expect = { R.object = "ball" }', "", 'line 9: expect: R.object must be "ball", got "floor"'),
+        ('expect = { TR.t = "1" }', "", "line 9: expect: TR.t: the tree has no ray TR (it has E, R)"),
+        ('expect = { theta2 = "1" }', "", "line 9: expect: theta2 must be 1, but this hit has none"),
+        ("expect = { t = 1.5 }", "", "line 9: expect: t must be a number in quotes"),
+        ('expect = { thata1 = "1" }', "", 'line 9: expect: unknown name "thata1" (did you mean "theta1"?)'),
+        ('goal = { endd = "x" }', "", 'line 9: goal: unknown name "endd"'),
+        ("pixel = [320, 1]", "", "line 9: pixel must be within 0,0 .. 319,239, got 320,1"),
+        ("set = { material.miror.ior = 1 }", "", '(did you mean "mirror"?)'),
+        ("set = { material.mirror.ior = -1 }", "", "ior must be > 0, got -1"),
+        ("sweep = { of = 'pixel', from = [1, 1], to = [320, 1] }", "", "line 9: sweep: pixel must be within"),
+        ("sweep = { of = 'material.mirror.iro', from = 1, to = 2 }", "", 'unknown key "iro" (did you mean "ior"?)'),
+        ("", "word " * 41, "line 11: 41 words appear at once; at most 40 are allowed"),
+        ("", "\n???\n".join(["word " * 31] * 3), "line 6: 93 words in a step; at most 90 are allowed"),
+        ("", r"$\foo$", r"line 11: formula '\\foo': \foo is not known"),
+        ('scene = "other.toml"', "", "other.toml: file not found"),
+    ],
+)
+def test_a_planted_fault_is_found_with_its_line(tmp_path: Path, step: str, text: str, said: str) -> None:
+    assert checked(tmp_path, "", "Right: {theta1}, {R.object}, [it](#R).") == []
+    faults = checked(tmp_path, step, text)
+    assert len(faults) == 1 and said in faults[0] and faults[0].startswith("line "), faults
+
+
+def test_a_lesson_begins_with_a_question(tmp_path: Path) -> None:
+    head = HEAD.replace('question = "Why?"\n', "")
+    assert checked(tmp_path, head=head) == [
+        'line 2: question is missing: a lesson begins with one, like question = "Why is it dark?"'
+    ]
+
+
+def test_text_without_room_in_the_hall_is_found(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "scene.toml").write_text(SCENE, "utf-8")
+    rows = "".join(f"- row {k}\n" for k in range(20))
+    (tmp_path / "lesson.md").write_text(HEAD + STEP % ("", rows), "utf-8")
+    assert main(["lessons", "--check", str(tmp_path)]) == 1
+    said = capsys.readouterr().out
+    assert "line 6: its text needs scrolling in lecture type at 1280x720" in said
+
+
+def test_a_number_is_right_within_half_a_unit_of_its_last_digit(worlds: dict[str, tracer.World]) -> None:
+    tree = tracer.trace(worlds["underwater"], (560, 240), depth=1)
+    theta = QUANTITIES["theta1"].value(tree, 0)
+    for decimals in range(6):
+        rounded, unit = round(theta, decimals), 10.0**-decimals
+        assert failures({"theta1": f"{rounded:.{decimals}f}"}, tree, "E") == []
+        for wrong in (rounded - unit, rounded + unit):
+            assert len(failures({"theta1": f"{wrong:.{decimals}f}"}, tree, "E")) == 1
+
+
+def test_every_value_is_that_of_the_tree(worlds: dict[str, tracer.World]) -> None:
+    tree = tracer.trace(worlds["underwater"], (560, 240), depth=1)
+    assert value_text(tree, "E", "n1") == "1.33" and value_text(tree, None, "n2") == "1"
+    assert value_text(tree, "E", "critical") == "48.75°"
+    assert value_text(tree, "E", "reflectance") == "1" and value_text(tree, "E", "transmittance") == "0"
+    assert value_text(tree, "E", "theta2") == "–" and value_text(tree, "E", "I.object") == tree.object_name(
+        tree.find("I") or 0
+    )
+    assert value_text(tree, "E", "R.t") == "–" and value_text(tree, "E", "nothing") is None
+
+
+def test_a_skeleton_is_complete(tmp_path: Path) -> None:
+    assert [path.name for path in write_skeleton(tmp_path / "a" / "b")] == ["lesson.md", "scene.toml"]

@@ -1,0 +1,136 @@
+"""A lesson is given with two keys: every moment is an absolute state, the same forwards and backwards, bit by bit."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from imgui_bundle import imgui
+
+from tests.viewer.driver import Driver, viewer
+from viewer.lessons import lesson as lessons
+from viewer.lessons.lesson import Lesson, read_file
+from viewer.lessons.moments import Moment
+from viewer.lessons.skeleton import SCENE
+from viewer.session.lecture.player import LAST
+
+K = imgui.Key
+TEXT = """\
++++
+title = "Mine"
+question = "Why?"
+pixel = [160, 150]
++++
+## One
+```step
+hit = "R"
+```
+Seen: {t}.
+???
+Hidden.
+## Two
+```step
+reveal = "depth"
+depth = 2
+set = { material.mirror.reflect = 0.4 }
+view = { azimuth = 10 }
+panels = ["scene", "tree", "image"]
+```
+Text.
+???
+More.
+## Three
+```step
+reveal = "rays"
+show = ["camera", "reflection"]
+set = {}
+```
+## Four
+```step
+reveal = "colour"
+model = "fresnel"
+```
+"""
+
+
+@pytest.fixture
+def mine(tmp_path: Path) -> Lesson:
+    (tmp_path / "scene.toml").write_text(SCENE, "utf-8")
+    (tmp_path / "lesson.md").write_text(TEXT, "utf-8")
+    return read_file(tmp_path / "lesson.md")
+
+
+@pytest.fixture
+def driver() -> Iterator[Driver]:
+    with viewer() as driver:
+        yield driver
+
+
+def begin(driver: Driver, lesson: Lesson) -> None:
+    driver.session.player.show(lesson, Moment())
+    driver.app.settle()
+
+
+def picture(driver: Driver) -> np.ndarray:
+    """The window at rest, without notices, the bar with its times, and the mouse."""
+    driver.app.settle()
+    driver.session.notice.text = ""
+    driver.frames(4)
+    return driver.app.surface.grab()[:-40].copy()
+
+
+def test_two_keys_lead_through_every_moment_and_back(driver: Driver, mine: Lesson) -> None:
+    begin(driver, mine)
+    session, seen = driver.session, list[tuple[Moment, np.ndarray]]()
+    while not seen or session.player.moment != seen[-1][0]:
+        seen.append((session.player.moment, picture(driver)))
+        driver.press(K.page_down)
+        driver.app.settle()
+    assert [moment for moment, _ in seen] == [
+        Moment(0, 0), Moment(0, 1),
+        Moment(1, 0), Moment(1, 1), Moment(1, 2), Moment(1, 3),  # depth 0, 1, 2, and the hidden part
+        Moment(2, 0), Moment(2, 1),  # the camera ray, and the reflected ray
+        Moment(3, 0), Moment(3, 1), Moment(3, 2),  # no sum, that of R, that of E
+    ]  # fmt: skip
+    assert session.notice.text == "the last step of Mine"
+    for moment, forwards in reversed(seen):
+        assert session.player.moment == moment
+        assert np.array_equal(picture(driver), forwards), moment
+        driver.press(K.page_up)
+        driver.app.settle()
+    assert session.player.moment == Moment()
+
+
+def test_a_moment_is_the_same_after_wandering_off(driver: Driver, mine: Lesson) -> None:
+    begin(driver, mine)
+    driver.session.player.show(mine, Moment(1, 1))
+    before = picture(driver)
+    assert driver.session.world and driver.session.world.scene.objects[0].material.reflect == 0.4
+    driver.session.pick(20, 200)
+    driver.session.set_depth(3)
+    driver.session.orbit.distance *= 2.0
+    driver.session.shown.toggle_kind("shadow")
+    driver.session.layout.maximise("image")
+    driver.frames()
+    driver.press(K.home)
+    assert np.array_equal(picture(driver), before)
+
+
+def test_the_text_is_shown_as_far_as_it_is_revealed(driver: Driver, mine: Lesson) -> None:
+    begin(driver, mine)
+    player = driver.session.player
+    assert (player.shown.parts, driver.session.selection, driver.session.at) == (1, "R", None)
+    driver.press(K.page_down)
+    assert (player.shown.parts, driver.session.at) == (2, (1, 1))
+
+
+def test_the_keys_go_on_to_the_next_lesson(driver: Driver) -> None:
+    first, second = (lessons.read(name) for name in lessons.names()[:2])
+    driver.session.player.show(first, Moment(len(first.steps) - 1, LAST))
+    driver.app.settle()
+    driver.press(K.page_down)
+    driver.app.settle()
+    assert driver.session.lesson == second and driver.session.player.moment == Moment()
+    driver.press(K.page_up)
+    driver.app.settle()
+    assert driver.session.lesson == first and driver.session.player.moment.step == len(first.steps) - 1
