@@ -76,11 +76,8 @@ def _opening(options: ViewOptions) -> Opening:
     path, lesson = find(options.scene or lessons.names()[0], takes_figures=True)
     if not is_there(path):  # a file that cannot be read is shown with its faults: perhaps it is being written
         raise Unusable(f"{shown_path(path)}: file not found")
-    state = options.state
-    if lesson and not state.panels and not state.at:
-        state = replace(state, at=(1, 0))
     is_whole = options.depth is not None or options.page is not None  # as in a copied command line
-    return Opening(path, lesson, state, shows_stage=bool(lesson) and not is_whole)
+    return Opening(path, lesson, options.state, shows_stage=options.at is not None and not is_whole)
 
 
 def _with_last_session(options: ViewOptions, folder: Path | None) -> tuple[LastSession | None, Opening]:
