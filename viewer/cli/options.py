@@ -18,6 +18,7 @@ from viewer.base.values import (
     PIXEL,
     POSITIVE,
     RAY,
+    SAMPLE_HELP,
     SCENE_HELP,
     SIZE,
     TEXT,
@@ -92,6 +93,7 @@ class TraceOptions:
     scene: str = argument("SCENE", TEXT, FIGURE_TOO)
     pixel: tuple[int, int] | None = option(PIXEL, "counted from the image's top left", group="where", required=True)
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where", required=True)
+    sample: int | None = option(whole(0, metavar="K"), SAMPLE_HELP)
     depth: int | None = _depth()
     model: str | None = _model()
     min_weight: float = _min_weight()
@@ -124,7 +126,7 @@ class RenderOptions:
     size: tuple[int, int] | None = _size()
     up: str = _up()
     samples: int | None = option(
-        whole(1), "samples per pixel, 1 (its centre) by default; their maximum with --until-error or --until-seconds"
+        whole(1), "samples per pixel, the scene's own by default; their maximum with --until-error or --until-seconds"
     )
     sampler: str = option(
         one_of(SAMPLERS), "placement of the samples; jittered needs a square number of samples", SAMPLERS[0]
