@@ -12,12 +12,23 @@ from viewer.panels import draw as d
 from viewer.panels.panel import Panel
 from viewer.panels.pixel.colors import draw_colors
 from viewer.panels.pixel.dots import dot_at, draw_dots
-from viewer.panels.pixel.sample_control import draw_control
+from viewer.panels.pixel.sample_line import draw_line, has_line, line_height
 from viewer.session.actions import choose_sample
 from viewer.session.session import Session
 
 
 def draw(session: Session, canvas: Canvas) -> None:
+    """The picture, below a line with the chosen sample if pixels have several."""
+    if not has_line(session):
+        draw_picture(session, canvas)
+        return
+    corner, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+    imgui.set_cursor_screen_pos((corner.x, corner.y + line_height()))
+    draw_picture(session, canvas)
+    draw_line(session, corner, width)  # last: it shows what is picked in the picture
+
+
+def draw_picture(session: Session, canvas: Canvas) -> None:
     corner = imgui.get_cursor_screen_pos()
     room = imgui.get_content_region_avail()
     if room.x < 8 or room.y < 8:
@@ -119,7 +130,6 @@ def _head(session: Session, room: float) -> None:
         if changed and text.isdigit():
             session.pick(*((int(text), max(y, 0)) if label == "x" else (max(x, 0), int(text))))
     imgui.same_line(0.0, 10.0 * unit)
-    draw_control(session)
     left = room - imgui.get_cursor_pos_x()
     if session.refinement.shows_map:
         _scale(session, left)

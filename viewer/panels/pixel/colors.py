@@ -1,5 +1,6 @@
 """The colours of the picked pixel: that of the tree on show, and the mean of the pixel's samples."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -27,15 +28,19 @@ class Shade(NamedTuple):
         return "  ".join(f"{value:.4f}" for value in self.rgb)
 
 
-def shades(session: Session, tree: RayTree) -> list[Shade]:
-    """The colour of the tree on show, and if the image shows another one, the mean that it shows."""
-    mean = pixel_mean(session)
+def tree_shade(tree: RayTree) -> Shade:
+    """The colour of the tree on show."""
     whose = tree.sample_text or "the ray through the pixel's centre"
-    found = [Shade("", tree.radiance, f"{whose}: the sum over the rays on show")]
-    if mean:
-        count, rgb = mean
-        found.append(Shade(f"mean of {count}", rgb, f"mean of {count} samples: the pixel's colour in the image"))
-    return found
+    return Shade("", tree.radiance, f"{whose}: the sum over the rays on show")
+
+
+def mean_shade(session: Session) -> Shade | None:
+    """The mean of the pixel's samples, if the image shows it."""
+    mean = pixel_mean(session)
+    if mean is None:
+        return None
+    count, rgb = mean
+    return Shade(f"mean of {count}", rgb, f"the mean of {count} samples: the pixel's colour in the image")
 
 
 def pixel_mean(session: Session) -> tuple[int, np.ndarray] | None:
@@ -55,24 +60,32 @@ def pixel_mean(session: Session) -> tuple[int, np.ndarray] | None:
 
 
 def draw_colors(session: Session, tree: RayTree, room: float) -> None:
+    """The colour of the pixel in the image, and of its centre if the rays on show are those of the centre."""
+    mean = mean_shade(session)
+    found = ([tree_shade(tree)] if tree.sample is None else []) + ([mean] if mean else [])
+    if found:
+        draw_shades(found, room)
+    else:
+        imgui.text_colored(session.appearance.theme.muted, f"mean of {tree.samples} ...")
+
+
+def draw_shades(found: Sequence[Shade], room: float) -> None:
     """A swatch for each colour, with its name and its numbers as far as there is room."""
-    found = shades(session, tree)
     unit, side = d.unit(), imgui.get_frame_height()
 
-    def width(texts: list[str]) -> float:
+    def width(texts: Sequence[str]) -> float:
         wide = sum(imgui.calc_text_size(text).x + GAP * unit if text else 0.0 for text in texts)
         return wide + len(texts) * side + (len(texts) - 1) * BETWEEN * unit
 
-    full = [f"{shade.name}  {shade.numbers}".strip() for shade in found]
-    first = [found[0].numbers, *(shade.name for shade in found[1:])]
     names = [shade.name for shade in found]
-    texts = next((texts for texts in (full, first, names) if width(texts) <= room), [""] * len(found))
+    full = [f"{shade.name}  {shade.numbers}".strip() for shade in found]
+    texts = next((texts for texts in (full, [*full[:1], *names[1:]], names) if width(texts) <= room), [""] * len(found))
     for k, (shade, text) in enumerate(zip(found, texts, strict=True)):
         if k:
             imgui.same_line(0.0, BETWEEN * unit)
         flags = imgui.ColorEditFlags_
         color = display_color(shade.rgb)
-        imgui.color_button(f"##color {k}", color, flags.no_tooltip | flags.no_drag_drop, (side, side))
+        imgui.color_button(f"##color {shade.name}", color, flags.no_tooltip | flags.no_drag_drop, (side, side))
         hovered = imgui.is_item_hovered()
         if text:
             imgui.same_line(0.0, GAP * unit)

@@ -11,6 +11,7 @@ Place = tuple[float, float, float]  # left and top of the image on the screen, a
 
 LEAST_PIXEL = 40.0  # logical pixels: the side of a pixel from which on its dots are shown
 REACH = 8.0  # logical pixels: the largest distance of a click from a dot
+GROWN, RING = 2.5, 1.3  # logical pixels: by which the chosen dot is larger, and the width of its white ring
 LARGEST, SMALLEST, CROWDED = 4.0, 1.4, 0.22  # radius in logical pixels; the share of a sample's part of the pixel
 
 
@@ -25,11 +26,11 @@ def draw_dots(session: Session, pad: imgui.ImDrawList, place: Place, hovered: in
     chosen = session.sample.number(session.world.scene) or 0
     last = [chosen] if hovered is None else [hovered, chosen]  # above all others
     for k in [*(k for k in range(len(spots)) if k not in last), *last]:
-        size = radius + (2.0 * unit if k in last else 0.0)
+        size = radius + (GROWN * unit if k in last else 0.0)
         pad.add_circle_filled(spots[k], size + 1.2 * unit, dark)
         pad.add_circle_filled(spots[k], size, bright)
         if k == chosen:
-            pad.add_circle_filled(spots[k], size - 1.6 * unit, d.u32(theme.accent))
+            pad.add_circle_filled(spots[k], size - RING * unit, d.u32(theme.accent))
 
 
 def dot_at(session: Session, place: Place, mouse: imgui.ImVec2) -> int | None:
