@@ -65,6 +65,30 @@ def make_samples(count: int, name: str = SAMPLERS[SOBOL]) -> Samples:
     return PIXEL_CENTER if count == 1 and sampler.kind == SOBOL else Samples(0, count, sampler)
 
 
+def sample_number(count: int, asked: int | None = None) -> int | None:
+    """The `sample` of `tracer.trace` for sample `asked`, by default the first, of a pixel with `count` samples: None,
+    the pixel's centre, if there is one. ValueError if there is no such sample.
+    """
+    if asked is not None and not 0 <= asked < count:
+        raise ValueError(f"sample must be within 0 .. {count - 1} (the scene has samples = {count}), got {asked}")
+    return None if count == 1 else asked or 0
+
+
+def image_point(x: int, y: int, k: int, sampler: Sampler) -> tuple[float, float]:
+    """The k-th sample point of pixel (x, y), in pixels from the top left corner of the image."""
+    if sampler.kind == CENTER:
+        return (x + 0.5, y + 0.5)
+    with np.errstate(over="ignore"):  # random bits: products wrap
+        dx, dy = sample_offset(x, y, k, sampler)
+    return (x + float(dx), y + float(dy))
+
+
+def image_points(x: int, y: int, samples: Samples) -> list[tuple[float, float]]:
+    """All sample points of pixel (x, y), in pixels from the top left corner of the image."""
+    numbers = range(samples.first, samples.first + samples.count)
+    return [image_point(x, y, k, samples.sampler) for k in numbers]
+
+
 @inlined
 def pixel_hash(x: int, y: int) -> np.uint64:
     """64 random bits for a pixel (Steele, Lea & Flood, "Fast Splittable Pseudorandom Number Generators", 2014)."""

@@ -77,7 +77,7 @@ def render_bounds(
     """
     flint()
     began = time.perf_counter()
-    view, points = world.view(size), make_samples(samples or 1, sampler)
+    view, points = world.view(size), make_samples(world.scene.image.samples if samples is None else samples, sampler)
     max_nodes = image_max_nodes(world, view.width * view.height, points.count, max_rays)
     options: dict[str, Any] = {
         "size": (view.width, view.height),

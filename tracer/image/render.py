@@ -116,14 +116,14 @@ def render(
 ) -> Image:
     """Render the scene's image.
 
-    `size` (width, height), `depth` and `model` are the scene's by default; `threads` as many as there are
+    `size` (width, height), `samples`, `depth` and `model` are the scene's by default; `threads` as many as there are
     processors. With an `executor` (of `concurrent.futures`, or a `tracer.cluster`), the tiles are traced there,
     `threads` calls at a time. The pixels have the same bits.
 
     A pixel is the mean over the first `samples` points of the `sampler`; a single Sobol point is the pixel's centre.
     The number of jittered points must be a square. `until_error` and `until_seconds` give each pixel as many samples
     as its error asks for, until the image's estimated error is that low or so much time has passed; each gets two at
-    least, and `samples` at most.
+    least, and `samples` at most, or 4096 if that is not given: the scene's number does not count then.
 
     `min_weight` cuts rays whose largest weight is below it. With a `tolerance`, the weights of the rays that a pixel
     lacks sum up to no more than that; the depth is then limited only if it is given. With `missing` in its place, the
@@ -139,7 +139,7 @@ def render(
     where the light of a ray has no bound.
     """
     goal = Goal(until_error, until_seconds)
-    points = make_samples(1 if goal else samples or 1, sampler)
+    points = make_samples(1 if goal else world.scene.image.samples if samples is None else samples, sampler)
     if goal and points.sampler.kind == JITTERED:
         raise ValueError("until_error and until_seconds need sobol or random samples, got jittered")
     if goal and samples is not None and samples < 2:

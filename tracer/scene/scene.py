@@ -69,6 +69,7 @@ class Camera:
 class Image:
     width: int = field(default=640, metadata=fields.whole(1, 16384))
     height: int = field(default=480, metadata=fields.whole(1, 16384))
+    samples: int = field(default=1, metadata=fields.whole(1, 4096))  # of a pixel; 1: its centre
 
 
 @dataclass(frozen=True, slots=True)

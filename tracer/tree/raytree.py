@@ -33,6 +33,7 @@ class RayTree(TreeTable):
             "format": FORMAT,
             "scene": str(self.scene.path) if self.scene.path else self.scene.title,
             "pixel": list(self.pixel) if self.pixel else None,
+            "sample": self.sample,
             "size": list(self.size),
             "depth": self.depth,
             "model": self.model,

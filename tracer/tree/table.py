@@ -51,6 +51,8 @@ class TreeTable:
     max_nodes: int = MAX_NODES  # the limit of rows
     image_point: tuple[float, float] = (0.0, 0.0)  # the point of the image that the ray goes through, in pixels
     ray: tuple[Vector, Vector] | None = None  # a ray by hand: origin and direction as given
+    sample: int | None = None  # the number of the pixel's sample, from 0; None: the pixel's centre
+    samples: int = 1  # of a pixel of the image
 
     @property
     def scene(self) -> Scene:
@@ -58,7 +60,7 @@ class TreeTable:
 
     @property
     def radiance(self) -> np.ndarray:
-        """The colour of the pixel, linear RGB (3,)."""
+        """The colour of the pixel, or of its sample, linear RGB (3,)."""
         return self.nodes["radiance"][0]
 
     @property
@@ -91,12 +93,20 @@ class TreeTable:
         """The pixel as text, or "a ray"."""
         return f"pixel {self.pixel[0]},{self.pixel[1]}" if self.pixel else "a ray"
 
+    @property
+    def sample_text(self) -> str:
+        """The sample as text, like "sample 3 of 16"; empty for the pixel's centre. Samples are numbered from 0."""
+        if self.sample is None:
+            return ""
+        return f"sample {self.sample}" + (f" of {self.samples}" if self.sample < self.samples else "")
+
     def __len__(self) -> int:
         return len(self.nodes)
 
     def __repr__(self) -> str:
         color = " ".join(f"{x:.4f}" for x in self.radiance)
-        return f"<RayTree of {self.place}: depth {self.depth}, {len(self)} rows, radiance {color}>"
+        sample = f", {self.sample_text}" if self.sample_text else ""
+        return f"<RayTree of {self.place}{sample}: depth {self.depth}, {len(self)} rows, radiance {color}>"
 
     @cached_property
     def is_limited(self) -> bool:

@@ -88,6 +88,7 @@ def columns(rows: Sequence[Sequence[str]]) -> list[str]:
 
 def _head(tree: TreeTable) -> list[str]:
     where = f"{tree.place} of {tree.size[0]}x{tree.size[1]}" if tree.pixel else tree.place
+    where += f", {tree.sample_text}" if tree.sample_text else ""
     rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
     head = [f"{tree.scene.caption}: {where}, depth {tree.depth}, {tree.model}, {rays}"]
     head.append(f"colour {rgb_text(tree.radiance, tree.radiance_error)} (linear r g b); {cut_summary(tree)}")

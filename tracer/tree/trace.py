@@ -10,7 +10,7 @@ from tracer.choices import MODELS, SAMPLERS, SOBOL
 from tracer.compile.rows import as_rows, dtype_of
 from tracer.fields import LARGEST
 from tracer.formulas.camera import View, direction_error
-from tracer.formulas.sampler import PIXEL_CENTER, make_sampler, sample_offset
+from tracer.formulas.sampler import PIXEL_CENTER, image_point, make_sampler
 from tracer.formulas.vector import as_floats, rescale, unit, vector
 from tracer.kernel.entry import one_pixel, ray_view, trace_list
 from tracer.kernel.limits import BREADTH_FIRST, image_max_nodes, make_limits
@@ -45,11 +45,11 @@ def trace(
     """The tree behind a pixel (x, y) of the image, counted from the top left, or behind a ray (origin, direction).
 
     `size` (width, height), `depth` and `model` are the scene's by default. `sample` is the number of one of the pixel's
-    sample points, by default its centre; jittered points also need the number of `samples`. `min_weight` cuts rays
-    whose largest weight is below it. With a `tolerance`, the heaviest rays are traced first, to any depth unless one is
-    given, until the weights of the rest sum up to no more than that. With `missing` in its place, until the rest can
-    add no more light than that to any channel: `bound` is at most `missing`. In a scene without light, that is so after
-    the first ray.
+    sample points, from 0, by default its centre. The number of `samples`, the scene's by default, says where jittered
+    points lie; a Sobol point is the same for any number. `min_weight` cuts rays whose largest weight is below it. With
+    a `tolerance`, the heaviest rays are traced first, to any depth unless one is given, until the weights of the rest
+    sum up to no more than that. With `missing` in its place, until the rest can add no more light than that to any
+    channel: `bound` is at most `missing`. In a scene without light, that is so after the first ray.
 
     The tree has at most `max_nodes` rows, each ray counted with all shadow rays that its hit could have. By default it
     is the limit that `tracer.render` gives to the trees of an image of this size with this number of `samples` and of
@@ -62,7 +62,8 @@ def trace(
         raise ValueError("either a pixel or a ray is traced: give one of them")
     camera = world.view(size)
     pixels = camera.width * camera.height if ray is None else 1
-    max_nodes = image_max_nodes(world, pixels, samples or 1, max_rays, max_nodes)
+    count = _number_of_samples(world, ray is not None, sample, samples)
+    max_nodes = image_max_nodes(world, pixels, count, max_rays, max_nodes)
     limits = make_limits(world, depth, min_weight, tolerance, max_nodes, model, missing=missing, records=True)
     if pixel is not None:
         x, y = (operator.index(value) for value in pixel)
@@ -73,20 +74,16 @@ def trace(
         assert ray is not None
         x, y = 0, 0
         view = _ray_view(*ray)
-    points = PIXEL_CENTER.sampler if sample is None else make_sampler(sampler, samples or sample + 1)
+    points = PIXEL_CENTER.sampler if sample is None else make_sampler(sampler, max(count, sample + 1))
     first = sample or 0
     workspace = Workspace(world.eye(view.eye))
     trace_list(world.arrays, view, limits, points, one_pixel(x, y, first, first + 1), workspace)
     space = workspace.arrays
-    count = int(space.tree[0])
+    rows = int(space.tree[0])
     turn = 0.0 if pixel is None else direction_error(camera, world.scene.camera.up, vector(space.table["direction"][0]))
-    nodes, details = public_rows(world, space.table, count, limits.model, turn)
+    nodes, details = public_rows(world, space.table, rows, limits.model, turn)
     residual = float(space.tree[1])
     best_first = limits.tolerance != BREADTH_FIRST
-    dx, dy = 0.5, 0.5
-    if sample is not None:
-        with np.errstate(over="ignore"):  # random bits: products wrap
-            dx, dy = sample_offset(x, y, sample, points)
     return RayTree(
         world,
         nodes,
@@ -99,9 +96,23 @@ def trace(
         tolerance=limits.tolerance if best_first else None,
         missing_allowed=missing,
         max_nodes=limits.max_nodes,
-        image_point=(x + float(dx), y + float(dy)),
+        image_point=image_point(x, y, first, points),
+        sample=sample,
+        samples=count,
         ray=None if ray is None else (as_floats(ray[0]), as_floats(ray[1])),
     )
+
+
+def _number_of_samples(world: World, is_by_hand: bool, sample: int | None, samples: int | None) -> int:
+    """The number of samples of a pixel. ValueError if there is no such sample."""
+    if samples is not None and samples < 1:
+        raise ValueError(f"samples must be >= 1, got {samples}")
+    if sample is not None and is_by_hand:
+        raise ValueError(f"a ray that is given by hand has no samples, got sample {sample}")
+    if sample is not None and not 0 <= sample < (samples or math.inf):
+        allowed = f"within 0 .. {samples - 1}" if samples else ">= 0"
+        raise ValueError(f"sample must be {allowed}, got {sample}")
+    return samples or world.scene.image.samples
 
 
 def _ray_view(origin: Sequence[float], direction: Sequence[float]) -> View:

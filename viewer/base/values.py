@@ -19,6 +19,7 @@ FAR = 1e6  # limit of the coordinates of a picture's middle
 AT_HELP = "of a lesson: its step, from 1; 3.2 is two presses of a key after the beginning of step 3"
 UP_HELP = "axis of a mesh file that points upwards, y by default"
 DEPTH_HELP = "recursion depth, the scene's own by default"
+SAMPLE_HELP = "of a pixel with N samples, this one, 0 to N - 1; the first by default"
 MODEL_HELP = "the scene's own by default"
 MAX_RAYS_HELP = (
     "limit of rays of the image, 10^10 for each sample of a pixel by default; every tree gets an equal share"

@@ -28,6 +28,8 @@ def export(options: ExportOptions) -> int:
             options = replace(options, depth=range(scene.state.depth, scene.state.depth + 1))
         if not options.pixel and not options.ray:
             options = replace(options, pixel=scene.state.pixel)
+        if options.sample is None and not options.ray:
+            options = replace(options, sample=scene.state.sample)
         if not options.pixel and not options.ray:
             raise Unusable("raytree export: give a pixel (--pixel X,Y) or a ray (--ray ox,oy,oz,dx,dy,dz)")
         made = make_files(options, scene, target)

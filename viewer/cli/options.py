@@ -20,6 +20,7 @@ from viewer.base.values import (
     PIXEL,
     POSITIVE,
     RAY,
+    SAMPLE_HELP,
     SCENE_HELP,
     SIZE,
     TEXT,
@@ -95,6 +96,7 @@ class TraceOptions:
     at: tuple[int, int] | None = option(MOMENT, AT_HELP)
     pixel: tuple[int, int] | None = option(PIXEL, "counted from the image's top left", group="where", required=True)
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where", required=True)
+    sample: int | None = option(whole(0, metavar="K"), SAMPLE_HELP)
     depth: int | None = _depth()
     model: str | None = _model()
     min_weight: float = _min_weight()
@@ -127,7 +129,7 @@ class RenderOptions:
     size: tuple[int, int] | None = _size()
     up: str = _up()
     samples: int | None = option(
-        whole(1), "samples per pixel, 1 (its centre) by default; their maximum with --until-error or --until-seconds"
+        whole(1), "samples per pixel, the scene's own by default; their maximum with --until-error or --until-seconds"
     )
     sampler: str = option(
         one_of(SAMPLERS), "placement of the samples; jittered needs a square number of samples", SAMPLERS[0]

@@ -1,6 +1,7 @@
 """`raytree trace`: the ray tree behind one pixel, as text or as data."""
 
 import tracer
+from tracer.formulas.sampler import sample_number
 from viewer.base.files import Unusable, check_writable, write_atomically
 from viewer.base.progress import Progress
 from viewer.base.streams import put
@@ -15,11 +16,14 @@ def trace(options: TraceOptions) -> int:
         check_writable(options.output)
     if options.verify and options.format not in ("text", "json"):
         raise Unusable(f"raytree trace: --verify is written as text or json, not as {options.format}")
+    if options.sample is not None and options.ray:
+        raise Unusable("raytree trace: --sample is for a pixel: a ray has no samples")
     with found_scene(options.scene, options.at) as scene, faults():
         compile_once()
         world = prepared(scene.path, options.up, changes=scene.changes)
         ray = (options.ray[:3], options.ray[3:]) if options.ray else None
-        tree = tracer.trace(world, options.pixel, ray, **limits_of(options))
+        sample = None if ray else sample_number(world.scene.image.samples, options.sample)
+        tree = tracer.trace(world, options.pixel, ray, sample=sample, **limits_of(options))
     most = options.rays or None
     if options.verify:
         with extra("trace"), Progress("verify") as progress:

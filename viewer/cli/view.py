@@ -8,6 +8,7 @@ from pathlib import Path
 import platformdirs
 
 import tracer
+from tracer.formulas.sampler import sample_number
 from tracer.printable import shown_path
 from viewer.base.files import Unusable, check_writable, is_there, write_atomically
 from viewer.base.pictures import png
@@ -51,7 +52,7 @@ def view(options: ViewOptions) -> int:
     session = app.session
     restore_appearance(session.appearance, opening.state)
     keeper = SessionKeeper(folder / "session.json", session, lambda: window.place) if folder else None
-    check = TreeCheck(session, options.select, options.page)
+    check = TreeCheck(session, options.select, options.page, options.sample)
     if folder:
         session.export.remember(folder / "figure.json")
 
@@ -99,13 +100,18 @@ def _with_last_session(options: ViewOptions, folder: Path | None) -> tuple[LastS
 
 
 class TreeCheck:
-    """Says once if the tree on show does not have the ray or the step that was asked for."""
+    """Says once if the tree on show does not have the ray or the step that was asked for, or the pixel the sample."""
 
-    def __init__(self, session: Session, select: str | None, page: int | None) -> None:
-        self.session, self.asked, self.page = session, select, page
+    def __init__(self, session: Session, select: str | None, page: int | None, sample: int | None) -> None:
+        self.session, self.asked, self.page, self.sample = session, select, page, sample
 
     def fault(self) -> str | None:
         """The fault; None if there is none, or no tree yet."""
+        if self.session.world and self.sample is not None:
+            try:
+                sample_number(self.session.world.scene.image.samples, self.sample)
+            except ValueError as error:
+                return f"--{error}"
         tree, steps = self.session.tree, self.session.reveal.steps if self.page is not None else None
         if steps and self.page is not None and self.page >= len(steps):
             return f"--page {self.page}: must be a step of this tree, 0 .. {len(steps) - 1}"
@@ -120,6 +126,8 @@ class TreeCheck:
         fault = self.fault()
         if fault:
             self.session.show_faults([fault])
+        if self.session.world:
+            self.sample = None
         if self.session.tree:
             self.asked = self.page = None
 
@@ -131,7 +139,7 @@ def take_screenshot(opening: Opening, options: ViewOptions, target: Path) -> Non
     except NoWindow as reason:
         raise Unusable(str(reason)) from None
     session = app.session
-    check = TreeCheck(session, options.select, options.page)
+    check = TreeCheck(session, options.select, options.page, options.sample)
     try:
         restore_appearance(session.appearance, opening.state)
         session.loader.load(opening)
@@ -163,7 +171,8 @@ def without_display(options: ViewOptions, reason: str) -> int:
         world = prepared(scene.path, state.up, changes=scene.changes)
         image = world.scene.image
         pixel = state.pixel or (image.width // 2, image.height // 2)
-        tree = tracer.trace(world, pixel, depth=state.depth, model=state.model)
+        sample = sample_number(image.samples, state.sample)
+        tree = tracer.trace(world, pixel, sample=sample, depth=state.depth, model=state.model)
         name = scene.lesson.name if scene.lesson else scene.path.stem
     target = Path("out") / f"{name}.png"
     put(f"Drawing the viewer into {shown_path(target)} instead; this is the ray tree it shows:\n\n{tree.to_text()}")

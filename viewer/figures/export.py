@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
 import tracer
+from tracer.formulas.sampler import sample_number
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from viewer.base.files import Unusable, write_atomically
@@ -54,6 +55,8 @@ def check_options(options: ExportOptions) -> None:
         found.append(f"raytree export: a hit has no steps: --step {options.step} is for tree, scene and both")
     if options.order != BREADTH and options.step in ("depth", "levels"):
         found.append(f"raytree export: --order {options.order} is for --step rays and colour, got {options.step}")
+    if options.sample is not None and options.ray:
+        found.append("raytree export: --sample is for a pixel: a ray has no samples")
     given = {item.name for item in fields(options) if getattr(options, item.name) != item.default}
     for name in dict.fromkeys(name for kind in FIGURES for name in kind.options):
         figures = [kind.name for kind in reversed(FIGURES) if name in kind.options]
@@ -139,6 +142,7 @@ def steps_of(world: World, options: ExportOptions, depths: range) -> Sequence[St
         "min_weight": options.min_weight,
         "max_rays": options.max_rays,
         "model": options.model,
+        "sample": None if ray else sample_number(world.scene.image.samples, options.sample),
     }
     trees = [tracer.trace(world, options.pixel, ray, depth=depth, **how) for depth in depths]
     if options.turn is not None:

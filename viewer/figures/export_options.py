@@ -21,6 +21,7 @@ from viewer.base.values import (
     RAY,
     RAY_NAME,
     RAY_PATH,
+    SAMPLE_HELP,
     SHARE,
     SIZE,
     TEXT,
@@ -48,6 +49,7 @@ class ExportOptions:
     at: tuple[int, int] | None = option(MOMENT, AT_HELP)
     pixel: tuple[int, int] | None = option(PIXEL, "from the image's top left; a lesson's own by default", group="where")
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where")
+    sample: int | None = option(whole(0, metavar="K"), SAMPLE_HELP)
     figure: str = option(one_of(FIGURE_NAMES), "tree by default", "tree")
     view: tuple[float, ...] | None = option(
         ORBIT, "scene: azimuth and elevation in degrees, distance in radii of the scene, target"
@@ -102,6 +104,7 @@ class ExportOptions:
         own = ViewState(
             at=self.at,
             pixel=self.pixel if self.size in (None, size) else None,
+            sample=self.sample,
             depth=self.depth[-1] if self.depth else None,
             model=self.model,
             up=self.up,

@@ -27,8 +27,8 @@ def pages(name: str, subject: Subject, style: FigureStyle, command: str = "") ->
 
 
 def title(tree: RayTree) -> str:
-    where = f"pixel {tree.pixel[0]},{tree.pixel[1]}" if tree.pixel else "a ray"
-    return f"{tree.scene.caption}: the rays behind {where}, depth {tree.depth}"
+    sample = f", {tree.sample_text}" if tree.sample_text else ""
+    return f"{tree.scene.caption}: the rays behind {tree.place}{sample}, depth {tree.depth}"
 
 
 def description(tree: RayTree) -> str:
@@ -39,7 +39,8 @@ def description(tree: RayTree) -> str:
     rays = "1 ray" if len(tree) == 1 else f"{len(tree)} rays"
     color = rgb_text(tree.radiance, tree.radiance_error)
     doubts = [f"{tree.label(i)} could have gone otherwise, by rounding: {words}." for i, words in tree.doubts]
-    return " ".join([f"{rays}: {made_of}. The pixel's colour is {color} (linear r g b).", *doubts[:MOST_DOUBTS]])
+    whose = f"colour of {tree.sample_text}" if tree.sample_text else "pixel's colour"
+    return " ".join([f"{rays}: {made_of}. The {whose} is {color} (linear r g b).", *doubts[:MOST_DOUBTS]])
 
 
 KINDS = (

@@ -8,6 +8,7 @@ from typing import Any
 import tracer
 from tracer import fields
 from tracer.formats.source import Fault
+from tracer.formulas.sampler import sample_number
 from tracer.kernel.nodes import SHADOW
 from tracer.kernel.world import World
 from tracer.printable import shown_path
@@ -95,7 +96,12 @@ class _Check:
             allowed = f"within 0,0 .. {image.width - 1},{image.height - 1}"
             yield Fault(f"pixel must be {allowed}, got {x},{y}", step.line_of("pixel"))
             return
-        tree = tracer.trace(world, state.pixel, depth=state.depth, model=state.model)
+        try:
+            sample = sample_number(image.samples, state.sample)
+        except ValueError as error:
+            yield Fault(str(error), step.line_of("sample"))
+            return
+        tree = tracer.trace(world, state.pixel, sample=sample, depth=state.depth, model=state.model)
         if state.hit and tree.find(state.hit) is None:
             yield Fault(f"hit must be a ray of this pixel ({_paths(tree)}), got {state.hit}", step.line_of("hit"))
             return

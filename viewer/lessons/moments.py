@@ -46,6 +46,7 @@ def view_of(step: Step) -> ViewState:
     by_ray = state.reveal not in (None, DEPTH)
     return ViewState(
         pixel=state.pixel,
+        sample=state.sample,
         depth=state.depth,
         model=state.model,
         select=state.hit,

@@ -34,15 +34,17 @@ def draw(session: Session, canvas: Canvas) -> None:
         _plot(session)
     else:
         imgui.push_text_wrap_pos(0.0)
-        imgui.text_colored(session.appearance.theme.muted, BEGUN if session.refinement.is_running else EMPTY)
+        samples = session.world.scene.image.samples
+        now = "one ray per pixel, through its centre" if samples == 1 else f"{samples} rays per pixel"
+        words = BEGUN if session.refinement.is_running else f"The image has {now}. {MORE}"
+        imgui.text_colored(session.appearance.theme.muted, words)
         imgui.pop_text_wrap_pos()
 
 
 BEGUN = "The first rays are being traced: each pixel gets one, then one more."
-EMPTY = (
-    "The image has one ray per pixel, through its centre. Refine it: pixels get more rays, twice as many each time, "
-    "and the change of their mean gives an estimate of the error. Try another depth, or another way to place the "
-    "rays: every curve is kept."
+MORE = (
+    "Refine it: pixels get more rays, twice as many each time, and the change of their mean gives an estimate of the "
+    "error. Try another depth, or another way to place the rays: every curve is kept."
 )
 
 

@@ -1,21 +1,34 @@
 """The image as it renders: click or drag to pick a pixel, wheel to zoom, double click to fit, arrow keys to move by a
-pixel.
+pixel. Enlarged, it shows the points of the picked pixel's samples: a click on one shows the rays of that sample.
 """
 
 from imgui_bundle import imgui
 
-from tracer.tree.raytree import RayTree
 from viewer.base.colormap import RANGES, gradient
-from viewer.base.srgb import display_color
 from viewer.base.theme import SMALL
 from viewer.gl.canvas import Canvas, texture_ref
 from viewer.gl.magnified import Place
 from viewer.panels import draw as d
 from viewer.panels.panel import Panel
+from viewer.panels.pixel.colors import draw_colors
+from viewer.panels.pixel.dots import dot_at, draw_dots
+from viewer.panels.pixel.sample_line import draw_line, has_line, line_height
+from viewer.session.actions import choose_sample
 from viewer.session.session import Session
 
 
 def draw(session: Session, canvas: Canvas) -> None:
+    """The picture, below a line with the chosen sample if pixels have several."""
+    if not has_line(session):
+        draw_picture(session, canvas)
+        return
+    corner, width = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail().x
+    imgui.set_cursor_screen_pos((corner.x, corner.y + line_height()))
+    draw_picture(session, canvas)
+    draw_line(session, corner, width)  # last: it shows what is picked in the picture
+
+
+def draw_picture(session: Session, canvas: Canvas) -> None:
     corner = imgui.get_cursor_screen_pos()
     room = imgui.get_content_region_avail()
     if room.x < 8 or room.y < 8:
@@ -29,7 +42,8 @@ def draw(session: Session, canvas: Canvas) -> None:
         return
     place = _place(session, corner, room)
     canvas.image_place = place
-    _handle_mouse(session, place)
+    dot = dot_at(session, place, imgui.get_mouse_pos()) if imgui.is_item_hovered() else None
+    _handle_mouse(session, place, dot)
     canvas_draw.push_clip_rect(corner, (corner.x + room.x, corner.y + room.y), True)
     panel = (corner.x, corner.y, corner.x + room.x, corner.y + room.y)
     seen = canvas.seen(Place(*place, panel))
@@ -37,10 +51,11 @@ def draw(session: Session, canvas: Canvas) -> None:
         canvas_draw.add_image(texture_ref(seen.texture), seen.first, seen.end)
         if session.pixel:
             _mark_pixel(session, canvas_draw, place)
+            draw_dots(session, canvas_draw, place, dot)
     else:
         _waiting(session, canvas_draw, corner, room)
     canvas_draw.pop_clip_rect()
-    _limit_reached(session, canvas_draw, corner, room)
+    _note(session, canvas_draw, corner, room)
     _progress(session, canvas_draw, corner, room)
 
 
@@ -54,12 +69,17 @@ def _place(session: Session, corner: imgui.ImVec2, room: imgui.ImVec2) -> tuple[
     return left, top, scale
 
 
-def _handle_mouse(session: Session, place: tuple[float, float, float]) -> None:
+def _handle_mouse(session: Session, place: tuple[float, float, float], dot: int | None) -> None:
+    """`dot` is the sample whose dot is under the mouse."""
     left, top, scale = place
     io = imgui.get_io()
     mouse = imgui.get_mouse_pos()
     look = session.image_view
-    if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+    if dot is not None:
+        imgui.set_mouse_cursor(imgui.MouseCursor_.hand)
+        if imgui.is_mouse_clicked(imgui.MouseButton_.left):
+            choose_sample(session, dot)
+    elif imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
         look.fit()
     elif imgui.is_item_active() and imgui.is_mouse_down(imgui.MouseButton_.left) and io.mouse_clicked_count[0] != 2:
         drag = ("drag", io.mouse_clicked_time[0])
@@ -114,41 +134,10 @@ def _head(session: Session, room: float) -> None:
     if session.refinement.shows_map:
         _scale(session, left)
     elif session.tree:
-        _color(session, session.tree, left)
+        draw_colors(session, session.tree, left)
     else:
         imgui.text_colored(theme.muted, "click the image")
     imgui.pop_style_var()
-
-
-def _color(session: Session, tree: RayTree, room: float) -> None:
-    """The picked pixel's colour, with its numbers if there is room."""
-    rgb = tree.radiance
-    side = imgui.get_frame_height()
-    flags = imgui.ColorEditFlags_
-    imgui.color_button("##color", display_color(rgb), flags.no_tooltip | flags.no_drag_drop, (side, side))
-    content = "  ".join(f"{value:.4f}" for value in rgb)
-    hovered = imgui.is_item_hovered()
-    if room >= side + d.text_size(content, imgui.get_font_size())[0] + 8.0 * d.unit():
-        imgui.same_line(0.0, 8.0 * d.unit())
-        imgui.text(content)
-        hovered = hovered or imgui.is_item_hovered()
-    if hovered:
-        meaning = "red, green, blue: linear light, before it is encoded as sRGB for the screen"
-        if session.refinement.current:
-            meaning += f"\nof the ray through the pixel's centre{_refined(session)}"
-        imgui.set_tooltip(f"{content}\n{meaning}")
-
-
-def _refined(session: Session) -> str:
-    """The mean of the picked pixel's samples."""
-    run = session.refinement.current
-    if not (run and run.image and session.pixel and run.points):
-        return ""
-    x, y = session.pixel
-    statistics = run.image.statistics
-    count = int(statistics.counts[y, x])
-    mean = "  ".join(f"{value / count:.4f}" for value in statistics.sums[y, x, :3])
-    return f"; the mean of {count} samples is {mean}"
 
 
 def _scale(session: Session, room: float) -> None:
@@ -172,14 +161,18 @@ def _scale(session: Session, room: float) -> None:
     imgui.text(high)
 
 
-def _limit_reached(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
-    """A note at the bottom about the trees that the limit of rays ended."""
+def _note(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+    """A note at the bottom: what of the samples is shown so far, and how many trees the limit of rays ended."""
     shown = session.image.picture
-    if shown is None or not shown.limited:
+    notes = []
+    if shown and shown.is_preview:
+        notes.append(f"pixel centres; the mean of {shown.samples} samples follows")
+    if shown and shown.limited:
+        trees = "samples" if shown.is_endless or shown.samples > 1 else "pixels"
+        notes.append(f"{shown.limited:,} {trees} stopped at the limit of {shown.max_nodes:,} rays")
+    if not notes:
         return
-    trees = "samples" if shown.is_endless else "pixels"
-    size = SMALL * imgui.get_font_size()
-    content = f"{shown.limited:,} {trees} stopped at the limit of {shown.max_nodes:,} rays"
+    size, content = SMALL * imgui.get_font_size(), "; ".join(notes)
     content = d.shortened(content, size, room.x - 12 * d.unit())
     place = (corner.x + 6 * d.unit(), corner.y + room.y - size - 8 * d.unit())
     d.text(draw, place, session.appearance.theme.text, content, size, session.appearance.theme.panel)

@@ -36,7 +36,7 @@ def draw(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImV
     imgui.push_style_var(imgui.StyleVar_.window_padding, (0.0, 0.0))
     flags = imgui.WindowFlags_
     if imgui.begin_child("inset", size, imgui.ChildFlags_.none, flags.no_scrollbar | flags.no_scroll_with_mouse):
-        image.draw(session, canvas)
+        image.draw_picture(session, canvas)
     imgui.end_child()
     imgui.pop_style_var()
     imgui.pop_style_color()

@@ -23,6 +23,7 @@ from viewer.base.values import (
     PAN_ZOOM,
     PIXEL,
     RAY_PATH,
+    SAMPLE_HELP,
     SHARES,
     UP_HELP,
     Unreadable,
@@ -48,6 +49,7 @@ class ViewState:
 
     at: tuple[int, int] | None = option(MOMENT, AT_HELP)
     pixel: tuple[int, int] | None = option(PIXEL, "pick this pixel, counted from the top left")
+    sample: int | None = option(whole(0, metavar="K"), SAMPLE_HELP)
     depth: int | None = option(whole(0, metavar="D"), DEPTH_HELP)
     model: str | None = option(one_of(MODELS), MODEL_HELP)
     up: str = option(one_of(UP_AXES), UP_HELP, UP_AXES[0])

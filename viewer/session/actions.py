@@ -20,6 +20,27 @@ def nudge(session: Session, dx: int, dy: int) -> None:
     session.pick(x + dx, y + dy, series="nudge")
 
 
+def choose_sample(session: Session, number: int) -> None:
+    """Show the tree of another sample of the picked pixel. After the last one comes the first one again."""
+    if not session.world:
+        return
+    count = session.world.scene.image.samples
+    if count == 1:
+        session.notice.say("a pixel of this scene has one sample, its centre; samples = N below [image] gives it N")
+        return
+    session.sample.chosen = number % count
+    session.tree = None
+    session.turn_back()
+    session.history.note(sample=session.sample.chosen)
+    session.update()
+
+
+def step_sample(session: Session, by: int) -> None:
+    """Show the tree of the next sample of the picked pixel, or the one before."""
+    if session.world:
+        choose_sample(session, (session.sample.number(session.world.scene) or 0) + by)
+
+
 def step(session: Session, by: int) -> None:
     """Select the next ray in the order of the table, or the previous one."""
     if session.tree:
@@ -43,6 +64,7 @@ def _return_to(session: Session, place: Place) -> None:
     pixel = place.opening.state.pixel
     session.pixel = session.inside(*pixel) if pixel else None
     session.selection, session.tree, session.full_tree = place.opening.state.select, None, None
+    session.sample.chosen = place.opening.state.sample or 0
     session.turn_back()
     session.update()
 

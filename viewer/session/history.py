@@ -1,6 +1,7 @@
 """The places that were looked at: Alt+Left goes back to the one before, Alt+Right forward again."""
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 from viewer.session.scene_loader import Opening
 
@@ -36,13 +37,11 @@ class History:
         self.places.append(place)
         self.at = len(self.places) - 1
 
-    def note(self, selection: str | None) -> None:
-        """Note the ray that is selected at this place."""
+    def note(self, **changes: Any) -> None:
+        """Note the changes of a view's state at this place, such as the ray that is selected there."""
         if self.now:
             opening = self.now.opening
-            self.places[self.at] = replace(
-                self.now, opening=replace(opening, state=replace(opening.state, select=selection))
-            )
+            self.places[self.at] = replace(self.now, opening=replace(opening, state=replace(opening.state, **changes)))
 
     def move(self, by: int) -> Place | None:
         """Go back (-1) or forward (1), and return the place; None at either end."""

@@ -1,4 +1,7 @@
-"""Renders the image in the background: coarse at once, then finer. An outdated image is stopped within a tile."""
+"""Renders the image in the background: coarse at once, then finer. An outdated image is stopped within a tile.
+
+If pixels have several samples, their centres are shown first, and then the mean of the samples, tile by tile.
+"""
 
 import os
 import threading
@@ -10,10 +13,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tracer.formulas.sampler import PIXEL_CENTER
+from tracer.formulas.sampler import PIXEL_CENTER, make_samples
 from tracer.image.film import Traced
 from tracer.image.passes import Stopped, trace_passes
-from tracer.image.progressive import ProgressiveImage, RoundStats
+from tracer.image.progressive import SIDE, ProgressiveImage, RoundStats
 from tracer.image.render import processors
 from tracer.image.task import Task, Work
 from tracer.image.tiles import COARSE_TO_FINE, Tile, make_passes
@@ -31,7 +34,8 @@ class Picture:
     """One image, finished or not."""
 
     shown: np.ndarray  # 8-bit sRGB (height, width, 4), opaque: graphics cards take this format as it is
-    pixels: np.ndarray  # linear RGB (height, width, 3) with one sample per pixel
+    pixels: np.ndarray  # linear RGB (height, width, 3); finished, the mean of `samples` samples
+    samples: int = 1  # of a pixel; 1: its centre
     share: float = 0.0  # of its tiles that are finished, over all passes
     seconds: float = 0.0
     max_nodes: int = 0  # the limit of rows of each of its trees
@@ -43,6 +47,16 @@ class Picture:
     @property
     def finished(self) -> bool:
         return self.share >= 1.0
+
+    @property
+    def is_preview(self) -> bool:
+        """Whether it shows pixel centres, in part or everywhere, until the mean of the samples is there."""
+        return self.samples > 1 and not self.finished and not self.is_endless
+
+    @property
+    def least_refined(self) -> int:
+        """The number of samples from which on a refined pixel is shown: fewer look worse than what is shown already."""
+        return max(2, self.samples)
 
 
 class ImageRenderer:
@@ -70,7 +84,8 @@ class ImageRenderer:
         # Until its first tiles are there, the image before is shown: a black one would flash.
         before = self.picture.shown if self.picture else np.zeros(0)
         shown = before.copy() if before.shape == (height, width, 4) else np.full((height, width, 4), BLACK, np.uint8)
-        picture = Picture(shown, np.zeros((height, width, 3)), max_nodes=limits.max_nodes)
+        samples = world.scene.image.samples
+        picture = Picture(shown, np.zeros((height, width, 3)), samples, max_nodes=limits.max_nodes)
         self.picture = picture
         self.running = self.runner.submit(self._render, picture, world, limits, key)
 
@@ -112,19 +127,26 @@ class ImageRenderer:
             return
         began = time.perf_counter()
         height, width, _ = pixels.shape
-        task = Task.of(world, world.view((width, height)), limits, PIXEL_CENTER.sampler)
-        passes = [[Work(tile) for tile in tiles] for tiles in make_passes(width, height, COARSE_TO_FINE)]
+        stages = [(PIXEL_CENTER, make_passes(width, height, COARSE_TO_FINE))]
+        if picture.samples > 1:
+            stages.append((make_samples(picture.samples), make_passes(width, height, side=SIDE)))
+        total, done = sum(points.count for points, _ in stages), 0
 
         def finished(traced: Traced, share: float) -> None:
             _show(picture, traced.tile, pixels[traced.tile.part])
             picture.seconds = time.perf_counter() - began
             picture.limited += int(traced.counts.limited[0])
             picture.tiles.append(traced.tile)
-            picture.share = share
+            picture.share = (done + share * points.count) / total
             self.progress()
 
         try:
-            trace_passes(task, passes, self.pool, self.threads, finished, pixels, picture.cancelled.is_set)
+            for points, passes in stages:
+                picture.limited = 0
+                task = Task.of(world, world.view((width, height)), limits, points.sampler)
+                works = [[Work(tile, points.first, points.first + points.count) for tile in tiles] for tiles in passes]
+                trace_passes(task, works, self.pool, self.threads, finished, pixels, picture.cancelled.is_set)
+                done += points.count
         except Stopped:
             return
         if not picture.cancelled.is_set():
@@ -146,8 +168,10 @@ class ImageRenderer:
         def finished(traced: Traced, share: float) -> None:
             part = traced.tile.part
             sums, counts = image.statistics.sums[part], image.statistics.counts[part]
-            if counts.min() > 1:  # one sample looks worse than the pixel centres that are shown already
-                _show(picture, traced.tile, sums[..., :3] / counts[..., None])
+            enough = counts >= picture.least_refined
+            if enough.any():
+                mean = sums[..., :3] / np.maximum(counts, 1)[..., None]
+                _show(picture, traced.tile, np.where(enough[..., None], mean, picture.pixels[part]))
                 picture.tiles.append(traced.tile)
             picture.seconds = before + time.perf_counter() - began
             picture.limited = image.totals.limited

@@ -108,7 +108,7 @@ class Refinement:
             self.renderer.pause()
 
     def proceed(self, world: World, limits: Limits, size: tuple[int, int], model: str) -> bool:
-        """Start or continue the run of this setting, once its image of one sample per pixel is there or was paused.
+        """Start or continue the run of this setting, once its first image is there or was paused.
 
         Called before every frame. Returns False if that image must be shown first.
         """
@@ -137,7 +137,7 @@ class Refinement:
         return True
 
     def _run(self, world: World, limits: Limits, size: tuple[int, int], model: str, first: Picture) -> Run:
-        """Find or create the run of a setting. `first` is its image of one sample per pixel."""
+        """Find or create the run of a setting. `first` is its image without refinement."""
         setting = (limits.depth, model, self.strategy)
         found = next((r for r in self.runs if (r.depth, r.model, r.strategy) == setting), None)
         if found and not found.image:
@@ -145,7 +145,9 @@ class Refinement:
             found = None
         if not found:
             image = ProgressiveImage(world, world.view(size), limits, self.strategy.sampler, self.strategy.adaptive)
-            picture = Picture(first.shown.copy(), first.pixels, share=1.0, max_nodes=limits.max_nodes, is_endless=True)
+            picture = Picture(
+                first.shown.copy(), first.pixels, first.samples, 1.0, max_nodes=limits.max_nodes, is_endless=True
+            )
             found = Run(limits.depth, model, self.strategy, self._free_number(), image, picture)
             self.runs.append(found)
         kept = [run for run in self.runs if run.image and run is not found]

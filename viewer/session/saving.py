@@ -31,6 +31,7 @@ def export_figure(session: Session, copied: bool = False) -> None:
         scene=scene_word(opening.path, lesson, opening.figure),
         at=session.at,
         pixel=session.pixel,
+        sample=tree.sample or None,
         figure=figure,
         view=session.orbit.view(session.frame) if figure in ("both", "scene") else None,
         node=tree.path(session.selected) if figure == "hit" and session.selected is not None else None,

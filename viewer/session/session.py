@@ -8,7 +8,6 @@ from dataclasses import replace
 
 import numpy as np
 
-import tracer
 from tracer.compile.numba_private import NOTE
 from tracer.kernel.world import World
 from tracer.printable import shown_path
@@ -30,11 +29,11 @@ from viewer.session.scene_loader import Opening, SceneLoader
 from viewer.session.scene_on_show import OnShow
 from viewer.session.stepping.recursion import Recursion
 from viewer.session.stepping.reveal import Reveal
+from viewer.session.stepping.sample import SampleChoice
+from viewer.session.stepping.trees import trace_pixel
 from viewer.session.verification import Verification
 from viewer.session.view_state import Request
 from viewer.session.warmup import Warmup
-
-LAYOUT_DEPTH = 3  # the tree is laid out for at least this depth, so that no node moves when the depth is stepped 0..3
 
 
 class Session(OnShow):
@@ -62,8 +61,9 @@ class Session(OnShow):
         self.frame = Frame(np.zeros(3), 1.0)
         self.orbit = Orbit()
         self.pixel: tuple[int, int] | None = None
-        self.tree: RayTree | None = None  # of the picked pixel
-        self.full_tree: RayTree | None = None  # the same at least LAYOUT_DEPTH deep; `tree` is its first rows
+        self.sample = SampleChoice()
+        self.tree: RayTree | None = None  # of the picked pixel, or of its chosen sample
+        self.full_tree: RayTree | None = None  # the same, perhaps deeper; `tree` is its first rows
         self.selection: str | None = None  # the path of the selected ray, if the tree has it
         self.history = History()
         self._selected: Cached[int | None] = Cached()
@@ -199,7 +199,7 @@ class Session(OnShow):
         if row is None or (self.tree and 0 <= row < len(self.tree)):
             self.selection = self.tree.path(row) if self.tree and row is not None else None
             self.turn_back()
-            self.history.note(self.selection)
+            self.history.note(select=self.selection)
             if row is not None:
                 self.requests.append(Request.SHOW_RAY)
 
@@ -222,8 +222,13 @@ class Session(OnShow):
 
     def _now(self) -> Opening:
         """An opening that leads back to the place on show."""
-        assert self.opening
-        tracing = {"depth": self.depth, "model": self.model, "up": self.up}
+        assert self.opening and self.world
+        tracing = {
+            "depth": self.depth,
+            "model": self.model,
+            "up": self.up,
+            "sample": self.sample.number(self.world.scene),
+        }
         now = ViewState(at=self.at, pixel=self.pixel, select=self.selection, **tracing)
         return replace(self.opening, state=now, is_return=True, sets_view=False, note="", instead=None)
 
@@ -247,15 +252,13 @@ class Session(OnShow):
 
     def _trace(self) -> None:
         assert self.world and self.pixel
-        options = {"pixel": self.pixel, "model": self.model, "max_nodes": self.limits.max_nodes}
-        self.tree = tracer.trace(self.world, depth=self.depth, **options)
-        deeper = max(self.depth, LAYOUT_DEPTH)
-        self.full_tree = self.tree if deeper == self.depth else tracer.trace(self.world, depth=deeper, **options)
+        sample, most = self.sample.number(self.world.scene), self.limits.max_nodes
+        self.tree, self.full_tree = trace_pixel(self.world, self.pixel, sample, self.depth, self.model, most)
 
     # --- the image ----------------------------------------------------------------------------------------------------
 
     def render(self) -> None:
-        """Show the image with one sample per pixel."""
+        """Show the image with the scene's number of samples of each pixel."""
         assert self.world
         self.refinement.current = None
         self.image.show(self.world, self.limits, self.size)

@@ -13,6 +13,7 @@ from viewer.session.actions import (
     nudge,
     step,
     step_line,
+    step_sample,
     toggle_granularity,
     toggle_loop,
     toggle_model,
@@ -57,6 +58,10 @@ def _nudge(dx: int, dy: int) -> Act:
 
 def _toggle(name: str) -> Act:
     return lambda session: setattr(session.shown, name, not getattr(session.shown, name))
+
+
+def _sample(session: Session) -> None:
+    step_sample(session, -1 if _has_shift() else 1)
 
 
 def _deeper(by: int) -> Act:
@@ -137,6 +142,10 @@ BINDINGS = (
         },
     ),
     Binding("wheel, right-drag", "on the image: zoom, move"),
+    Binding(
+        "S, Shift+S, click", "of a pixel with several samples: the next one, the one before, the one at a dot",
+        {"s": _sample},
+    ),
     Binding(
         "0 1 2 3 ... 9", "recursion depth",
         typed={str(depth): lambda session, depth=depth: session.set_depth(depth) for depth in range(10)},

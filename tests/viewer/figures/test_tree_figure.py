@@ -331,7 +331,7 @@ def test_the_legend_explains_every_sign_and_hides_nothing(worlds: dict[str, trac
     """Also in the narrow half of two panels, in which it stands below the tree."""
     world = worlds["underwater"]
     tree = tracer.trace(world, lesson.read("underwater").first.state.pixel, depth=3)
-    orbit = initial_orbit(world, Frame.of(world), lesson.read("underwater").view)
+    orbit = initial_orbit(world, Frame.of(world), lesson.read("underwater").first.state.view)
     for name in ("tree", "both"):
         (figure,) = pages(name, Subject(by_depth([tree]), world, orbit), FigureStyle())
         words = {mark.content: mark for mark in figure.marks if isinstance(mark, Text)}

@@ -51,6 +51,7 @@ def test_the_skeleton_passes_and_is_never_written_over(
         ('expect = { thata1 = "1" }', "", 'line 9: expect: unknown name "thata1" (did you mean "theta1"?)'),
         ('goal = { endd = "x" }', "", 'line 9: goal: unknown name "endd"'),
         ("pixel = [320, 1]", "", "line 9: pixel must be within 0,0 .. 319,239, got 320,1"),
+        ("sample = 1", "", "line 9: sample must be within 0 .. 0"),
         ("set = { material.miror.ior = 1 }", "", '(did you mean "mirror"?)'),
         ("set = { material.mirror.ior = -1 }", "", "ior must be > 0, got -1"),
         ("sweep = { of = 'pixel', from = [1, 1], to = [320, 1] }", "", "line 9: sweep: pixel must be within"),

@@ -9,6 +9,7 @@ from viewer.base.theme import DARK, LIGHT
 from viewer.reopen.view_state import GRANULARITIES, KINDS, ORDERS, SWITCHES, TYPE_SIZES, ViewState
 from viewer.session.layout import Layout, usual_borders
 from viewer.session.stepping.reveal import Reveal
+from viewer.session.stepping.sample import SampleChoice
 from viewer.session.view_state import Appearance, Notice, PanZoom, Request, Visibility
 
 T = TypeVar("T")
@@ -28,6 +29,7 @@ class Viewed(Protocol):
     requests: list[Request]
     notice: Notice
     pixel: tuple[int, int] | None
+    sample: SampleChoice
     depth: int
     model: str
     selection: str | None
@@ -50,6 +52,7 @@ def state_of(viewed: Viewed) -> ViewState:
     return ViewState(
         at=viewed.at,
         pixel=viewed.pixel,
+        sample=(viewed.world and viewed.sample.number(viewed.world.scene)) or None,
         depth=viewed.depth,
         model=viewed.model,
         up=viewed.up,
@@ -100,6 +103,7 @@ def restore(viewed: Viewed, state: ViewState, note: str = "") -> None:
     for look, zoom in ((viewed.image_view, state.image_zoom), (viewed.tree_view, state.tree_zoom)):
         if zoom:
             look.zoom, look.center = zoom[0], (zoom[1], zoom[2])
+    viewed.sample.chosen = state.sample or 0
     viewed.turn = state.turn
     viewed.reveal.ask(state.step, state.order, state.page)
     restore_camera(viewed, state)
