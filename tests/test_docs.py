@@ -81,6 +81,7 @@ def test_scene_format_is_read_and_its_defaults_are_those(tmp_path: Path) -> None
         "fov",
         "width",
         "height",
+        "samples",
         "depth",
         "shadows",
         "model",
