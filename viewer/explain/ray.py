@@ -31,7 +31,7 @@ from viewer.explain.scattering import (
     origin_sections,
     scattering_sections,
 )
-from viewer.explain.sections import Part, Section
+from viewer.explain.sections import Part, RayDetails, Section
 
 KIND_NAMES = {
     "camera": "Camera ray",
@@ -137,6 +137,12 @@ def explain_ray(tree: RayTree, world: World, i: int) -> list[Part]:
         return [*begun, Part(f"{label} meets nothing", [_sum(tree, i)]), numbers]
     ended = Part(f"{label} meets {met}", [_sum(tree, i), *scattering_sections(tree, i), local_light(tree, world, i)])
     return [*begun, ended, numbers]
+
+
+def ray_details(tree: RayTree, world: World, i: int) -> RayDetails:
+    """All about row i, for a figure that carries it along."""
+    *ends, numbers = explain_ray(tree, world, i)
+    return RayDetails(i, headline(tree, i)[0], tuple(certainty(tree, i)), (numbers, *ends))
 
 
 def _sum(tree: RayTree, i: int) -> Section:

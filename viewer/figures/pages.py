@@ -1,11 +1,18 @@
 """The pages of a figure: its marks, title, description and the command that makes it again."""
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pkgutil import resolve_name
 
+from tracer.kernel.world import World
 from tracer.tree.digits import rgb_text
 from tracer.tree.raytree import RayTree
+from viewer.explain.ray import ray_details
+from viewer.explain.sections import RayDetails
 from viewer.figures.catalogue import FIGURES
 from viewer.figures.marks import Figure, Handle, with_line_width
+from viewer.figures.picking import ray_of
+from viewer.figures.steps import Step
 from viewer.figures.subject import FigureStyle, Subject, line_share
 
 MOST_DOUBTS = 3  # that a description lists
@@ -24,6 +31,23 @@ def pages(name: str, subject: Subject, style: FigureStyle, command: str = "") ->
         Figure(title(step.tree), description(step.tree), command, tuple(marks), paper, style.ground, *style.page)
         for step, marks in zip(subject.steps, made, strict=True)
     ]
+
+
+def with_details(figures: Sequence[Figure], steps: Sequence[Step], world: World) -> list[Figure]:
+    """The figures of these steps, each with what is said of the rays in it. Rows of one tree are explained once."""
+    known: dict[tuple[int, int], RayDetails] = {}
+
+    def details(tree: RayTree, row: int) -> RayDetails:
+        key = (id(tree), row)  # the steps keep their trees alive
+        if key not in known:
+            known[key] = ray_details(tree, world, row)
+        return known[key]
+
+    made = []
+    for figure, step in zip(figures, steps, strict=True):
+        rows = sorted({row for mark in figure.marks if (row := ray_of(mark.name)) is not None})
+        made.append(replace(figure, details=tuple(details(step.tree, row) for row in rows)))
+    return made
 
 
 def title(tree: RayTree) -> str:

@@ -1,0 +1,63 @@
+"""A figure as a fragment of HTML: an inline SVG whose rays the script can find, and screen readers can name.
+
+Every group of marks has `data-mark`, the name of its marks, which is the same in all figures and formats. Groups that
+belong to a ray have `data-ray`: what has the same value, in any figure of the page, is one ray. The group that stands
+for the ray in its figure also has a name (`aria-label`), and `data-numbers`, the id of the article about it.
+
+The script makes these groups focusable. Without it, the figure is one image with a name and a description.
+
+A handle of a figure could be an `<input type="range">` below it, named as the handle: each of its values is a page,
+written as all pages are, and the script shows the page of the value in place of the page of a position.
+"""
+
+from collections.abc import Mapping
+from html import escape
+
+from viewer.figures.marks import Figure
+from viewer.figures.picking import PICKED, ray_of
+from viewer.figures.writers.svg import FONT, groups, title_element
+
+BELONGING = (*PICKED, "angle-ray", "sum", "bar", "lights")  # marks that light up with their ray
+
+
+def inline_svg(figure: Figure, place: str, labelled: str, numbers: Mapping[int, str], tree: str = "") -> list[str]:
+    """The lines of the SVG.
+
+    `place` is an id that no other figure of the page has; ids in the figure begin with it. `labelled` has the
+    attributes that say which elements of the page name and describe it. `numbers` are the ids of the articles about
+    the rays, by row. `tree` tells rays of different trees in one page apart.
+    """
+    names = _names(figure)
+    known: set[str] = set()
+
+    def opening(name: str, title: str) -> str:
+        row = ray_of(name, BELONGING)
+        own = f' data-mark="{escape(name)}"'
+        if name not in known:  # an id occurs once in a page
+            own = f' id="{place}-{escape(name)}"{own}'
+        known.add(name)
+        if row is None:
+            return f"<g{own}>{title_element(title)}"
+        own += f' data-ray="{tree}{row}"'
+        if name == names.get(row):
+            said = f' data-numbers="{numbers[row]}"' if row in numbers else ""
+            own += f' aria-label="{escape(_label(figure, row))}"{said}'
+            del names[row]
+        return f"<g{own}>"
+
+    size = f"{figure.width:g} {figure.height:g}"
+    return [f'<svg role="img" {labelled} viewBox="0 0 {size}" {FONT}>', *groups(figure, opening), "</svg>"]
+
+
+def _names(figure: Figure) -> dict[int, str]:
+    """The name of the marks that stand for each ray: its line, or the box of its hit where it has no line."""
+    found: dict[int, str] = {}
+    for kind in reversed(PICKED):
+        found |= {row: mark.name for mark in figure.marks if (row := ray_of(mark.name, (kind,))) is not None}
+    return found
+
+
+def _label(figure: Figure, row: int) -> str:
+    """What is said of a ray in a sentence: the title of its marks."""
+    titled = (mark.title for mark in figure.marks if mark.title and ray_of(mark.name) == row)
+    return next(titled, "") or next((one.name for one in figure.details if one.row == row), "")
