@@ -1,5 +1,5 @@
-"""Chromium without a window, driven through its DevTools protocol, and what it says of a page: requests, messages of the
-console, the accessibility tree.
+"""Chromium without a window, driven through its DevTools protocol, and what it says of a page: requests, messages of
+the console, the accessibility tree.
 """
 
 import base64
@@ -14,7 +14,7 @@ from typing import Any
 from websockets.sync.client import ClientConnection, connect
 
 SECONDS = 30.0  # that an answer may take
-KEYS = {"ArrowRight": 39, "ArrowLeft": 37, "PageDown": 34, "PageUp": 33, "Home": 36, "End": 35, "Tab": 9, "Enter": 13,
+KEYS = {"ArrowRight": 39, "ArrowLeft": 37, "ArrowUp": 38, "ArrowDown": 40, "PageDown": 34, "PageUp": 33, "Home": 36, "End": 35, "Tab": 9, "Enter": 13,
         "Escape": 27}  # fmt: skip
 
 

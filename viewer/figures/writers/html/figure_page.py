@@ -14,7 +14,10 @@ from viewer.figures.writers.html.inline_svg import inline_svg
 from viewer.figures.writers.html.numbers import Numbers
 from viewer.reopen.places import as_meta
 
-HINT = "Point at a ray, tap it, or go from ray to ray with the Tab key, to see its numbers."
+HINT = (
+    "Point at a ray or tap it to see its numbers. Keys: Tab goes to the figure, Up and Down go from ray to ray, Enter "
+    "keeps a ray, Escape lets it go."
+)
 
 
 def write_html(figures: Sequence[Figure]) -> bytes:

@@ -1,8 +1,8 @@
 """The frame of a page: head, style, script. It knows nothing about what stands in the body.
 
-A page is one file. It refers to nothing outside of it, and its Content-Security-Policy (CSP 3) allows nothing else: only
-the style and the script that are in it, known by their hashes, and images that are data in it. So no text of a scene
-can become a script, and opening a page sends nothing to anyone.
+A page is one file. It refers to nothing outside of it, and its Content-Security-Policy (CSP 3) allows nothing else:
+only the style and the script that are in it, known by their hashes, and images that are data in it. So no text of a
+scene can become a script, and opening a page sends nothing to anyone.
 """
 
 import base64

@@ -31,7 +31,7 @@ def inline_svg(figure: Figure, place: str, labelled: str, numbers: Mapping[int, 
     known: set[str] = set()
 
     def opening(name: str, title: str) -> str:
-        row = ray_of(name, BELONGING)
+        row = ray_of(name.removesuffix("-label"), BELONGING)
         own = f' data-mark="{escape(name)}"'
         if name not in known:  # an id occurs once in a page
             own = f' id="{place}-{escape(name)}"{own}'

@@ -1,7 +1,8 @@
 // The page works without this: then all figures and all numbers are below each other.
 //
 // Marks with the same data-ray, in any figure, are one ray. Pointing at one of them, or giving it the focus, lights up
-// the ray everywhere, and shows the article that data-numbers names. A click keeps it, Escape lets it go.
+// the ray everywhere, and shows the article that data-numbers names. A click keeps it, Escape lets it go. The Tab key
+// reaches a figure once, and the keys Up and Down go from ray to ray in it.
 "use strict";
 document.documentElement.classList.add("js");
 
@@ -9,17 +10,32 @@ document.addEventListener("DOMContentLoaded", () => {
   const all = (selector, within = document) => [...within.querySelectorAll(selector)];
   const REACH = 12; // pixels around a line in which it can be pointed at
   const SWIPE = 50; // pixels
+  const GLOW = 5; // points by which the line below a ray is wider
 
   // Rays
 
   const panel = document.querySelector(".numbers");
-  const buttons = all("[data-ray][aria-label]");
+  const number = (button) => Number(button.dataset.ray.match(/\d+$/));
+  const buttons = all("[data-ray][aria-label]").sort((a, b) => number(a) - number(b));
   const buttonIn = (figure, ray) => buttons.find((b) => b.dataset.ray === ray && figure.contains(b));
   let kept = null;
 
   function light(ray) {
     document.body.classList.toggle("lit", ray !== null);
-    for (const mark of all("[data-ray]")) mark.classList.toggle("on", mark.dataset.ray === ray);
+    for (const old of all(".glow")) old.remove();
+    for (const mark of all("[data-ray]")) {
+      const on = mark.dataset.ray === ray;
+      mark.classList.toggle("on", on);
+      if (on) mark.prepend(...all(':scope > path[fill="none"], :scope > rect', mark).map(glow));
+    }
+  }
+
+  // A wide line below a line.
+  function glow(line) {
+    const below = line.cloneNode();
+    below.setAttribute("stroke-width", Number(line.getAttribute("stroke-width")) + GLOW);
+    below.setAttribute("class", "glow");
+    return below;
   }
 
   function show(button) {
@@ -88,16 +104,26 @@ document.addEventListener("DOMContentLoaded", () => {
   }
   for (const button of buttons) {
     button.setAttribute("role", "button");
-    button.setAttribute("tabindex", "0");
     button.setAttribute("aria-pressed", "false");
-    button.addEventListener("focus", () => button.matches(":focus-visible") && show(button));
+    if (button.dataset.numbers) button.setAttribute("aria-details", button.dataset.numbers);
+    button.addEventListener("focus", () => {
+      reachable(button);
+      if (button.matches(":focus-visible")) show(button);
+    });
     button.addEventListener("blur", () => show(kept === null ? null : button));
     button.addEventListener("keydown", (event) => {
-      if (event.key !== "Enter" && event.key !== " ") return;
+      if (!(event.key in { Enter: 0, " ": 0, ArrowUp: 0, ArrowDown: 0 })) return;
       event.preventDefault();
-      keep(button);
+      if (!event.key.startsWith("Arrow")) return keep(button);
+      const near = buttons.filter((b) => b.closest("svg") === button.closest("svg"));
+      const next = near[near.indexOf(button) + (event.key === "ArrowUp" ? -1 : 1)];
+      if (next) next.focus();
     });
   }
+  function reachable(button) { // by the Tab key
+    for (const b of buttons) if (b.closest("svg") === button.closest("svg")) b.tabIndex = b === button ? 0 : -1;
+  }
+  for (const button of [...buttons].reverse()) reachable(button);
   if (panel) {
     for (const article of all("article")) article.hidden = true;
     panel.querySelector(".hint").hidden = buttons.length === 0;
