@@ -14,8 +14,8 @@ from typing import Any
 from websockets.sync.client import ClientConnection, connect
 
 SECONDS = 30.0  # that an answer may take
-KEYS = {"ArrowRight": 39, "ArrowLeft": 37, "ArrowUp": 38, "ArrowDown": 40, "PageDown": 34, "PageUp": 33, "Home": 36, "End": 35, "Tab": 9, "Enter": 13,
-        "Escape": 27}  # fmt: skip
+KEYS = {"ArrowRight": 39, "ArrowLeft": 37, "ArrowUp": 38, "ArrowDown": 40, "PageDown": 34, "PageUp": 33, "Home": 36,
+        "End": 35, "Tab": 9, "Enter": 13, "Escape": 27}  # fmt: skip
 
 
 class Browser:

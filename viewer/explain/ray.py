@@ -70,7 +70,7 @@ def ray_facts(tree: RayTree, i: int) -> str:
 def certainty(tree: RayTree, i: int) -> list[str]:
     """Paragraphs on what becomes of ray i, on what is missing, and on how certain its numbers are."""
     fate, missing = headline(tree, i)[1], cut_summary(tree)
-    found = " ".join(f"{words[0].upper()}{words[1:]}." for words in (fate, missing))
+    found = " ".join(map(_sentence, (fate, missing)))
     certain = ""
     if tree.object_name(i) and tree.nodes["kind"][i] != SHADOW:
         digits = tree.digits(i)
@@ -141,8 +141,13 @@ def explain_ray(tree: RayTree, world: World, i: int) -> list[Part]:
 
 def ray_details(tree: RayTree, world: World, i: int) -> RayDetails:
     """All about row i, for a figure that carries it along."""
+    name, fate = headline(tree, i)
     *ends, numbers = explain_ray(tree, world, i)
-    return RayDetails(i, headline(tree, i)[0], tuple(certainty(tree, i)), (numbers, *ends))
+    return RayDetails(i, name, (_sentence(fate), certainty(tree, i)[1]), (numbers, *ends))
+
+
+def _sentence(words: str) -> str:
+    return f"{words[0].upper()}{words[1:]}."
 
 
 def _sum(tree: RayTree, i: int) -> Section:

@@ -58,7 +58,7 @@ class FormatKind:
     data: str = ""  # function of (RayTree); returns str
     many_pages: bool = False  # one file holds all pages
     has_width: bool = False  # `figures` takes the width in pixels as well
-    has_details: bool = False  # it shows what is said of each ray (`Figure.details`)
+    on_screen: bool = False  # it shows `Figure.details` and `Figure.upright`
     letters: str = ""  # function of (character): whether the format can show it. Empty: it can show every character
 
     def write(self, pages: Sequence[Figure], width: int) -> bytes:
@@ -97,7 +97,7 @@ FORMATS = {
         FormatKind("pptx", "PPTX", ".pptx", "viewer.figures.writers.pptx:write_pptx", many_pages=True),
         FormatKind(
             "html", "HTML", ".html", "viewer.figures.writers.html.figure_page:write_html", many_pages=True,
-            has_details=True,
+            on_screen=True,
         ),
         FormatKind("dot", "Graphviz", ".dot", data="viewer.figures.writers.dot:write_dot"),
         FormatKind("csv", "CSV", ".csv", data="viewer.figures.writers.csv:write_csv"),

@@ -276,9 +276,9 @@ class Figure:
     width: float = WIDTH
     height: float = HEIGHT
     embedded: bytes = b""  # the view and its scene, to be reopened (`viewer.reopen.embedded`)
-    details: tuple[
-        RayDetails, ...
-    ] = ()  # of the rays that have marks, for formats that show them (`pages.with_details`)
+    # For formats that are read on a screen (`pages.with_details`, `pages.with_upright`):
+    details: tuple[RayDetails, ...] = ()  # of the rays that have marks
+    upright: tuple["Figure", ...] = ()  # the same, or its parts, for a phone that is held upright
 
     def __post_init__(self) -> None:
         make_printable(self, "title", "description", "command")

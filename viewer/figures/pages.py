@@ -17,6 +17,11 @@ from viewer.figures.subject import FigureStyle, Subject, line_share
 
 MOST_DOUBTS = 3  # that a description lists
 
+# On an upright phone: the size of a page in points (as wide as the screen, its text has about its own size), and the
+# figures that are shown below each other in place of one.
+PHONE, PHONE_SCENE = (400.0, 600.0), (400.0, 400.0)
+PHONE_PARTS = {"both": ("scene", "tree")}
+
 
 def pages(name: str, subject: Subject, style: FigureStyle, command: str = "") -> list[Figure]:
     """One page of the named figure for each step. ValueError if the subject or the style does not allow it."""
@@ -33,6 +38,22 @@ def pages(name: str, subject: Subject, style: FigureStyle, command: str = "") ->
     ]
 
 
+def with_upright(figures: Sequence[Figure], name: str, subject: Subject, style: FigureStyle) -> list[Figure]:
+    """The figures, which are the first pages of the named one, each with the same for an upright phone. They stay as
+    they are if they are upright themselves, or if their text is too large for a phone.
+    """
+    if style.page[0] <= style.page[1]:
+        return list(figures)
+    try:
+        parts = [
+            pages(part, subject, replace(style, page=PHONE_SCENE if part == "scene" else PHONE))[: len(figures)]
+            for part in PHONE_PARTS.get(name, (name,))
+        ]
+    except ValueError:
+        return list(figures)
+    return [replace(figure, upright=tuple(upright)) for figure, *upright in zip(figures, *parts, strict=True)]
+
+
 def with_details(figures: Sequence[Figure], steps: Sequence[Step], world: World) -> list[Figure]:
     """The figures of these steps, each with what is said of the rays in it. Rows of one tree are explained once."""
     known: dict[tuple[int, int], RayDetails] = {}
@@ -45,7 +66,8 @@ def with_details(figures: Sequence[Figure], steps: Sequence[Step], world: World)
 
     made = []
     for figure, step in zip(figures, steps, strict=True):
-        rows = sorted({row for mark in figure.marks if (row := ray_of(mark.name)) is not None})
+        marks = (mark for drawn in (figure, *figure.upright) for mark in drawn.marks)
+        rows = sorted({row for mark in marks if (row := ray_of(mark.name)) is not None})
         made.append(replace(figure, details=tuple(details(step.tree, row) for row in rows)))
     return made
 

@@ -20,13 +20,13 @@ from viewer.base.theme import THEMES
 from viewer.cli.main import main
 from viewer.explain.formulas import Lecture
 from viewer.explain.plain_formula import plain
-from viewer.figures.pages import pages
+from viewer.figures.pages import pages, with_upright
 from viewer.figures.steps import by_depth
 from viewer.figures.subject import FigureStyle, Subject
 from viewer.lessons import lesson
 
 LESSON = "glass-ball"
-DEEPEST = 3
+DEPTHS = range(2, 4)
 TAP = 24.0  # pixels: the least size of a target (WCAG 2.2, 2.5.8)
 EVIL = "<script>evil=1</script><img src=x onerror=evil=2>\"'&amp;</style>--></svg>\x1b[2J\u202e"
 SCENE = """
@@ -53,7 +53,8 @@ radius = 1
 material = NAME
 """
 VISIBLE = "document.querySelector('.page:not([hidden])')"
-LIT = f"[...new Set([...{VISIBLE}.querySelectorAll('.on')].map(mark => mark.dataset.ray))]"
+MARKS = f"[...{VISIBLE}.querySelectorAll('.on')].filter(mark => mark.getClientRects().length)"
+LIT = f"[...new Set({MARKS}.map(mark => mark.dataset.ray))]"
 STATUS = "document.querySelector('[role=status]').textContent"
 # The one article on show, as {name: value}, with its title under "".
 ARTICLE = """(() => {
@@ -94,9 +95,9 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
 
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Scene and tree of a lesson, at the depths 0 to 3."""
+    """Scene and tree of a lesson, at these depths."""
     path = tmp_path_factory.mktemp("pages") / "both.html"
-    assert main(["export", LESSON, "--figure", "both", "--depth", f"0..{DEEPEST}", "-o", str(path)]) == 0
+    assert main(["export", LESSON, "--figure", "both", "--depth", f"{DEPTHS[0]}..{DEPTHS[-1]}", "-o", str(path)]) == 0
     return path
 
 
@@ -109,7 +110,7 @@ def desktop(browser: Browser, page: Path) -> Browser:
 
 @pytest.fixture(scope="module")
 def trees(worlds: dict[str, tracer.World]) -> list[RayTree]:
-    return [tracer.trace(worlds[LESSON], lesson.read(LESSON).pixel, depth=d) for d in range(DEEPEST + 1)]
+    return [tracer.trace(worlds[LESSON], lesson.read(LESSON).pixel, depth=d) for d in DEPTHS]
 
 
 def middle(browser: Browser, selector: str) -> tuple[float, float]:
@@ -140,7 +141,7 @@ def test_pointing_lights_the_ray_in_scene_and_tree_and_shows_its_numbers(
         for row in np.flatnonzero(tree.nodes["kind"] != SHADOW).tolist():
             desktop.move(*middle(desktop, f"[data-mark=hit-{row}] rect"))
             assert desktop.run(LIT) == [str(row)]
-            parts = desktop.run(f"[...{VISIBLE}.querySelectorAll('.on')].map(mark => mark.dataset.mark)")
+            parts = desktop.run(f"{MARKS}.map(mark => mark.dataset.mark)")
             assert parts.count(f"ray-{row}") == 2 and f"hit-{row}" in parts  # in the scene and in the tree
             shown, node = desktop.run(ARTICLE), tree.nodes[row]
             assert shown[""].endswith(f" {tree.label(row)}") and shown["path"] == tree.path(row)
@@ -161,7 +162,7 @@ def test_pointing_lights_the_ray_in_scene_and_tree_and_shows_its_numbers(
 
 
 def test_a_line_can_be_pointed_at_from_beside_it_and_a_click_keeps_it(desktop: Browser, trees: list[RayTree]) -> None:
-    desktop.run("location.hash = '#4'")
+    desktop.run("location.hash = '#2'")
     for row in np.flatnonzero(trees[-1].nodes["kind"] == SHADOW)[:2].tolist():
         ends = f"""(() => {{ const line = {VISIBLE}.querySelector('[data-mark=ray-{row}] path');
           return [0.5, 0.55].map(share => line.getPointAtLength(share * line.getTotalLength())
@@ -179,15 +180,17 @@ def test_a_line_can_be_pointed_at_from_beside_it_and_a_click_keeps_it(desktop: B
     assert desktop.run(LIT) == []
 
 
-def test_keys_go_from_page_to_page_and_from_ray_to_ray(browser: Browser, page: Path) -> None:
+def test_keys_go_from_page_to_page_and_from_ray_to_ray(browser: Browser, tmp_path: Path) -> None:
+    path = tmp_path / "a.html"
+    assert main(["export", LESSON, "--step", "levels", "--depth", "2", "-o", str(path)]) == 0  # 3 levels and 5 sums
     browser.size(1280, 720)
-    browser.open(f"{page.as_uri()}#3")
+    browser.open(f"{path.as_uri()}#3")
     said = [browser.run(STATUS)]
     for key in ("PageDown", "ArrowRight", "Home", "ArrowRight", "End", "PageUp", "ArrowLeft"):
         browser.key(key)
         said.append(browser.run(f"{STATUS} + location.hash + document.querySelectorAll('.page:not([hidden])').length"))
-    order = (4, 4, 1, 2, 4, 3, 2)
-    assert said == ["Position 3 of 4", *(f"Position {k} of 4#{k}1" for k in order)]
+    order = (4, 5, 1, 2, 8, 7, 6)
+    assert said == ["Position 3 of 8", *(f"Position {k} of 8#{k}1" for k in order)]
     reached = []
     for _ in range(3):
         browser.key("Tab")
@@ -207,26 +210,32 @@ def test_keys_go_from_page_to_page_and_from_ray_to_ray(browser: Browser, page: P
     assert browser.run("document.activeElement.textContent") == "Previous"
 
 
-@pytest.mark.parametrize("figure", ["both", "tree", "hit"])
-def test_a_phone_has_all_of_it(browser: Browser, figure: str, tmp_path: Path) -> None:
-    path = tmp_path / "a.html"
-    assert main(["export", LESSON, "--figure", figure, "--depth", "2..3", "-o", str(path)]) == 0
+@pytest.mark.parametrize("figure", ["both", "hit"])
+def test_a_phone_has_all_of_it(browser: Browser, page: Path, figure: str, tmp_path: Path) -> None:
+    path = page if figure == "both" else tmp_path / "a.html"
+    if figure == "hit":
+        assert main(["export", LESSON, "--figure", figure, "--depth", "2..3", "-o", str(path)]) == 0
     browser.size(360, 740, phone=True)
     browser.open(path.as_uri())
     scrolled = "[document.documentElement.scrollWidth, window.innerWidth, document.scrollingElement.clientWidth]"
     assert browser.run(scrolled) == [360, 360, 360]
-    x, y = middle(browser, "svg")
+    smallest = f"""Math.min(...[...{VISIBLE}.querySelectorAll('text')].filter(text => text.getClientRects().length)
+      .map(text => text.getAttribute('font-size') * text.getScreenCTM().a))"""
+    assert browser.run(smallest) >= 12.0
+    x, y = middle(browser, ".upright svg")
     browser.touch((x + 100, y), (x, y + 5), (x - 100, y + 5))
     assert browser.run(STATUS) == "Position 2 of 2"
     browser.touch((x - 100, y), (x, y + 5), (x + 100, y))
     assert browser.run(STATUS) == "Position 1 of 2"
     sizes = "[...document.querySelectorAll('button, summary')].filter(e => e.offsetHeight).map(e => e.offsetHeight)"
     assert min(browser.run(sizes)) >= TAP
-    browser.click(*middle(browser, "button.enlarge"))
-    assert browser.run(scrolled) == [360, 360, 360]  # the figure scrolls, not the page
-    smallest = f"""Math.min(...[...{VISIBLE}.querySelectorAll('text')].map(
-      text => text.getAttribute('font-size') * text.getScreenCTM().a))"""
-    assert browser.run(smallest) >= 12.0
+    browser.click(*middle(browser, ".upright svg [data-mark=ray-0] path"))
+    numbers = browser.run("document.querySelector('.numbers').getBoundingClientRect().toJSON()")
+    assert browser.run(LIT) == ["0"] and numbers["top"] < 600.0 < numbers["bottom"] <= 740.0  # below, without scrolling
+    browser.size(740, 360, phone=True)
+    browser.run("document.querySelector('.enlarge').scrollIntoView({block: 'center'})")
+    browser.click(*middle(browser, ".enlarge"))
+    assert browser.run(smallest) >= 12.0 and browser.run(scrolled) == [740, 740, 740]
     assert not messages(browser)
 
 
@@ -245,8 +254,8 @@ def test_it_can_be_read_and_every_control_has_a_name(browser: Browser, theme: st
         texts, edges = browser.run(CONTRASTS)
         assert texts >= 4.5 and edges >= 3.0, article
         browser.key("End")
-    roles = browser.run("[...document.querySelectorAll('svg[aria-labelledby]')].map(svg => [svg.role, svg.ariaLabel])")
-    assert [role for role, _ in roles] == ["group", "group"]
+    roles = browser.run("[...document.querySelectorAll('svg[aria-labelledby]')].map(svg => svg.role)")
+    assert roles == ["group"] * 4  # two pages, each also for a phone
     landmarks = "['header h1', 'main', 'nav[aria-label]', 'section.numbers[aria-labelledby]', 'footer']"
     assert browser.run(f"{landmarks}.every(place => document.querySelectorAll(place).length === 1)")
 
@@ -256,7 +265,7 @@ def test_paper_and_a_browser_without_scripts_have_all_pages_and_numbers(browser:
     browser.size(1280, 720)
     browser.open(page.as_uri())
     browser.ask("Emulation.setEmulatedMedia", media="print")
-    assert browser.run(shown.format(".page")) == [True] * 4 and browser.run(shown.format("nav")) == [False]
+    assert browser.run(shown.format(".page")) == [True] * 2 and browser.run(shown.format("nav")) == [False]
     still = [{"name": "prefers-reduced-motion", "value": "reduce"}, {"name": "forced-colors", "value": "active"}]
     browser.ask("Emulation.setEmulatedMedia", media="", features=still)
     assert browser.run("getComputedStyle(document.querySelector('[data-ray]')).transitionDuration") == "0s"
@@ -265,7 +274,7 @@ def test_paper_and_a_browser_without_scripts_have_all_pages_and_numbers(browser:
     browser.ask("Emulation.setScriptExecutionDisabled", value=True)
     try:
         browser.open(page.as_uri())
-        assert browser.run(shown.format(".page")) == [True] * 4
+        assert browser.run(shown.format(".page")) == [True] * 2
         articles = browser.run(shown.format("article"))
         assert len(articles) > 19 and all(articles)
         assert browser.run("[...document.querySelectorAll('.canvas svg')].every(svg => svg.role === 'img')")
@@ -295,7 +304,7 @@ def test_hostile_names_stay_text_and_nothing_is_asked_of_the_network(browser: Br
     html5lib.HTMLParser(strict=True).parse(path.read_text("utf-8"))
 
 
-@pytest.mark.parametrize("figure", ["both", "hit"])
+@pytest.mark.parametrize("figure", ["tree", "hit"])
 def test_the_file_is_valid_refers_to_nothing_and_is_the_same_each_time(
     worlds: dict[str, tracer.World], figure: str, tmp_path: Path
 ) -> None:
@@ -319,7 +328,9 @@ def test_the_file_is_valid_refers_to_nothing_and_is_the_same_each_time(
     world = worlds["underwater"]
     steps = by_depth([tracer.trace(world, found.pixel, depth=d) for d in range(1, 3)])
     subject = Subject(steps, world, initial_orbit(world, Frame.of(world), found.view))
+    style = FigureStyle()
+    drawn = with_upright(pages(figure, subject, style), figure, subject, style)
     drawings = [element for element in elements if element.get("aria-describedby")]
-    for drawing, drawn in zip(drawings, pages(figure, subject, FigureStyle()), strict=True):
+    for drawing, one in zip(drawings, [one for page in drawn for one in (page, *page.upright)], strict=True):
         names = [element.get("data-mark") for element in drawing.iter() if element.get("data-mark")]
-        assert names == [name for name, _, _ in drawn.groups()]
+        assert names == [name for name, _, _ in one.groups()]

@@ -60,9 +60,13 @@ def _page(figure: Figure, k: int, title: str, numbers: Numbers) -> Iterator[str]
     yield f'<section class="page" id="{k}" aria-labelledby="{place}-title" tabindex="-1">'
     yield f'<h2 id="{place}-title">{text(title)}</h2>'
     yield "<figure>"
-    yield '<div class="canvas">'
+    yield f'<div class="canvas{" wide" if figure.upright else ""}">'
     yield from inline_svg(figure, place, labelled, named)
     yield "</div>"
+    for j, upright in enumerate(figure.upright):
+        yield '<div class="canvas upright">'
+        yield from inline_svg(upright, f"{place}-{j}", labelled, named)
+        yield "</div>"
     yield f'<figcaption id="{place}-description">{text(figure.description)}</figcaption>'
     yield "</figure>"
     yield "</section>"

@@ -17,7 +17,10 @@ document.addEventListener("DOMContentLoaded", () => {
   const panel = document.querySelector(".numbers");
   const number = (button) => Number(button.dataset.ray.match(/\d+$/));
   const buttons = all("[data-ray][aria-label]").sort((a, b) => number(a) - number(b));
-  const buttonIn = (figure, ray) => buttons.find((b) => b.dataset.ray === ray && figure.contains(b));
+  const buttonIn = (figure, ray) => {
+    const found = buttons.filter((b) => b.dataset.ray === ray && figure.contains(b));
+    return found.find((b) => b.getClientRects().length) || found[0]; // phones have figures of their own
+  };
   let kept = null;
 
   function light(ray) {
@@ -41,7 +44,9 @@ document.addEventListener("DOMContentLoaded", () => {
   function show(button) {
     light(button ? button.dataset.ray : null);
     if (!button || !button.dataset.numbers) return;
-    for (const article of all("article")) article.hidden = article.id !== button.dataset.numbers;
+    const chosen = document.getElementById(button.dataset.numbers);
+    if (chosen.hidden) panel.scrollTop = 0;
+    for (const article of all("article")) article.hidden = article !== chosen;
     panel.classList.add("chosen");
     panel.querySelector(".hint").hidden = true;
   }
@@ -185,8 +190,8 @@ document.addEventListener("DOMContentLoaded", () => {
   }
   document.addEventListener("keydown", (event) => event.key === "Escape" && keep(null));
 
-  // On a phone, a figure as wide as the screen has small text: a button makes it large, and it can be moved.
-  for (const canvas of all(".canvas")) {
+  // On a phone, a wide figure has small text: a button makes it large, and it can be moved.
+  for (const canvas of all(".canvas:not(.upright)")) {
     const button = document.createElement("button");
     button.type = "button";
     button.className = "enlarge";
