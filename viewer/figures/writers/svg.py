@@ -28,27 +28,24 @@ def write_svg(figure: Figure) -> bytes:
     ]
     known: set[str] = set()
 
-    def opening(name: str, title: str) -> str:
+    def group(name: str, title: str, elements: list[str]) -> str:
         # An id occurs once in a file: later groups of the same name have it as their class.
         kind = "class" if name in known else "id"
         known.add(name)
-        return f"<g {kind}={quoteattr(name)}>{title_element(title)}"
+        return "\n".join([f"<g {kind}={quoteattr(name)}>{title_element(title)}", *elements, "</g>"])
 
-    return "\n".join([*lines, *groups(figure, opening), "</svg>", ""]).encode("utf-8")
+    return "\n".join([*lines, *groups(figure, group), "</svg>", ""]).encode("utf-8")
 
 
-def groups(figure: Figure, opening: Callable[[str, str], str]) -> Iterable[str]:
+def groups(figure: Figure, group: Callable[[str, str, list[str]], str]) -> Iterable[str]:
     """The elements of a figure: its background, if it has one, and a group for each run of marks of one name.
 
-    `opening` returns the start of such a group from the name and the title of its marks.
+    `group` returns such a group from the name and the title of its marks and their elements.
     """
     if figure.ground:
         yield f'<rect width="{_n(figure.width)}" height="{_n(figure.height)}"{_fill(figure.paper)}/>'
     for name, title, marks in figure.groups():
-        yield opening(name, title)
-        for mark in marks:
-            yield from _element(mark)
-        yield "</g>"
+        yield group(name, title, [element for mark in marks for element in _element(mark)])
 
 
 def title_element(title: str) -> str:

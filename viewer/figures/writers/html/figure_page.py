@@ -10,7 +10,7 @@ from viewer.base.theme import THEMES, Color, Theme
 from viewer.figures.marks import Figure
 from viewer.figures.writers.html.formulas import Formulas
 from viewer.figures.writers.html.frame import framed, text
-from viewer.figures.writers.html.inline_svg import inline_svg
+from viewer.figures.writers.html.inline_svg import Drawings, inline_svg
 from viewer.figures.writers.html.numbers import Numbers
 from viewer.reopen.places import as_meta
 
@@ -25,14 +25,16 @@ def write_html(figures: Sequence[Figure]) -> bytes:
     title, parts = _titles([figure.title for figure in figures])
     formulas = Formulas()
     numbers = Numbers(formulas)
+    drawings = Drawings()
     pages = [
         line
         for k, (figure, part) in enumerate(zip(figures, parts, strict=True), 1)
-        for line in _page(figure, k, f"{k} of {len(figures)}{f': {part}' if part else ''}", numbers)
+        for line in _page(figure, k, f"{k} of {len(figures)}{f': {part}' if part else ''}", numbers, drawings)
     ]
     articles = list(numbers.articles())
     body = [
         *formulas.definitions(),
+        *drawings.definitions(),
         '<a class="skip" href="#numbers">Skip to the numbers</a>',
         f"<header><h1>{text(title)}</h1></header>",
         "<main>",
@@ -52,7 +54,7 @@ def write_html(figures: Sequence[Figure]) -> bytes:
     return framed(figures[-1].title, body, _theme(figures[0].paper), [as_meta(carried)] if carried else [])
 
 
-def _page(figure: Figure, k: int, title: str, numbers: Numbers) -> Iterator[str]:
+def _page(figure: Figure, k: int, title: str, numbers: Numbers, drawings: Drawings) -> Iterator[str]:
     """The k-th figure, from 1: the fragment `#k` of the page's address leads to it."""
     place = f"page-{k}"
     named = {details.row: numbers.name(details) for details in figure.details}
@@ -61,11 +63,11 @@ def _page(figure: Figure, k: int, title: str, numbers: Numbers) -> Iterator[str]
     yield f'<h2 id="{place}-title">{text(title)}</h2>'
     yield "<figure>"
     yield f'<div class="canvas{" wide" if figure.upright else ""}">'
-    yield from inline_svg(figure, place, labelled, named)
+    yield from inline_svg(figure, place, labelled, named, drawings=drawings)
     yield "</div>"
     for j, upright in enumerate(figure.upright):
         yield '<div class="canvas upright">'
-        yield from inline_svg(upright, f"{place}-{j}", labelled, named)
+        yield from inline_svg(upright, f"{place}-{j}", labelled, named, drawings=drawings)
         yield "</div>"
     yield f'<figcaption id="{place}-description">{text(figure.description)}</figcaption>'
     yield "</figure>"
