@@ -231,7 +231,10 @@ def test_a_phone_has_all_of_it(browser: Browser, page: Path, figure: str, tmp_pa
     assert min(browser.run(sizes)) >= TAP
     browser.click(*middle(browser, ".upright svg [data-mark=ray-0] path"))
     numbers = browser.run("document.querySelector('.numbers').getBoundingClientRect().toJSON()")
-    assert browser.run(LIT) == ["0"] and numbers["top"] < 600.0 < numbers["bottom"] <= 740.0  # below, without scrolling
+    assert browser.run(LIT) == ["0"]
+    assert (
+        370.0 < numbers["top"] < 600.0 < numbers["bottom"] <= 740.0
+    )  # the lower half of the screen, without scrolling
     browser.size(740, 360, phone=True)
     browser.run("document.querySelector('.enlarge').scrollIntoView({block: 'center'})")
     browser.click(*middle(browser, ".enlarge"))
@@ -250,10 +253,10 @@ def test_it_can_be_read_and_every_control_has_a_name(browser: Browser, theme: st
     rays = [name for role, name in desktop_names if role == "button" and ": " in name]
     assert any(name.startswith("E: camera ray, meets glass ball, weight 1") for name in rays)
     browser.click(*middle(browser, "[data-mark=hit-0] rect"))
-    for article in (True, False):
+    for key in ("Home", "End"):  # with other buttons that have no effect
+        browser.key(key)
         texts, edges = browser.run(CONTRASTS)
-        assert texts >= 4.5 and edges >= 3.0, article
-        browser.key("End")
+        assert texts >= 4.5 and edges >= 3.0
     roles = browser.run("[...document.querySelectorAll('svg[aria-labelledby]')].map(svg => svg.role)")
     assert roles == ["group"] * 4  # two pages, each also for a phone
     landmarks = "['header h1', 'main', 'nav[aria-label]', 'section.numbers[aria-labelledby]', 'footer']"
