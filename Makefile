@@ -5,10 +5,10 @@ PYTHON ?= $(firstword $(shell for p in python3 python3.14 python3.13 python3.12 
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p; done))
 BIN := .venv/bin
 
-# Programs that tests use: an X server without a monitor, xdotool for its mouse, a window manager, OpenGL in software, and
-# POV-Ray as the independent program that images are compared with. PROGRAM:PACKAGE, and libraries.
+# Programs that tests use: an X server without a monitor, xdotool for its mouse, a window manager, OpenGL in software,
+# POV-Ray as the independent program that images are compared with, and programs that read the files of figures. PROGRAM:PACKAGE, and libraries.
 PROGRAMS := Xvfb:xvfb xdotool:xdotool openbox:openbox setxkbmap:x11-xkb-utils povray:povray \
-	setpriv:util-linux rsvg-convert:librsvg2-bin pdftotext:poppler-utils
+	setpriv:util-linux rsvg-convert:librsvg2-bin pdftotext:poppler-utils chromium:chromium
 LIBRARIES := libEGL.so.1:libegl1 libGL.so.1:libgl1 swrast_dri.so:libgl1-mesa-dri
 
 # Programs for `make test-all` only: an office program and TeX, which open exported files.

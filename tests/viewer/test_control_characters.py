@@ -129,7 +129,7 @@ def test_figures(figure: str, folder: Path) -> None:
     assert (found.returncode, forbidden(found.stdout + found.stderr)) == (0, set())
     for path in (folder / "out").iterdir():
         match path.suffix:
-            case ".svg" | ".tex":
+            case ".svg" | ".tex" | ".html":
                 said = [path.read_text("utf-8")]
             case ".pptx":
                 with zipfile.ZipFile(path) as archive:

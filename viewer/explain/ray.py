@@ -31,7 +31,7 @@ from viewer.explain.scattering import (
     origin_sections,
     scattering_sections,
 )
-from viewer.explain.sections import Part, Section
+from viewer.explain.sections import Part, RayDetails, Section
 
 KIND_NAMES = {
     "camera": "Camera ray",
@@ -70,7 +70,7 @@ def ray_facts(tree: RayTree, i: int) -> str:
 def certainty(tree: RayTree, i: int) -> list[str]:
     """Paragraphs on what becomes of ray i, on what is missing, and on how certain its numbers are."""
     fate, missing = headline(tree, i)[1], cut_summary(tree)
-    found = " ".join(f"{words[0].upper()}{words[1:]}." for words in (fate, missing))
+    found = " ".join(map(_sentence, (fate, missing)))
     certain = ""
     if tree.object_name(i) and tree.nodes["kind"][i] != SHADOW:
         digits = tree.digits(i)
@@ -137,6 +137,17 @@ def explain_ray(tree: RayTree, world: World, i: int) -> list[Part]:
         return [*begun, Part(f"{label} meets nothing", [_sum(tree, i)]), numbers]
     ended = Part(f"{label} meets {met}", [_sum(tree, i), *scattering_sections(tree, i), local_light(tree, world, i)])
     return [*begun, ended, numbers]
+
+
+def ray_details(tree: RayTree, world: World, i: int) -> RayDetails:
+    """All about row i, for a figure that carries it along."""
+    name, fate = headline(tree, i)
+    *ends, numbers = explain_ray(tree, world, i)
+    return RayDetails(i, name, (_sentence(fate), certainty(tree, i)[1]), (numbers, *ends))
+
+
+def _sentence(words: str) -> str:
+    return f"{words[0].upper()}{words[1:]}."
 
 
 def _sum(tree: RayTree, i: int) -> Section:

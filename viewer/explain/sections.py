@@ -34,3 +34,13 @@ class Part:
 
     title: str
     sections: list[Section]
+
+
+@dataclass(frozen=True)
+class RayDetails:
+    """All that is said of one ray beside a figure that shows it."""
+
+    row: int  # of the tree: the number in the names of its marks
+    name: str  # its kind and label
+    words: tuple[str, ...]  # paragraphs: what becomes of it, how certain that is
+    parts: tuple[Part, ...]  # its numbers first, then the formulas that they come from

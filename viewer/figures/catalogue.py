@@ -58,6 +58,7 @@ class FormatKind:
     data: str = ""  # function of (RayTree); returns str
     many_pages: bool = False  # one file holds all pages
     has_width: bool = False  # `figures` takes the width in pixels as well
+    on_screen: bool = False  # it shows `Figure.details` and `Figure.upright`
     letters: str = ""  # function of (character): whether the format can show it. Empty: it can show every character
 
     def write(self, pages: Sequence[Figure], width: int) -> bytes:
@@ -94,6 +95,10 @@ FORMATS = {
             "tikz", "TikZ", ".tex", "viewer.figures.writers.tikz:write_tikz", letters="viewer.figures.writers.tikz:has"
         ),
         FormatKind("pptx", "PPTX", ".pptx", "viewer.figures.writers.pptx:write_pptx", many_pages=True),
+        FormatKind(
+            "html", "HTML", ".html", "viewer.figures.writers.html.figure_page:write_html", many_pages=True,
+            on_screen=True,
+        ),
         FormatKind("dot", "Graphviz", ".dot", data="viewer.figures.writers.dot:write_dot"),
         FormatKind("csv", "CSV", ".csv", data="viewer.figures.writers.csv:write_csv"),
         FormatKind("json", "JSON", ".json", data="tracer.tree.raytree:RayTree.to_json"),

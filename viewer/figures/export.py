@@ -21,7 +21,7 @@ from viewer.figures.labels import hit_row
 from viewer.figures.layout.tree_plan import fitting_size
 from viewer.figures.lights import many_lights
 from viewer.figures.marks import Figure, Text
-from viewer.figures.pages import pages
+from viewer.figures.pages import pages, with_details, with_upright
 from viewer.figures.ray_lines import MOST_IN_FIGURE
 from viewer.figures.steps import Step, by_color, by_depth, by_level, by_ray, of_kinds
 from viewer.figures.subject import FigureStyle, Subject
@@ -100,6 +100,8 @@ def make(
     for name in target.formats:
         kind = FORMATS[name]
         figures = [replace(page, command=command_line(options, name), embedded=carried) for page in drawn]
+        if kind.on_screen:
+            figures = with_details(with_upright(figures, options.figure, subject, style), steps, world)
         notes += letter_notes(drawn, name)
         for k, group in enumerate(grouped(kind, steps, options.step)):
             progress(len(files) / (len(target.formats) * len(steps)))

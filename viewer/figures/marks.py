@@ -12,6 +12,7 @@ from itertools import groupby
 from tracer.printable import printable
 from viewer.base.theme import Arrow, Color, blend
 from viewer.explain.plain_formula import plain
+from viewer.explain.sections import RayDetails
 from viewer.figures.font import ANCHORS, text_box
 from viewer.figures.formula.typeset import Contour, typeset
 
@@ -275,6 +276,9 @@ class Figure:
     width: float = WIDTH
     height: float = HEIGHT
     embedded: bytes = b""  # the view and its scene, to be reopened (`viewer.reopen.embedded`)
+    # For formats that are read on a screen (`pages.with_details`, `pages.with_upright`):
+    details: tuple[RayDetails, ...] = ()  # of the rays that have marks
+    upright: tuple["Figure", ...] = ()  # the same, or its parts, for a phone that is held upright
 
     def __post_init__(self) -> None:
         make_printable(self, "title", "description", "command")

@@ -17,8 +17,7 @@ def mark_at(marks: Iterable[Mark], point: Point, reach: float, kinds: Sequence[s
     """
     found, nearest = None, reach
     for mark in marks:
-        kind, _, number = mark.name.rpartition("-")
-        if kind in kinds and number.isdecimal():
+        if ray_of(mark.name, kinds) is not None:
             away = distance(mark, point)
             if away <= nearest:
                 found, nearest = mark.name, away
@@ -40,6 +39,12 @@ def nearest_value(handle: Handle, point: Point) -> float:
     k = min(range(len(pieces)), key=away.__getitem__)
     low, high = handle.range
     return low + (high - low) * (k + shares[k]) / len(pieces)
+
+
+def ray_of(name: str, kinds: Sequence[str] = PICKED) -> int | None:
+    """The row of the tree that a mark of one of these kinds belongs to, by its name; None for other marks."""
+    kind, _, number = name.rpartition("-")
+    return int(number) if kind in kinds and number.isdecimal() else None
 
 
 def row_of(name: str | None) -> int | None:

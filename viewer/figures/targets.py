@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from viewer.base.files import Unusable, check_folder, check_writable, has_folder
-from viewer.figures.catalogue import FORMATS, FormatKind, format_of
+from viewer.figures.catalogue import FORMATS, PICTURES, FormatKind, format_of
 from viewer.figures.export_options import ExportOptions
 from viewer.figures.steps import Step
 
@@ -51,7 +51,9 @@ def target_of(options: ExportOptions) -> Target:
 def check_pages(target: Target, steps: Sequence[Step]) -> None:
     """Unusable if one file cannot hold all pages."""
     if not target.is_folder and len(steps) > 1 and not FORMATS[target.formats[0]].many_pages:
-        raise Unusable(f"{target.path}: {len(steps)} pages need a folder, or one of PDF and PPTX")
+        titles = [FORMATS[name].title for name in PICTURES if FORMATS[name].many_pages]
+        formats = f"{', '.join(titles[:-1])} and {titles[-1]}"
+        raise Unusable(f"{target.path}: {len(steps)} pages need a folder, or one of {formats}")
 
 
 def grouped(kind: FormatKind, steps: Sequence[Step], step: str) -> list[Sequence[Step]]:

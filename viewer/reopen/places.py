@@ -6,6 +6,7 @@
 | PNG | an iTXt chunk (PNG 3, 11.3.3.4), base64 |
 | PDF | an attached file (ISO 32000-1, 7.11.4) |
 | PPTX | a custom XML part (ECMA-376-1, 15.2.5), base64 |
+| HTML | the content of a `<meta>` element, base64 |
 """
 
 import base64
@@ -30,6 +31,7 @@ ELEMENT = "view"
 KEYWORD = "raytree view"  # of the chunk in PNG
 ATTACHMENT = "raytree-view.zip"  # in PDF
 PART = "/customXml/item1.xml"  # in PPTX
+META = "raytree-view"  # the name of the element in HTML
 MOST_FIGURE = 256 * 2**20  # bytes of a figure that is read
 MOST_XML = 64 * 2**20  # bytes of an unpacked part of PPTX
 
@@ -37,6 +39,11 @@ MOST_XML = 64 * 2**20  # bytes of an unpacked part of PPTX
 def as_xml(data: bytes) -> str:
     """The element that carries a view in XML."""
     return f'<raytree:{ELEMENT} xmlns:raytree="{NAMESPACE}">\n{as_text(data)}</raytree:{ELEMENT}>'
+
+
+def as_meta(data: bytes) -> str:
+    """The element that carries a view in HTML."""
+    return f'<meta name="{META}" content="\n{as_text(data)}">'
 
 
 def as_part(command: str, data: bytes) -> bytes:
@@ -146,10 +153,20 @@ def _from_pptx(content: bytes) -> bytes | None:
     return None
 
 
+_META_ELEMENT = re.compile(rb'<meta name="%s" content="([^"<>]*)">' % META.encode())
+
+
+def _from_html(content: bytes) -> bytes | None:
+    """The view in the first such element: in other places of a page, the sign "<" of a text is escaped."""
+    found = _META_ELEMENT.search(content)
+    return _decoded(found[1].decode("ascii", "replace")) if found else None
+
+
 READERS: dict[str, Callable[[bytes], bytes | None]] = {
     ".svg": _from_xml,
     ".png": _from_png,
     ".pdf": _from_pdf,
     ".pptx": _from_pptx,
+    ".html": _from_html,
 }
 CARRYING = tuple(READERS)  # the suffixes of figures that carry a view

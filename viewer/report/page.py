@@ -3,12 +3,11 @@
 import math
 import re
 from collections.abc import Callable, Sequence
-from html import escape
 
 from tracer.measure.conditions import Moment
 from tracer.measure.precision.experiment import THREADS
 from tracer.measure.precision.precision import Curve, Point, Source
-from tracer.printable import printable
+from viewer.figures.writers.html.frame import text
 from viewer.report.chapter import Chapter
 from viewer.report.conditions import Conditions, busy_note
 
@@ -47,11 +46,6 @@ def as_html(title: str, chapters: Sequence[Chapter], conditions: Conditions) -> 
     page = ["<!doctype html>", '<html lang="en">', "<head>", '<meta charset="utf-8">']
     page += [f"<title>Error against run time: {text(title)}</title>", f"<style>{STYLE}</style>", "</head>", "<body>"]
     return "\n".join([*page, *body, "</body>", "</html>", ""]).encode("utf-8")
-
-
-def text(content: str) -> str:
-    """Text as HTML, without control characters."""
-    return escape(printable(content))
 
 
 INTRODUCTION = (

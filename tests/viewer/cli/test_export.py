@@ -51,7 +51,7 @@ def test_a_ray_by_hand(tmp_path: Path) -> None:
             ["-o", "{}/a.svg", "--format", "pdf"],
             "{}/a.svg: is svg, but --format asks for pdf: name a folder, or one format",
         ),
-        (["-o", "{}/a.svg", "--depth", "0..3"], "{}/a.svg: 4 pages need a folder, or one of PDF and PPTX"),
+        (["-o", "{}/a.svg", "--depth", "0..3"], "{}/a.svg: 4 pages need a folder, or one of PDF, PPTX and HTML"),
         (["-o", "{}/none/a.svg"], "{}/none/a.svg: folder not found: {}/none"),
         (["-o", "{}/none/b/"], "{}/none/b: folder not found: {}/none"),
         (["-o", "{}/file/", "--format", "svg"], "{}/file: must be a folder, got a file"),

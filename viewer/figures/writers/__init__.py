@@ -1,1 +1,1 @@
-"""Writers: marks to SVG, PDF, PNG, TikZ, PPTX; the node table to CSV and DOT."""
+"""Writers: marks to SVG, PDF, PNG, TikZ, PPTX, HTML; the node table to CSV and DOT."""

@@ -1,5 +1,9 @@
-"""Figures as SVG: text as text, marks of one name in a group with that name, attributes that every program reads."""
+"""Figures as SVG: text as text, marks of one name in a group with that name, attributes that every program reads.
 
+`groups` and `outline_path` are also what figures and formulas in HTML are made of.
+"""
+
+from collections.abc import Callable, Iterable
 from xml.sax.saxutils import escape, quoteattr
 
 from viewer.base.theme import Color, rgb_bytes
@@ -9,30 +13,49 @@ from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, 
 from viewer.figures.writers.arrows import heads
 from viewer.reopen.places import as_xml
 
+FONT = f"font-family={quoteattr(', '.join((repr(FAMILY), *FALLBACK)))}"  # the attribute of the root element
+
 
 def write_svg(figure: Figure) -> bytes:
     w, h = _n(figure.width), _n(figure.height)
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{w}pt" height="{h}pt" viewBox="0 0 {w} {h}" role="img"'
-        f" font-family={quoteattr(', '.join((_quoted(FAMILY), *FALLBACK)))}>",
+        f" {FONT}>",
         f"<title>{escape(figure.title)}</title>",
         f"<desc>{escape(figure.description)}</desc>",
         f"<metadata>{escape(figure.command)}{as_xml(figure.embedded) if figure.embedded else ''}</metadata>",
     ]
-    if figure.ground:
-        lines.append(f'<rect width="{w}" height="{h}"{_fill(figure.paper)}/>')
     known: set[str] = set()
-    for name, title, group in figure.groups():
+
+    def group(name: str, title: str, elements: list[str]) -> str:
         # An id occurs once in a file: later groups of the same name have it as their class.
-        lines.append(f"<g {'class' if name in known else 'id'}={quoteattr(name)}>")
+        kind = "class" if name in known else "id"
         known.add(name)
-        if title:
-            lines.append(f"<title>{escape(title)}</title>")
-        for mark in group:
-            lines += _element(mark)
-        lines.append("</g>")
-    return "\n".join([*lines, "</svg>", ""]).encode("utf-8")
+        return "\n".join([f"<g {kind}={quoteattr(name)}>{title_element(title)}", *elements, "</g>"])
+
+    return "\n".join([*lines, *groups(figure, group), "</svg>", ""]).encode("utf-8")
+
+
+def groups(figure: Figure, group: Callable[[str, str, list[str]], str]) -> Iterable[str]:
+    """The elements of a figure: its background, if it has one, and a group for each run of marks of one name.
+
+    `group` returns such a group from the name and the title of its marks and their elements.
+    """
+    if figure.ground:
+        yield f'<rect width="{_n(figure.width)}" height="{_n(figure.height)}"{_fill(figure.paper)}/>'
+    for name, title, marks in figure.groups():
+        yield group(name, title, [element for mark in marks for element in _element(mark)])
+
+
+def title_element(title: str) -> str:
+    """The element that programs show as a tooltip; empty without a title."""
+    return f"\n<title>{escape(title)}</title>" if title else ""
+
+
+def outline_path(outlines: Iterable[Iterable[Contour]]) -> str:
+    """The outlines of a formula as path data."""
+    return "".join(_contour(contour) for outline in outlines for contour in outline)
 
 
 def _element(mark: Mark) -> list[str]:
@@ -59,9 +82,8 @@ def _element(mark: Mark) -> list[str]:
             text = f'<text {place} text-anchor="{mark.anchor}"{_fill(mark.color)}{kept}>{escape(mark.content)}</text>'
             return [text]
         case Formula():
-            path = "".join(_contour(contour) for outline in mark.outlines() for contour in outline)
             said = f'role="img" aria-label={quoteattr(mark.plain)} data-tex={quoteattr(mark.source)}'
-            return [f'<path {said} d="{path}"{_fill(mark.color)}/>']
+            return [f'<path {said} d="{outline_path(mark.outlines())}"{_fill(mark.color)}/>']
         case _:
             raise TypeError(f"no SVG for {type(mark).__name__}")
 
@@ -112,7 +134,3 @@ def _n(x: float) -> str:
     """Two decimals: a fiftieth of a pixel on a large screen."""
     text = f"{x:.2f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text
-
-
-def _quoted(family: str) -> str:
-    return f"'{family}'"

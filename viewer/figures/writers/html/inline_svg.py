@@ -1,0 +1,93 @@
+"""A figure as a fragment of HTML: an inline SVG whose rays the script can find, and screen readers can name.
+
+Every group of marks has `data-mark`, the name of its marks, which is the same in all figures and formats. Groups that
+belong to a ray have `data-ray`: what has the same value, in any figure of the page, is one ray. The group that stands
+for the ray in its figure also has a name (`aria-label`), and `data-numbers`, the id of the article about it.
+
+The script makes these groups focusable. Without it, the figure is one image with a name and a description.
+
+A handle of a figure could be an `<input type="range">` below it, named as the handle: each of its values is a page,
+written as all pages are, and the script shows the page of the value in place of the page of a position.
+"""
+
+from collections.abc import Iterator, Mapping
+from html import escape
+
+from viewer.figures.marks import Figure
+from viewer.figures.picking import PICKED, ray_of
+from viewer.figures.writers.svg import FONT, groups, title_element
+
+SHORT = 200  # characters of elements that are not worth sharing
+BELONGING = (*PICKED, "angle-ray", "sum", "bar", "lights")  # marks that light up with their ray
+
+
+class Drawings:
+    """What figures of one page have in common, such as the objects of a scene: each is in the page once."""
+
+    def __init__(self) -> None:
+        self._names: dict[str, str] = {}  # ids, by the elements
+
+    def shared(self, content: str) -> str:
+        """An element in place of these, if that is shorter. Texts stay where they are, to be found and read."""
+        if len(content) < SHORT or "<text" in content or "aria-label" in content:
+            return content
+        return f'<use href="#{self._names.setdefault(content, f"drawing-{len(self._names)}")}"/>'
+
+    def definitions(self) -> Iterator[str]:
+        if self._names:
+            yield '<svg class="definitions" aria-hidden="true"><defs>'
+            for content, name in self._names.items():
+                yield f'<g id="{name}">\n{content}\n</g>'
+            yield "</defs></svg>"
+
+
+def inline_svg(
+    figure: Figure,
+    place: str,
+    labelled: str,
+    numbers: Mapping[int, str],
+    tree: str = "",
+    drawings: Drawings | None = None,
+) -> list[str]:
+    """The lines of the SVG.
+
+    `place` is an id that no other figure of the page has; ids in the figure begin with it. `labelled` has the
+    attributes that say which elements of the page name and describe it. `numbers` are the ids of the articles about
+    the rays, by row. `tree` tells rays of different trees in one page apart.
+    `drawings` takes what several figures of the page may share; without it, the fragment stands by itself.
+    """
+    names = _names(figure)
+    known: set[str] = set()
+
+    def group(name: str, title: str, elements: list[str]) -> str:
+        row = ray_of(name.removesuffix("-label"), BELONGING)
+        own = f' data-mark="{escape(name)}"'
+        if name not in known:  # an id occurs once in a page
+            own = f' id="{place}-{escape(name)}"{own}'
+        known.add(name)
+        content = "\n".join(elements)
+        if row is None:
+            return f"<g{own}>{title_element(title)}\n{drawings.shared(content) if drawings else content}\n</g>"
+        own += f' data-ray="{tree}{row}"'
+        if name == names.get(row):
+            said = f' data-numbers="{numbers[row]}"' if row in numbers else ""
+            own += f' aria-label="{escape(_label(figure, row))}"{said}'
+            del names[row]
+        return f"<g{own}>\n{content}\n</g>"
+
+    size = f"{figure.width:g} {figure.height:g}"
+    return [f'<svg role="img" {labelled} viewBox="0 0 {size}" {FONT}>', *groups(figure, group), "</svg>"]
+
+
+def _names(figure: Figure) -> dict[int, str]:
+    """The name of the marks that stand for each ray: its line, or the box of its hit where it has no line."""
+    found: dict[int, str] = {}
+    for kind in reversed(PICKED):
+        found |= {row: mark.name for mark in figure.marks if (row := ray_of(mark.name, (kind,))) is not None}
+    return found
+
+
+def _label(figure: Figure, row: int) -> str:
+    """What is said of a ray in a sentence: the title of its marks."""
+    titled = (mark.title for mark in figure.marks if mark.title and ray_of(mark.name) == row)
+    return next(titled, "") or next((one.name for one in figure.details if one.row == row), "")
