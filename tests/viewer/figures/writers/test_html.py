@@ -110,7 +110,7 @@ def desktop(browser: Browser, page: Path) -> Browser:
 
 @pytest.fixture(scope="module")
 def trees(worlds: dict[str, tracer.World]) -> list[RayTree]:
-    return [tracer.trace(worlds[LESSON], lesson.read(LESSON).pixel, depth=d) for d in DEPTHS]
+    return [tracer.trace(worlds[LESSON], lesson.read(LESSON).first.state.pixel, depth=d) for d in DEPTHS]
 
 
 def middle(browser: Browser, selector: str) -> tuple[float, float]:
@@ -329,8 +329,8 @@ def test_the_file_is_valid_refers_to_nothing_and_is_the_same_each_time(
             assert name != "src" and name != "style" and not str(name).startswith("on")
     found = lesson.read("underwater")
     world = worlds["underwater"]
-    steps = by_depth([tracer.trace(world, found.pixel, depth=d) for d in range(1, 3)])
-    subject = Subject(steps, world, initial_orbit(world, Frame.of(world), found.view))
+    steps = by_depth([tracer.trace(world, found.first.state.pixel, depth=d) for d in range(1, 3)])
+    subject = Subject(steps, world, initial_orbit(world, Frame.of(world), found.first.state.view))
     style = FigureStyle()
     drawn = with_upright(pages(figure, subject, style), figure, subject, style)
     drawings = [element for element in elements if element.get("aria-describedby")]
