@@ -1,0 +1,126 @@
+"""Plots made of marks: two axes with ticks, curves, points, and labels that avoid each other."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from viewer.base.theme import Color, Theme
+from viewer.figures.font import text_width
+from viewer.figures.layout.label_placement import LabelPlacer, Spot
+from viewer.figures.marks import Disc, Handle, Line, Mark, Point, Rectangle, Shape, Stroke, Text
+
+TICKS = 1.15  # height of the line of numbers below the plot, in text sizes
+TITLE = 1.35  # height of the title below, in text sizes
+HEAD = 1.75  # height of the title above, clear of the uppermost number
+APART = 0.9  # least distance between the numbers of an axis, in text sizes
+STEPS = 90  # of a curve, and of a handle's path
+DOT = 0.3  # radius of a point, in text sizes
+
+
+@dataclass(frozen=True)
+class Axis:
+    """`steps` are distances of ticks, the finest first; the first whose numbers have room is used."""
+
+    title: str
+    low: float
+    high: float
+    steps: tuple[float, ...]
+    unit: str = ""
+
+    def share(self, value: float) -> float:
+        return (value - self.low) / (self.high - self.low)
+
+    def ticks(self, size: float, room: float, high: bool) -> list[tuple[float, str]]:
+        """Values and their numbers on an axis of this length; if it is `high`, they stand above each other."""
+        for step in self.steps:
+            first, last = -(-self.low // step), self.high / step + 1e-9
+            values = [step * k for k in range(int(first), int(last) + 1)]
+            found = [(value, f"{value:g}{self.unit}".replace("-", "−")) for value in values]
+            extent = size if high else max(text_width(words, size) for _, words in found)
+            if (extent + APART * size) * (len(found) - 1) <= room:
+                return found
+        return found[:: max(1, len(found) - 1)]
+
+
+class Plot:
+    """The axes of a plot in a rectangle. `marks` grow with each call; labels are placed last, by `labels`."""
+
+    def __init__(self, where: Rectangle, across: Axis, up: Axis, size: float, theme: Theme) -> None:
+        self.across, self.up, self.size, self.theme = across, up, size, theme
+        left, top, right, bottom = where
+        high = bottom - top - (TICKS + TITLE + HEAD) * size
+        numbers = up.ticks(size, high, True)
+        left += max(text_width(words, size) for _, words in numbers) + 0.5 * size
+        last = across.ticks(size, right - left, False)[-1][1]
+        right -= 0.5 * text_width(last, size)
+        self.box: Rectangle = (left, top + HEAD * size, right, bottom - (TICKS + TITLE) * size)
+        self.placer = LabelPlacer(self.box, size, theme)
+        self.marks: list[Mark] = []
+        self._axes(where, numbers)
+
+    def at(self, x: float, y: float) -> Point:
+        left, top, right, bottom = self.box
+        return (left + self.across.share(x) * (right - left), bottom - self.up.share(y) * (bottom - top))
+
+    def _axes(self, where: Rectangle, numbers: Sequence[tuple[float, str]]) -> None:
+        left, top, right, bottom = self.box
+        size, theme = self.size, self.theme
+        grid = Stroke(theme.border, 1.0)
+        for value, words in numbers:
+            (_, y) = self.at(self.across.low, value)
+            self.marks.append(Line("grid", (left, y), (right, y), grid))
+            self.marks.append(Text("axis", (left - 0.4 * size, y), words, size, theme.muted, "end"))
+        for value, words in self.across.ticks(size, right - left, False):
+            (x, _) = self.at(value, self.up.low)
+            self.marks.append(Line("grid", (x, top), (x, bottom), grid))
+            self.marks.append(Text("axis", (x, bottom + 0.8 * size), words, size, theme.muted))
+        ink = Stroke(theme.text, 1.4)
+        self.marks.append(Line("axis", (left, bottom), (right, bottom), ink))
+        self.marks.append(Line("axis", (left, top), (left, bottom), ink))
+        self.marks.append(Text("axis", (where[0], where[1] + 0.55 * size), self.up.title, size, theme.text, "start"))
+        below = bottom + (TICKS + 0.65) * size
+        self.marks.append(Text("axis", (where[2], below), self.across.title, size, theme.text, "end"))
+
+    def curve(
+        self, name: str, value: Callable[[float], float], ends: tuple[float, float], stroke: Stroke, title: str = ""
+    ) -> None:
+        """A function between two places of the axis."""
+        first, last = ends
+        xs = [first + (last - first) * k / STEPS for k in range(STEPS + 1)]
+        corners = tuple(self.at(x, value(x)) for x in xs)
+        self.marks.append(Shape(name, corners, None, stroke, closed=False, title=title))
+        self.placer.ways += [(name, piece) for piece in pairwise(corners)]
+
+    def line(self, name: str, start: Point, end: Point, stroke: Stroke) -> None:
+        """A straight line between two places."""
+        piece = (self.at(*start), self.at(*end))
+        self.marks.append(Line(name, *piece, stroke))
+        self.placer.ways.append((name, piece))
+
+    def region(self, name: str, ends: tuple[float, float], color: Color, title: str = "") -> None:
+        """Tint all of the plot between two places of the axis."""
+        low, high = self.up.low, self.up.high
+        places = ((ends[0], low), (ends[1], low), (ends[1], high), (ends[0], high))
+        self.marks.append(Shape(name, tuple(self.at(*place) for place in places), color, None, title=title))
+
+    def point(self, name: str, x: float, y: float, color: Color, hollow: bool = False, title: str = "") -> None:
+        at, radius = self.at(x, y), DOT * self.size
+        fill = self.theme.ground if hollow else color
+        self.marks.append(Disc(name, at, radius, fill, Stroke(color, 2.0), title=title))
+        self.placer.take(at, 2.0 * radius + 2.0)
+
+    def handle(self, name: str, value: float, color: Color, title: str) -> None:
+        """A handle on the axis."""
+        ends = (self.across.low, self.across.high)
+        path = (self.at(ends[0], self.up.low), self.at(ends[1], self.up.low))
+        self.marks.append(Handle(name, value, ends, path, color, title=title))
+
+    def label(self, name: str, words: Sequence[str], x: float, y: float, color: Color, most: int = 0) -> None:
+        """The first of these texts that has a place beside a point, over no other text and at most so many pieces of
+        lines; none if there is no such place.
+        """
+        for content in words:
+            found = self.placer.label(name, content, [Spot(self.at(x, y))], color, most)
+            if found:
+                self.marks += [mark for mark in found if not isinstance(mark, Shape)]  # a backing is for lines below
+                return
