@@ -76,9 +76,15 @@ def _speed(word: str, _: World | None) -> float:
 
 
 INDICES = (Argument("n1", _index), Argument("n2", _index))
+SPEEDS = (Argument("v1", _speed), Argument("v2", _speed))
 
 LIVE = (
     LiveKind("snell", "Snell's law", "viewer.lessons.live.snell:snell", INDICES),
+    LiveKind("lifeguard", "The lifeguard", "viewer.lessons.live.lifeguard:lifeguard", SPEEDS),
+    LiveKind("fresnel", "Fresnel's equations", "viewer.lessons.live.fresnel:fresnel", INDICES),
+    LiveKind("media", "Media and the speed of light", "viewer.lessons.live.media:media", INDICES),
+    LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.sphere:sphere"),
+    LiveKind("hit", "The hit", "viewer.lessons.live.hit:hit"),
 )  # fmt: skip
 LIVE_NAMES = tuple(kind.name for kind in LIVE)
 

@@ -1,14 +1,14 @@
 """The lifeguard problem: the path of least time over a beach and through the sea, and Snell's law at its minimum.
 
 The guard is at (0, 3) on the beach, the swimmer at (7, -4) in the sea, the shore is y = 0. At 4 m/s on the beach and
-3 m/s in the sea, the least time is 35/12 s, at x = 4: there the legs are the hypotenuses of a 3-4-5 triangle and of
-one with sides 3 and 4 whose diagonal is 5 as well.
+3 m/s in the sea, the least time is 5/4 + 5/3 = 35/12 s, at x = 4: both parts of that path are the hypotenuse of a
+triangle with sides 3, 4 and 5.
 """
 
 import math
 from dataclasses import dataclass
 
-from viewer.base.theme import Theme, blend, faded
+from viewer.base.theme import Theme, faded
 from viewer.base.wording import format_number
 from viewer.explain.sections import Section
 from viewer.figures import signs
@@ -16,6 +16,7 @@ from viewer.figures.figure.hit import TINTS
 from viewer.figures.font import text_width
 from viewer.figures.layout.hit_frame import GAP, MARGIN
 from viewer.figures.marks import Disc, Handle, Line, Mark, Point, Rectangle, Shape, Stroke, Text, widened
+from viewer.lessons.live.labels import Labels
 from viewer.lessons.live.piece import LiveContext, Parameters
 from viewer.lessons.live.plot import Axis, Plot
 
@@ -95,15 +96,16 @@ def words(given: Lifeguard, x: float, wide: float, size: float) -> list[str]:
     """Both sides of Snell's law and the time, in the longest form whose lines fit."""
     sine1, sine2 = given.sines(x)
     a, b = sine1 / given.v1, sine2 / given.v2
-    equal = x == given.least or f"{a:.4f}" == f"{b:.4f}"
+    left, right = format_number(a, 4), format_number(b, 4)
+    equal = left == right
     sides = (
-        f"sin θ₁ / v₁ = {sine1:.4f} / {format_number(given.v1)} = {a:.4f}".replace("-", "−"),
-        f"sin θ₂ / v₂ = {sine2:.4f} / {format_number(given.v2)} = {b:.4f}".replace("-", "−"),
+        f"sin θ₁ / v₁ = {sine1:.4f} / {format_number(given.v1)} = {left}".replace("-", "−"),
+        f"sin θ₂ / v₂ = {sine2:.4f} / {format_number(given.v2)} = {right}".replace("-", "−"),
     )
     time = f"time {given.time(x):.4f} s"
     least = f"least time {given.time(given.least):.4f} s at x = {given.least:.2f}"
     said = "equal: this is the path of least time" if equal else least
-    brief = f"{a:.4f} {'=' if equal else '<' if a < b else '>'} {b:.4f}".replace("-", "−")
+    brief = f"{left} {'=' if equal else '<' if a < b else '>'} {right}"
     forms = (
         [f"{sides[0]}     {sides[1]}", f"{time},  {said}"],
         [*sides, f"{time},  {said}"],
@@ -175,18 +177,21 @@ class _Shore:
         left, top, right, bottom = self.where
         v1, v2 = (format_number(v) for v in (self.given.v1, self.given.v2))
         pad = 0.5 * size
-        plot = Plot.free(self.where, size, theme, self.marks)
-        guard, swimmer = self.at(*GUARD), self.at(*SWIMMER)
-        plot.corner("beach", [f"beach: v₁ = {v1} m/s", f"v₁ = {v1} m/s", f"v₁ = {v1}"], (right - pad, top + 0.9 * size), "end")
-        plot.corner("sea", [f"sea: v₂ = {v2} m/s", f"v₂ = {v2} m/s", f"v₂ = {v2}"], (left + pad, bottom - 0.9 * size), "start")
-        plot.beside("person", ["guard"], guard, theme.text)
-        plot.beside("person", ["swimmer"], swimmer, theme.text)
+        labels = Labels(self.where, size, theme, self.marks)
         (cx, cy), away = self.at(x, 0.0), 1.1 * self.scale + 0.8 * size
-        for name, turn in zip(("θ₁", "θ₂"), (math.asin(s) for s in self.given.sines(x)), strict=True):
-            half = -0.5 * turn if name == "θ₁" else math.pi - 0.5 * turn
-            if abs(turn) * away > 1.5 * size:
-                plot.upon("angle", name, (cx + away * math.sin(half), cy - away * math.cos(half)), theme.text)
-        self.marks += plot.marks
+        for name, foot, sine in zip(("θ₁", "θ₂"), (0.0, math.pi), self.given.sines(x), strict=True):
+            turn = foot - 0.5 * math.asin(sine)
+            if math.asin(abs(sine)) * away > 1.6 * size:
+                place = (cx + away * math.sin(turn), cy - away * math.cos(turn))
+                labels.place("angle", [name], [(place, "middle")], theme.text)
+        right_top, left_low = (right - pad, top + 0.9 * size), (left + pad, bottom - 0.9 * size)
+        forms = "{0}: v{1} = {2} m/s", "v{1} = {2} m/s", "v{1} = {2}"
+        labels.place("beach", [form.format("beach", "₁", v1) for form in forms], [(right_top, "end")], theme.text)
+        labels.place("sea", [form.format("sea", "₂", v2) for form in forms], [(left_low, "start")], theme.text)
+        labels.beside("person", ["guard"], self.at(*GUARD), theme.text)
+        labels.beside("person", ["swimmer"], self.at(*SWIMMER), theme.text)
+        labels.beside("least", ["least time"], self.at(self.given.least, 0.0), theme.normal, near=True)
+        self.marks += labels.marks
 
 
 def _graph(given: Lifeguard, x: float, where: Rectangle, size: float, theme: Theme) -> list[Mark]:
@@ -196,7 +201,7 @@ def _graph(given: Lifeguard, x: float, where: Rectangle, size: float, theme: The
     low = step * math.floor(0.97 * least / step)
     high = step * math.ceil(slowest / step)
     steps = (step, 2.0 * step, high - low)
-    plot = Plot(where, Axis("x (m)", *ENDS, (1.0, 2.0, 4.0)), Axis("travel time (s)", low, high, steps), size, theme)
+    plot = Plot(where, Axis(("x (m)",), *ENDS, (1.0, 2.0, 4.0)), Axis(("travel time (s)", "time (s)", "s"), low, high, steps), size, theme)
     plot.line("least", (given.least, low), (given.least, least), Stroke(theme.normal, 1.4, (5.0, 4.0)))
     plot.curve("time", given.time, ENDS, Stroke(theme.ray("refraction"), 2.6))
     plot.line("x", (x, low), (x, given.time(x)), Stroke(theme.accent, 1.4, (2.0, 3.0)))
@@ -205,4 +210,4 @@ def _graph(given: Lifeguard, x: float, where: Rectangle, size: float, theme: The
     plot.label("least", [f"least time: {least:.3f} s", "least time", "least"], given.least, least, theme.normal)
     if f"{x:.3f}" != f"{given.least:.3f}":
         plot.label("point", [f"{given.time(x):.3f} s"], x, given.time(x), theme.text)
-    return plot.marks
+    return plot.drawn()

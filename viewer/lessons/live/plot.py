@@ -2,12 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 from viewer.base.theme import Color, Theme
 from viewer.figures.font import text_width
-from viewer.figures.layout.label_placement import LabelPlacer, Spot
 from viewer.figures.marks import Disc, Handle, Line, Mark, Point, Rectangle, Shape, Stroke, Text
+from viewer.lessons.live.labels import Labels
 
 TICKS = 1.15  # height of the line of numbers below the plot, in text sizes
 TITLE = 1.35  # height of the title below, in text sizes
@@ -19,9 +18,9 @@ DOT = 0.3  # radius of a point, in text sizes
 
 @dataclass(frozen=True)
 class Axis:
-    """`steps` are distances of ticks, the finest first; the first whose numbers have room is used."""
+    """`titles` are the longest first; the first that has room is used. `steps` are distances of ticks, the finest first; the first whose numbers have room is used."""
 
-    title: str
+    titles: tuple[str, ...]
     low: float
     high: float
     steps: tuple[float, ...]
@@ -29,6 +28,9 @@ class Axis:
 
     def share(self, value: float) -> float:
         return (value - self.low) / (self.high - self.low)
+
+    def title(self, size: float, room: float) -> str:
+        return next((words for words in self.titles if text_width(words, size) <= room), "")
 
     def ticks(self, size: float, room: float, high: bool) -> list[tuple[float, str]]:
         """Values and their numbers on an axis of this length; if it is `high`, they stand above each other."""
@@ -43,7 +45,7 @@ class Axis:
 
 
 class Plot:
-    """The axes of a plot in a rectangle. `marks` grow with each call; labels are placed last, by `labels`."""
+    """The axes of a plot in a rectangle. Labels keep off what is drawn before them."""
 
     def __init__(self, where: Rectangle, across: Axis, up: Axis, size: float, theme: Theme) -> None:
         self.across, self.up, self.size, self.theme = across, up, size, theme
@@ -54,9 +56,10 @@ class Plot:
         last = across.ticks(size, right - left, False)[-1][1]
         right -= 0.5 * text_width(last, size)
         self.box: Rectangle = (left, top + HEAD * size, right, bottom - (TICKS + TITLE) * size)
-        self.placer = LabelPlacer(self.box, size, theme)
+        self.labels = Labels(self.box, size, theme)
         self.marks: list[Mark] = []
         self._axes(where, numbers)
+        self.avoided = len(self.marks)  # how many of the marks the labels have seen: labels may cover the grid
 
     def at(self, x: float, y: float) -> Point:
         left, top, right, bottom = self.box
@@ -77,9 +80,10 @@ class Plot:
         ink = Stroke(theme.text, 1.4)
         self.marks.append(Line("axis", (left, bottom), (right, bottom), ink))
         self.marks.append(Line("axis", (left, top), (left, bottom), ink))
-        self.marks.append(Text("axis", (where[0], where[1] + 0.55 * size), self.up.title, size, theme.text, "start"))
+        wide = where[2] - where[0]
+        self.marks.append(Text("axis", (where[0], where[1] + 0.55 * size), self.up.title(size, wide), size, theme.text, "start"))
         below = bottom + (TICKS + 0.65) * size
-        self.marks.append(Text("axis", (where[2], below), self.across.title, size, theme.text, "end"))
+        self.marks.append(Text("axis", (where[2], below), self.across.title(size, wide), size, theme.text, "end"))
 
     def curve(
         self, name: str, value: Callable[[float], float], ends: tuple[float, float], stroke: Stroke, title: str = ""
@@ -89,13 +93,10 @@ class Plot:
         xs = [first + (last - first) * k / STEPS for k in range(STEPS + 1)]
         corners = tuple(self.at(x, value(x)) for x in xs)
         self.marks.append(Shape(name, corners, None, stroke, closed=False, title=title))
-        self.placer.ways += [(name, piece) for piece in pairwise(corners)]
 
     def line(self, name: str, start: Point, end: Point, stroke: Stroke) -> None:
         """A straight line between two places."""
-        piece = (self.at(*start), self.at(*end))
-        self.marks.append(Line(name, *piece, stroke))
-        self.placer.ways.append((name, piece))
+        self.marks.append(Line(name, self.at(*start), self.at(*end), stroke))
 
     def region(self, name: str, ends: tuple[float, float], color: Color, title: str = "") -> None:
         """Tint all of the plot between two places of the axis."""
@@ -107,7 +108,6 @@ class Plot:
         at, radius = self.at(x, y), DOT * self.size
         fill = self.theme.ground if hollow else color
         self.marks.append(Disc(name, at, radius, fill, Stroke(color, 2.0), title=title))
-        self.placer.take(at, 2.0 * radius + 2.0)
 
     def handle(self, name: str, value: float, color: Color, title: str) -> None:
         """A handle on the axis."""
@@ -115,12 +115,14 @@ class Plot:
         path = (self.at(ends[0], self.up.low), self.at(ends[1], self.up.low))
         self.marks.append(Handle(name, value, ends, path, color, title=title))
 
-    def label(self, name: str, words: Sequence[str], x: float, y: float, color: Color, most: int = 0) -> None:
-        """The first of these texts that has a place beside a point, over no other text and at most so many pieces of
-        lines; none if there is no such place.
-        """
-        for content in words:
-            found = self.placer.label(name, content, [Spot(self.at(x, y))], color, most)
-            if found:
-                self.marks += [mark for mark in found if not isinstance(mark, Shape)]  # a backing is for lines below
-                return
+    def label(
+        self, name: str, words: Sequence[str], x: float, y: float, color: Color, most: int = 0, near: bool = False
+    ) -> None:
+        """Write the first of these texts that has a place beside a point, as in `Labels.beside`."""
+        self.labels.avoid(self.marks[self.avoided :])
+        self.avoided = len(self.marks)
+        self.labels.beside(name, words, self.at(x, y), color, most, near)
+
+    def drawn(self) -> list[Mark]:
+        """All marks, with the labels above."""
+        return [*self.marks, *self.labels.marks]

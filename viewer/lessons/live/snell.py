@@ -26,8 +26,8 @@ def snell(context: LiveContext, parameters: Parameters) -> list[Mark]:
     theme, theta1, theta2 = context.theme, media.theta1, media.refracted(media.theta1)
     plot = Plot(
         picture,
-        Axis("angle of incidence θ₁", 0.0, MOST, DEGREES, "°"),
-        Axis("angle of refraction θ₂", 0.0, MOST, DEGREES, "°"),
+        Axis(("angle of incidence θ₁", "incidence θ₁", "θ₁"), 0.0, MOST, DEGREES, "°"),
+        Axis(("angle of refraction θ₂", "refraction θ₂", "θ₂"), 0.0, MOST, DEGREES, "°"),
         context.size,
         theme,
     )
@@ -57,8 +57,8 @@ def snell(context: LiveContext, parameters: Parameters) -> list[Mark]:
         plot.label("critical", [f"θc = {media.critical:.2f}°"], media.critical, 12.0, total)
         words = ["total internal reflection", "total reflection", "TIR"]
         plot.label("tir", words, 0.5 * (media.critical + MOST), 45.0, total)
-    plot.label("diagonal", ["θ₂ = θ₁ (n₁ = n₂)", "θ₂ = θ₁"], 68.0, 68.0, theme.muted)
-    return [*plot.marks, *text]
+    plot.label("diagonal", ["θ₂ = θ₁ (n₁ = n₂)", "θ₂ = θ₁"], 68.0, 68.0, theme.muted, near=True)
+    return [*plot.drawn(), *text]
 
 
 def section(media: Interface) -> Section:
@@ -69,7 +69,7 @@ def section(media: Interface) -> Section:
     if theta2 is None:
         sine = media.n1 / media.n2 * math.sin(math.radians(media.theta1))
         found.add("sin θ₂ would be", f"{format_number(sine)} > 1")
-        found.add("no refracted ray: total internal reflection")
+        found.add("total internal reflection")
     else:
         found.add("n₂ sin θ₂", _side(media.n2, theta2))
     found.add(Lecture.THETA_1, f"{media.theta1:.2f}°")
@@ -78,7 +78,7 @@ def section(media: Interface) -> Section:
     if media.critical is not None:
         found.add(Lecture.THETA_C, f"{media.critical:.2f}°")
     elif media.n1 < media.n2:
-        found.add("n₁ < n₂: bends towards the normal")
+        found.add("bends towards the normal")
     return found
 
 
