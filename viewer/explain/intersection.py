@@ -62,15 +62,16 @@ def sphere_section(tree: RayTree, i: int) -> Section | None:
     if found is None:
         return None
     section = Section("Ray and sphere", Lecture.QUADRATIC)
+    error = start_error(tree, i)
+    on_sphere = abs(found.roots[0]) <= error  # then c is rounding error
     for symbol, value in (
         (Lecture.QUADRATIC_A, found.a),
         (Lecture.QUADRATIC_B, found.b),
-        (Lecture.QUADRATIC_C, found.c),
+        (Lecture.QUADRATIC_C, 0.0 if on_sphere else found.c),
         (Lecture.DISCRIMINANT, found.discriminant),
     ):
         section.add(symbol, format_number(value, DIGITS))
     section.add(Lecture.ROOTS)
-    error = start_error(tree, i)
     for symbol, root in zip((Lecture.ROOT_1, Lecture.ROOT_2), found.roots, strict=True):
         section.add(symbol, format_number(0.0 if abs(root) <= error else root, DIGITS))
     t = float(tree.nodes["t"][i])

@@ -75,6 +75,12 @@ def _speed(word: str, _: World | None) -> float:
     return number
 
 
+def _count(word: str, _: World | None) -> float:
+    if not word.isdecimal():
+        raise ValueError("a whole number")
+    return float(word)
+
+
 INDICES = (Argument("n1", _index), Argument("n2", _index))
 SPEEDS = (Argument("v1", _speed), Argument("v2", _speed))
 
@@ -84,6 +90,8 @@ LIVE = (
     LiveKind("fresnel", "Fresnel's equations", "viewer.lessons.live.fresnel:fresnel", INDICES),
     LiveKind("media", "Media and the speed of light", "viewer.lessons.live.media:media", INDICES),
     LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.sphere:sphere"),
+    LiveKind("sum", "The sum of a hit", "viewer.lessons.live.sum:sum_piece"),
+    LiveKind("samples", "Samples of a pixel", "viewer.lessons.live.samples:samples", (Argument("count", _count),)),
     LiveKind("hit", "The hit", "viewer.lessons.live.hit:hit"),
 )  # fmt: skip
 LIVE_NAMES = tuple(kind.name for kind in LIVE)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from tracer.formulas.media import INDICES
 from viewer.base.theme import faded
 from viewer.base.wording import format_number
-from viewer.figures.font import fitted, text_width
+from viewer.figures.font import text_width
 from viewer.figures.layout.hit_frame import MARGIN
 from viewer.figures.marks import Box, Disc, Handle, Line, Mark, Shape, Stroke, Text, widened
 from viewer.lessons.live.piece import LiveContext, Parameters
@@ -15,6 +15,7 @@ SPEED = 299_792.458  # km/s, of light in vacuum (exact, by the definition of the
 FIRST = ("air", "water", "glass", "diamond", "vacuum")  # media that are shown where there is room for few
 RANGE = (1.0, 2.5)  # of the handle
 STEPS = 60  # of its path
+REST = 5.4  # height of all but the rows, in text sizes
 ROW, GAP = 1.55, 1.0  # height of a row, and between columns, in text sizes
 LEAST = 6.0  # width of the bars, in text sizes
 BAR, TINT = 0.62, 0.14  # height of a bar, in text sizes; opacity of an emphasised row
@@ -37,7 +38,7 @@ def media(context: LiveContext, parameters: Parameters) -> list[Mark]:
         if "n" in parameters:
             raise ValueError(f"media: n must be from {RANGE[0]:g} to {RANGE[1]:g}, got {n:g}")
         n = min(max(n, RANGE[0]), RANGE[1])
-    rows = _rows(emphasised, int((bottom - top) / (ROW * size)) - 3)
+    rows = _rows(emphasised, int(((bottom - top) / size - REST) / ROW))
     names = max(text_width(row.name, size) for row in rows)
     numbers = max(text_width(f"{row.n:.4f}", size) for row in rows)
     speeds = text_width("km/s 000", size)
@@ -50,7 +51,8 @@ def media(context: LiveContext, parameters: Parameters) -> list[Mark]:
     y = top + 0.5 * ROW * size
     heads = [("medium", left, "start"), ("n = c/v", columns[1], "end")]
     heads += [("v (km/s)", columns[2], "end")] if with_speed else []
-    heads += [(fitted("speed of light v", right - start, size), start, "start")]
+    titles = ("speed of light v", "speed v", "v")
+    heads.append((next(words for words in titles if text_width(words, size) <= right - start or words == "v"), start, "start"))
     marks: list[Mark] = [Text("head", (x, y), words, size, theme.muted, anchor) for words, x, anchor in heads]
     marks.append(Line("head", (left, y + 0.5 * ROW * size), (right, y + 0.5 * ROW * size), Stroke(theme.border, 1.2)))
     for k, row in enumerate(rows):
@@ -76,7 +78,7 @@ def media(context: LiveContext, parameters: Parameters) -> list[Mark]:
     words = f"n = {format_number(n, 4)}: v = c/n = {SPEED / n:,.0f} km/s".replace(",", " ")
     short = f"n = {format_number(n, 4)}"
     content = words if text_width(words, size) <= right - left else short
-    marks.append(Text("n", (left, bottom - 0.5 * size), content, size, theme.text, "start"))
+    marks.append(Text("n", (left, axis + 2.25 * size), content, size, theme.text, "start"))
     return marks
 
 

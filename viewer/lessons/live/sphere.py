@@ -12,7 +12,7 @@ from viewer.lessons.live.labels import Labels
 from viewer.lessons.live.page import lay_out
 from viewer.lessons.live.piece import LiveContext, Parameters
 
-BEFORE = 2.6  # of the ray in front of the centre, in radii, where it starts farther away
+BEFORE = 2.2  # of the ray in front of the centre, in radii, where it starts farther away
 DOT = 0.3  # radius of a root, in text sizes
 DIGITS = 4
 
@@ -36,13 +36,14 @@ def sphere(context: LiveContext, _: Parameters) -> list[Mark]:
     radius, middle = shape.radius, -0.5 * found.b / found.a
     beside = math.sqrt(max(0.0, radius * radius - 0.25 * found.discriminant / found.a))  # of the centre to the ray
     first = max(min(0.0, middle - 1.25 * radius), middle - BEFORE * radius)
-    last = middle + 1.9 * radius
+    last = middle + 1.5 * radius
     scale = min((right - left) / (last - first), (bottom - top) / (2.1 * radius))
     x0 = 0.5 * (left + right - scale * (last - first))
     y0 = 0.5 * (top + bottom)
 
-    def at(along: float, below: float = beside) -> Point:
-        return (x0 + scale * (along - first), y0 + scale * (beside - below) - scale * beside)
+    def at(along: float, above: float = beside) -> Point:
+        """The point of the picture at a distance along the ray, and above the centre."""
+        return (x0 + scale * (along - first), y0 - scale * above)
 
     kind = tree.kind(context.row)
     ink, style = theme.ray(kind), STYLES[kind]
@@ -52,7 +53,7 @@ def sphere(context: LiveContext, _: Parameters) -> list[Mark]:
     marks: list[Mark] = [
         Disc("sphere", center, scale * radius, faded(theme.glass, 0.16), Stroke(theme.text, 2.0), title=name),
         Line("line", at(first), at(last), Stroke(theme.muted, 1.2, (3.0, 4.0)), title="the line of the ray"),
-        Line(f"ray-{context.row}", start, hit_at, solid, style.arrow, 0.62),
+        Line(f"ray-{context.row}", start, hit_at, solid, style.arrow, 0.5),
         Line("radius", center, hit_at, Stroke(theme.normal, 1.6)),
         Line("distance", center, at(middle), Stroke(theme.muted, 1.4, (5.0, 4.0))),
         Disc("center", center, 0.2 * size, theme.text, None),
@@ -71,7 +72,7 @@ def sphere(context: LiveContext, _: Parameters) -> list[Mark]:
     if first <= 0.0 <= last:
         labels.beside("origin", ["o: t = 0", "o"], at(0.0), ink, near=True)
     else:
-        words = [f"from o, {format_number(first, 3)} away", "from o"]
+        words = ["from o"]
         labels.beside("origin", words, at(first), ink)
     labels.beside("center", ["m"], center, theme.text, near=True)
     distance = format_number(beside, 3)

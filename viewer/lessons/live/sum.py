@@ -1,0 +1,135 @@
+"""The colour of a hit as a sum: its local light and each child's colour times its factor, arriving as colours and bars.
+
+The bars are the red, green and blue of the sum, stacked in the order of the sum: they end where the radiance of the
+table is, to the last bit.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tracer.kernel.nodes import SHADOW
+from tracer.tree.raytree import RayTree
+from viewer.base.srgb import display_color
+from viewer.base.theme import Color
+from viewer.base.wording import format_number
+from viewer.explain.sums import Term, sum_terms
+from viewer.figures.font import text_width
+from viewer.figures.layout.hit_frame import MARGIN
+from viewer.figures.marks import Box, Line, Mark, Stroke, Text, widened
+from viewer.lessons.live.piece import LiveContext, Parameters
+
+ROW = 1.75  # height of a row, in text sizes
+SWATCH = 1.15  # size of a swatch, in text sizes
+GAP = 0.7  # between columns, in text sizes
+BAR = 0.8  # height of a bar, in text sizes
+CHANNELS = ("r", "g", "b")
+LEAST_BARS = 3 * 1.1 + 2.2  # height of the bars with their axis, in text sizes
+
+
+@dataclass(frozen=True)
+class Part:
+    """A term of the sum: `brought` is the child's radiance, or the local light; `value` is what arrives."""
+
+    row: int | None  # of the child; None: local light
+    brought: np.ndarray
+    value: np.ndarray
+
+
+def parts(tree: RayTree, i: int) -> list[Part]:
+    """The terms of the sum of hit i. Added up in this order, they are its radiance to the last bit."""
+    local = tree.nodes["local"][i]
+    found = [Part(None, local, local)]
+    for child in tree.children[i]:
+        if tree.nodes["kind"][child] != SHADOW:
+            radiance = tree.nodes["radiance"][child]
+            found.append(Part(int(child), radiance, tree.nodes["factor"][child] * radiance))
+    return found
+
+
+def sum_piece(context: LiveContext, _: Parameters) -> list[Mark]:
+    """The sum of the hit looked at. ValueError where the ray meets nothing."""
+    tree, _world, _name = context.hit("sum")
+    return _Sum(tree, context.row, context).marks
+
+
+class _Sum:
+    def __init__(self, tree: RayTree, row: int, context: LiveContext) -> None:
+        self.tree, self.row, self.size, self.theme = tree, row, context.size, context.theme
+        self.left, self.top, self.right, self.bottom = widened(context.where, -MARGIN * context.size)
+        self.parts = parts(tree, row)
+        self.total = tree.nodes["radiance"][row]
+        self.marks: list[Mark] = []
+        self._bars(self._terms() + 0.6 * self.size)
+
+    def _color(self, row: int | None) -> Color:
+        return self.theme.text if row is None else self.theme.ray(self.tree.kind(row))
+
+    def _terms(self) -> float:
+        """A row for each term. Returns their bottom."""
+        size, wide = self.size, self.right - self.left
+        most = int((self.bottom - self.top - (LEAST_BARS + 0.6) * size) / (ROW * size))
+        for luminance in (False, True):
+            terms = sum_terms(self.tree, self.row, luminance)
+            names, values = (max(text_width(text, size) for text in texts) for texts in zip(
+                *((term.name, term.value) for term in terms), strict=True))  # fmt: skip
+            if names + values + (2.0 * SWATCH + 3.0 * GAP) * size <= wide:
+                break
+        columns = (self.left + (SWATCH + GAP) * size, self.left + (SWATCH + 2.0 * GAP) * size + names + values)
+        shown = terms if len(terms) <= most else [*terms[: max(0, most - 1)], terms[-1]]
+        for k, term in enumerate(shown):
+            y = self.top + (k + 0.5) * ROW * size
+            is_total = term is terms[-1]
+            part = None if is_total else self.parts[k]
+            self._term(term, part, y, columns, luminance)
+            if is_total:
+                line = y - 0.5 * ROW * size
+                end = columns[1] + (GAP + SWATCH) * size
+                self.marks.append(Line("sum", (self.left, line), (end, line), Stroke(self.theme.text, 1.4)))
+        return self.top + len(shown) * ROW * size
+
+    def _term(self, term: Term, part: Part | None, y: float, columns: tuple[float, float], luminance: bool) -> None:
+        size, theme = self.size, self.theme
+        name = "sum" if part is None else "local" if part.row is None else f"ray-{part.row}"
+        ink = self._color(None if part is None else part.row)
+        self.marks.append(Text(name, (columns[0], y), term.name, size, ink, "start"))
+        self.marks.append(Text(name, (columns[1], y), term.value, size, theme.text, "end"))
+        brought = self.total if part is None else part.brought
+        self._swatch(name, self.left + 0.5 * SWATCH * size, y, brought, "its colour")
+        if part is not None and part.row is not None:
+            self._swatch(name, columns[1] + (GAP + 0.5 * SWATCH) * size, y, part.value, "times its factor")
+
+    def _swatch(self, name: str, x: float, y: float, color: np.ndarray, title: str) -> None:
+        side = SWATCH * self.size
+        edge = Stroke(self.theme.border, 1.0)
+        self.marks.append(Box(name, (x, y), (side, side), 3.0, display_color(color), edge, title=title))
+
+    def _bars(self, top: float) -> None:
+        """One bar for each channel, of the terms one after the other."""
+        size, theme = self.size, self.theme
+        pitch = min(2.0 * size, (self.bottom - top - 1.7 * size) / 3.0)
+        numbers = [format_number(float(x), 4) for x in self.total]
+        start = self.left + 1.1 * size
+        end = self.right - max(text_width(words, size) for words in numbers) - 0.5 * size
+        high = max(float(self.total.max()), 1e-300)
+        for c, channel in enumerate(CHANNELS):
+            y, reached = top + (c + 0.5) * pitch, 0.0
+            self.marks.append(Text("bars", (self.left, y), channel, size, theme.muted, "start"))
+            for part in self.parts:
+                value = float(part.value[c])
+                x0, x1 = (start + (end - start) * x / high for x in (reached, reached + value))
+                reached += value
+                if x1 > x0:
+                    name = "local" if part.row is None else f"ray-{part.row}"
+                    extent = (x1 - x0, min(BAR * size, 0.8 * pitch))
+                    title = f"{channel}: {format_number(value, 4)}"
+                    self.marks.append(Box(name, (0.5 * (x0 + x1), y), extent, 0.0, self._ink(part.row), None, title=title))
+            x = start + (end - start) * reached / high
+            self.marks.append(Text("bars", (x + 0.4 * size, y), numbers[c], size, theme.text, "start"))
+        words = ["local, then each ray × its factor, add up to the colour", "the terms add up to the colour", "the sum"]
+        said = next((line for line in words if text_width(line, size) <= self.right - self.left), "")
+        y = top + 3.0 * pitch + 0.8 * size
+        self.marks.append(Text("bars", (self.left, y), said, size, theme.muted, "start"))
+
+    def _ink(self, row: int | None) -> Color:
+        return self.theme.muted if row is None else self._color(row)
