@@ -8,8 +8,13 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from tracer.formulas.exact import dot, exact, minus
+import numpy as np
+
+from tracer.formulas.exact import area, dot, exact, minus
+from tracer.shapes.mesh import Mesh
+from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
+from tracer.shapes.triangle import Triangle
 from tracer.tree.raytree import RayTree
 from viewer.base.wording import format_number
 from viewer.explain.formulas import Lecture
@@ -95,3 +100,101 @@ def root_reason(found: SphereRoots, chosen: int, error: float) -> str:
     if abs(found.roots[0]) <= error:
         return "the ray starts on the sphere"
     return "from inside: t₁ < 0" if found.roots[0] < 0.0 else "t₁ is no hit of the ray"
+
+
+@dataclass(frozen=True)
+class Flat:
+    """A face and a point of it, projected along the axis in which its normal is longest."""
+
+    outline: tuple[tuple[float, float], ...]
+    point: tuple[float, float]
+    axes: str  # the two coordinates that are kept, like "xy"
+
+    def crossings(self) -> list[tuple[float, float]]:
+        """The places where a ray from the point, in the direction of the first coordinate, crosses the outline.
+
+        A side counts if one of its ends is above the ray, and the other is not: a corner on the ray counts once.
+        """
+        (px, py), found = self.point, []
+        for (x0, y0), (x1, y1) in zip(self.outline, (*self.outline[1:], self.outline[0]), strict=True):
+            if (y0 > py) != (y1 > py):
+                x = x0 + (py - y0) / (y1 - y0) * (x1 - x0)
+                if x > px:
+                    found.append((x, py))
+        return sorted(found)
+
+
+def flattened(corners: np.ndarray, point: np.ndarray) -> Flat:
+    """The projection of a face (n, 3) and a point (3,)."""
+    normal = np.abs([float(x) for x in area([exact(corner) for corner in corners])])
+    u, v = (k for k in range(3) if k != int(np.argmax(normal)))
+    outline = tuple((float(corner[u]), float(corner[v])) for corner in corners)
+    return Flat(outline, (float(point[u]), float(point[v])), "xyz"[u] + "xyz"[v])
+
+
+def barycentric(corners: np.ndarray, point: np.ndarray) -> tuple[float, float, float]:
+    """The areas of the three triangles that a point (3,) makes with the sides of a triangle (3, 3), each opposite of its
+    corner, as shares of its area; negative beyond that side. The point is projected to the plane along the normal.
+    """
+    a, b, c, p = (exact(place) for place in (*corners, point))
+    whole = area((a, b, c))
+    return tuple(float(dot(area(part), whole) / dot(whole, whole)) for part in ((p, b, c), (a, p, c), (a, b, p)))
+
+
+def hit_face(tree: RayTree, i: int) -> np.ndarray | None:
+    """The corners (n, 3) of the polygon, the triangle or the face of a mesh that ray i meets; None for other shapes."""
+    row = tree.nodes[i]
+    match tree.scene.objects[int(row["object"])].shape if row["object"] >= 0 else None:
+        case Polygon() as shape:
+            return shape.outline()
+        case Triangle(vertices=vertices):
+            return np.array(vertices)
+        case Mesh() as shape:
+            return _face_at(shape.placed(), row["point"])
+    return None
+
+
+def _face_at(faces: np.ndarray, point: np.ndarray) -> np.ndarray:
+    """The face (3, 3) of these (m, 3, 3) that a point lies in: of those whose sides it does not lie beyond, the one
+    whose plane is nearest.
+    """
+    a, b, c = faces[:, 0], faces[:, 1], faces[:, 2]
+    whole = np.cross(b - a, c - a)
+    size = np.einsum("ij,ij->i", whole, whole)
+    arms = [np.cross(q - p, point - p) for p, q in ((b, c), (c, a), (a, b))]
+    least = np.min([np.einsum("ij,ij->i", arm, whole) for arm in arms], axis=0) / size
+    heights = np.abs(np.einsum("ij,ij->i", point - a, whole)) / np.sqrt(size)
+    reach = np.sqrt(np.sqrt(size))
+    return faces[int(np.argmin(heights + reach * np.maximum(0.0, -least)))]
+
+
+def inside_section(tree: RayTree, i: int) -> Section | None:
+    """The test of the hit of ray i against its face: barycentric coordinates of a triangle, the number of crossings of
+    a polygon; None for other shapes.
+    """
+    corners = hit_face(tree, i)
+    if corners is None:
+        return None
+    point = tree.nodes["point"][i]
+    if len(corners) == 3:
+        section = Section("Point in triangle", Lecture.BARYCENTRIC)
+        shares = barycentric(corners, point)
+        for symbol, share in zip((Lecture.ALPHA, Lecture.BETA, Lecture.GAMMA), shares, strict=True):
+            section.add(symbol, f"{share:.4f}")
+        section.add(Lecture.BARYCENTRIC_SUM, format_number(sum(shares), DIGITS))
+        section.add("none is below 0: inside" if min(shares) >= 0.0 else "one is below 0: outside")
+        return section
+    flat = flattened(corners, point)
+    count = len(flat.crossings())
+    section = Section("Point in polygon", "")
+    section.add(f"projected to {flat.axes[0]} and {flat.axes[1]}")
+    section.add("p", f"({format_number(flat.point[0], 4)}, {format_number(flat.point[1], 4)})")
+    section.add("corners", str(len(corners)))
+    section.add("sides crossed", str(count))
+    section.add(verdict(count))
+    return section
+
+
+def verdict(count: int) -> str:
+    """The decision that a number of crossings makes."""
+    return f"{count} is odd: inside" if count % 2 else f"{count} is even: outside"

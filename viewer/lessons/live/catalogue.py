@@ -90,6 +90,7 @@ LIVE = (
     LiveKind("fresnel", "Fresnel's equations", "viewer.lessons.live.fresnel:fresnel", INDICES),
     LiveKind("media", "Media and the speed of light", "viewer.lessons.live.media:media", INDICES),
     LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.sphere:sphere"),
+    LiveKind("inside", "Inside a polygon or a triangle", "viewer.lessons.live.inside:inside_piece"),
     LiveKind("sum", "The sum of a hit", "viewer.lessons.live.sum:sum_piece"),
     LiveKind("samples", "Samples of a pixel", "viewer.lessons.live.samples:samples", (Argument("count", _count),)),
     LiveKind("hit", "The hit", "viewer.lessons.live.hit:hit"),

@@ -9,9 +9,9 @@ import numpy as np
 
 from tracer.formulas.sampler import PIXEL_CENTER, make_samples, sample_offset
 from viewer.base.theme import faded
-from viewer.figures.font import text_width
 from viewer.figures.layout.hit_frame import MARGIN
-from viewer.figures.marks import Disc, Line, Mark, Shape, Stroke, Text, widened
+from viewer.figures.marks import Disc, Line, Mark, Shape, Stroke, widened
+from viewer.lessons.live.labels import Labels
 from viewer.lessons.live.page import with_caption
 from viewer.lessons.live.piece import LiveContext, Parameters
 
@@ -34,26 +34,24 @@ def samples(context: LiveContext, parameters: Parameters) -> list[Mark]:
     size, theme = context.size, context.theme
     captions = [cells, f"{len(points)} points in a pixel", f"{len(points)} points"]
     (left, top, right, bottom), marks = with_caption(context, widened(context.where, -MARGIN * size), captions)
-    extent = min(right - left, bottom - top) - 4.0
+    radius = max(1.2, min(0.28 * size, 0.13 * min(right - left, bottom - top) / math.sqrt(len(points))))
+    extent = min(right - left, bottom - top) - 2.0 * radius - 2.0
     left, top = 0.5 * (left + right - extent), 0.5 * (top + bottom - extent)
     corners = ((left, top), (left + extent, top), (left + extent, top + extent), (left, top + extent))
     marks.append(Shape("pixel", corners, faded(theme.glass, 0.12), Stroke(theme.text, 2.0), title="the pixel"))
     for k in range(1, side if is_grid else 1):
         at = extent * k / side
         for start, end in (((left + at, top), (left + at, top + extent)), ((left, top + at), (left + extent, top + at))):
-            marks.append(Line("cells", start, end, Stroke(theme.border, 1.0)))
-    radius = max(1.2, min(0.28 * size, 0.13 * extent / math.sqrt(len(points))))
-    taken: list[Text] = []
-    for k, (u, v) in enumerate(points):
-        at = (left + radius + u * (extent - 2.0 * radius), top + radius + v * (extent - 2.0 * radius))
-        marks.append(Disc(f"sample-{k}", at, radius, theme.accent, None, title=f"sample {k}: {u:.4f}, {v:.4f}"))
-        if len(points) <= NUMBERED and extent / side >= 3.2 * size:
-            words = str(k)
-            right_end = at[0] + radius + text_width(words, size) + 0.4 * size > left + extent
-            beside = (at[0] + (-1.0 if right_end else 1.0) * (radius + 0.3 * size), at[1])
-            y_in = min(max(beside[1], top + 0.6 * size), top + extent - 0.6 * size)
-            taken.append(Text(f"sample-{k}", (beside[0], y_in), words, size, theme.text, "end" if right_end else "start"))
-    return [*marks, *taken]
+            marks.append(Line("cells", start, end, Stroke(theme.muted, 0.8, (2.0, 3.0))))
+    dots = [
+        Disc(f"sample-{k}", (left + u * extent, top + v * extent), radius, theme.accent, None, title=f"{u:.4f}, {v:.4f}")
+        for k, (u, v) in enumerate(points)
+    ]
+    labels = Labels((left, top, left + extent, top + extent), size, theme, dots)
+    for k, dot in enumerate(dots if len(points) <= NUMBERED and extent / side >= 3.0 * size else []):
+        (cx, cy), away = dot.center, radius + 0.25 * size
+        labels.place(dot.name, [str(k)], [((cx + away, cy), "start"), ((cx - away, cy), "end")], theme.text)
+    return [*marks, *dots, *labels.marks]
 
 
 def sample_points(x: int, y: int, count: int) -> list[tuple[float, float]]:

@@ -24,7 +24,7 @@ SWATCH = 1.15  # size of a swatch, in text sizes
 GAP = 0.7  # between columns, in text sizes
 BAR = 0.8  # height of a bar, in text sizes
 CHANNELS = ("r", "g", "b")
-LEAST_BARS = 3 * 1.1 + 2.2  # height of the bars with their axis, in text sizes
+LEAST_BARS = 3 * 1.05  # height of the bars, in text sizes
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class _Sum:
             is_total = term is terms[-1]
             part = None if is_total else self.parts[k]
             self._term(term, part, y, columns, luminance)
-            if is_total:
+            if is_total and k:
                 line = y - 0.5 * ROW * size
                 end = columns[1] + (GAP + SWATCH) * size
                 self.marks.append(Line("sum", (self.left, line), (end, line), Stroke(self.theme.text, 1.4)))
@@ -107,7 +107,7 @@ class _Sum:
     def _bars(self, top: float) -> None:
         """One bar for each channel, of the terms one after the other."""
         size, theme = self.size, self.theme
-        pitch = min(2.0 * size, (self.bottom - top - 1.7 * size) / 3.0)
+        pitch = min(2.0 * size, (self.bottom - top) / 3.0)
         numbers = [format_number(float(x), 4) for x in self.total]
         start = self.left + 1.1 * size
         end = self.right - max(text_width(words, size) for words in numbers) - 0.5 * size
@@ -126,9 +126,12 @@ class _Sum:
                     self.marks.append(Box(name, (0.5 * (x0 + x1), y), extent, 0.0, self._ink(part.row), None, title=title))
             x = start + (end - start) * reached / high
             self.marks.append(Text("bars", (x + 0.4 * size, y), numbers[c], size, theme.text, "start"))
-        words = ["local, then each ray × its factor, add up to the colour", "the terms add up to the colour", "the sum"]
-        said = next((line for line in words if text_width(line, size) <= self.right - self.left), "")
         y = top + 3.0 * pitch + 0.8 * size
+        if y + 0.6 * size > self.bottom:
+            return
+        words = ["local, then each ray × its factor, add up to the colour", "the terms add up to the colour", "the sum"]
+        words = words if len(self.parts) > 1 else ["no ray is sent on: the colour is the local light", "only local light"]
+        said = next((line for line in words if text_width(line, size) <= self.right - self.left), "")
         self.marks.append(Text("bars", (self.left, y), said, size, theme.muted, "start"))
 
     def _ink(self, row: int | None) -> Color:
