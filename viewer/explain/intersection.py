@@ -138,7 +138,10 @@ def barycentric(corners: np.ndarray, point: np.ndarray) -> tuple[float, float, f
     """
     a, b, c, p = (exact(place) for place in (*corners, point))
     whole = area((a, b, c))
-    return tuple(float(dot(area(part), whole) / dot(whole, whole)) for part in ((p, b, c), (a, p, c), (a, b, p)))
+    alpha, beta, gamma = (
+        float(dot(area(part), whole) / dot(whole, whole)) for part in ((p, b, c), (a, p, c), (a, b, p))
+    )
+    return alpha, beta, gamma
 
 
 def hit_face(tree: RayTree, i: int) -> np.ndarray | None:
@@ -186,7 +189,7 @@ def inside_section(tree: RayTree, i: int) -> Section | None:
         return section
     flat = flattened(corners, point)
     count = len(flat.crossings())
-    section = Section("Point in polygon", "")
+    section = Section("Point in polygon", Lecture.CROSSINGS)
     section.add(f"projected to {flat.axes[0]} and {flat.axes[1]}")
     section.add("p", f"({format_number(flat.point[0], 4)}, {format_number(flat.point[1], 4)})")
     section.add("corners", str(len(corners)))

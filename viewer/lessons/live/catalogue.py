@@ -81,6 +81,13 @@ def _count(word: str, _: World | None) -> float:
     return float(word)
 
 
+def _light(word: str, world: World | None) -> float:
+    names = [world.scene.light_name(j) for j in range(len(world.scene.lights))] if world else []
+    if word not in names:
+        raise ValueError(f"a light of the scene, {', '.join(names)}" if names else "a light, and the scene has none")
+    return float(names.index(word))
+
+
 INDICES = (Argument("n1", _index), Argument("n2", _index))
 SPEEDS = (Argument("v1", _speed), Argument("v2", _speed))
 
@@ -91,6 +98,7 @@ LIVE = (
     LiveKind("media", "Media and the speed of light", "viewer.lessons.live.media:media", INDICES),
     LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.sphere:sphere"),
     LiveKind("inside", "Inside a polygon or a triangle", "viewer.lessons.live.inside:inside_piece"),
+    LiveKind("phong", "Phong's terms", "viewer.lessons.live.phong:phong", (Argument("light", _light),)),
     LiveKind("sum", "The sum of a hit", "viewer.lessons.live.sum:sum_piece"),
     LiveKind("samples", "Samples of a pixel", "viewer.lessons.live.samples:samples", (Argument("count", _count),)),
     LiveKind("hit", "The hit", "viewer.lessons.live.hit:hit"),

@@ -89,7 +89,9 @@ class _Picture:
         for k, (kind, letter) in enumerate(zip(KINDS, "αβγ", strict=True)):
             part = (self.p, self.corners[(k + 1) % 3], self.corners[(k + 2) % 3])
             title = f"{letter} = {shares[k]:.4f}"
-            marks.append(Shape(f"part-{k}", part, faded(theme.ray(kind), TINT), Stroke(theme.ray(kind), 1.4), title=title))
+            marks.append(
+                Shape(f"part-{k}", part, faded(theme.ray(kind), TINT), Stroke(theme.ray(kind), 1.4), title=title)
+            )
             middles.append((sum(x for x, _ in part) / 3.0, sum(y for _, y in part) / 3.0))
         marks.append(Shape("face", self.corners, None, Stroke(theme.text, 2.0)))
         marks.append(self._dot("point", self.p))

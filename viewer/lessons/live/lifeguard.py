@@ -154,7 +154,9 @@ class _Shore:
             self.marks.append(Line("least", start, end, Stroke(theme.normal, 1.6, (5.0, 4.0)), title="least time"))
         high = min(0.9 * (cross[1] - self.where[1]), 2.4 * self.scale)
         self.marks.append(
-            Line("normal", (cross[0], cross[1] - high), (cross[0], cross[1] + high), Stroke(theme.muted, 1.2, (3.0, 3.0)))
+            Line(
+                "normal", (cross[0], cross[1] - high), (cross[0], cross[1] + high), Stroke(theme.muted, 1.2, (3.0, 3.0))
+            )
         )
         ink = Stroke(theme.accent, 2.8)
         self.marks += [Line("path", guard, cross, ink), Line("path", cross, swimmer, ink)]
@@ -201,7 +203,13 @@ def _graph(given: Lifeguard, x: float, where: Rectangle, size: float, theme: The
     low = step * math.floor(0.97 * least / step)
     high = step * math.ceil(slowest / step)
     steps = (step, 2.0 * step, high - low)
-    plot = Plot(where, Axis(("x (m)",), *ENDS, (1.0, 2.0, 4.0)), Axis(("travel time (s)", "time (s)", "s"), low, high, steps), size, theme)
+    plot = Plot(
+        where,
+        Axis(("x (m)",), *ENDS, (1.0, 2.0, 4.0)),
+        Axis(("travel time (s)", "time (s)", "s"), low, high, steps),
+        size,
+        theme,
+    )
     plot.line("least", (given.least, low), (given.least, least), Stroke(theme.normal, 1.4, (5.0, 4.0)))
     plot.curve("time", given.time, ENDS, Stroke(theme.ray("refraction"), 2.6))
     plot.line("x", (x, low), (x, given.time(x)), Stroke(theme.accent, 1.4, (2.0, 3.0)))

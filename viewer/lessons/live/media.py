@@ -52,7 +52,9 @@ def media(context: LiveContext, parameters: Parameters) -> list[Mark]:
     heads = [("medium", left, "start"), ("n = c/v", columns[1], "end")]
     heads += [("v (km/s)", columns[2], "end")] if with_speed else []
     titles = ("speed of light v", "speed v", "v")
-    heads.append((next(words for words in titles if text_width(words, size) <= right - start or words == "v"), start, "start"))
+    heads.append(
+        (next(words for words in titles if text_width(words, size) <= right - start or words == "v"), start, "start")
+    )
     marks: list[Mark] = [Text("head", (x, y), words, size, theme.muted, anchor) for words, x, anchor in heads]
     marks.append(Line("head", (left, y + 0.5 * ROW * size), (right, y + 0.5 * ROW * size), Stroke(theme.border, 1.2)))
     for k, row in enumerate(rows):
@@ -72,7 +74,9 @@ def media(context: LiveContext, parameters: Parameters) -> list[Mark]:
     axis = top + (len(rows) + 1.7) * ROW * size
     marks += _axis(context, start, wide, axis)
     path = tuple((start + wide / value, axis) for value in _steps())
-    marks.append(Line("n", (start + wide / n, top + ROW * size), (start + wide / n, axis), Stroke(theme.text, 1.4, (3.0, 3.0))))
+    marks.append(
+        Line("n", (start + wide / n, top + ROW * size), (start + wide / n, axis), Stroke(theme.text, 1.4, (3.0, 3.0)))
+    )
     marks.append(Disc("n", (start + wide / n, axis), 0.28 * size, theme.text, None))
     marks.append(Handle("n", n, RANGE, path, theme.text, title="drag to change n"))
     words = f"n = {format_number(n, 4)}: v = c/n = {SPEED / n:,.0f} km/s".replace(",", " ")

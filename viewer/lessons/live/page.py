@@ -21,9 +21,7 @@ LINES = 9  # of formulas below the picture
 CAPTION = 1.7  # height of the caption's line
 
 
-def lay_out(
-    context: LiveContext, sections: Sequence[Section], captions: Sequence[str]
-) -> tuple[Rectangle, list[Mark]]:
+def lay_out(context: LiveContext, sections: Sequence[Section], captions: Sequence[str]) -> tuple[Rectangle, list[Mark]]:
     """The room for the picture, and the marks of the text: these sections, or the first of the captions that fits."""
     size, theme = context.size, context.theme
     room = widened(context.where, -MARGIN * size)

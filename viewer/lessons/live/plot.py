@@ -1,11 +1,14 @@
-"""Plots made of marks: two axes with ticks, curves, points, and labels that avoid each other."""
+"""Plots made of marks: two axes with ticks, curves, points, and labels that avoid each other; stacked bars of colours."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from viewer.base.theme import Color, Theme
+from viewer.base.wording import format_number
 from viewer.figures.font import text_width
-from viewer.figures.marks import Disc, Handle, Line, Mark, Point, Rectangle, Shape, Stroke, Text
+from viewer.figures.marks import Box, Disc, Handle, Line, Mark, Point, Rectangle, Shape, Stroke, Text
 from viewer.lessons.live.labels import Labels
 
 TICKS = 1.15  # height of the line of numbers below the plot, in text sizes
@@ -81,7 +84,9 @@ class Plot:
         self.marks.append(Line("axis", (left, bottom), (right, bottom), ink))
         self.marks.append(Line("axis", (left, top), (left, bottom), ink))
         wide = where[2] - where[0]
-        self.marks.append(Text("axis", (where[0], where[1] + 0.55 * size), self.up.title(size, wide), size, theme.text, "start"))
+        self.marks.append(
+            Text("axis", (where[0], where[1] + 0.55 * size), self.up.title(size, wide), size, theme.text, "start")
+        )
         below = bottom + (TICKS + 0.65) * size
         self.marks.append(Text("axis", (where[2], below), self.across.title(size, wide), size, theme.text, "end"))
 
@@ -126,3 +131,44 @@ class Plot:
     def drawn(self) -> list[Mark]:
         """All marks, with the labels above."""
         return [*self.marks, *self.labels.marks]
+
+
+BAR = 0.8  # height of a bar, in text sizes
+CHANNELS = ("r", "g", "b")
+
+
+@dataclass(frozen=True)
+class Stacked:
+    """A part of stacked bars: its linear colour (3,), and the colour it is drawn in."""
+
+    name: str
+    value: np.ndarray
+    ink: Color
+    title: str
+
+
+def stacked_bars(parts: Sequence[Stacked], where: Rectangle, size: float, theme: Theme) -> list[Mark]:
+    """Three bars, of red, green and blue, in which these parts follow each other, with their sums. The largest sum has
+    all of the width.
+    """
+    left, top, right, bottom = where
+    pitch = (bottom - top) / len(CHANNELS)
+    total = sum((part.value for part in parts), np.zeros(3))
+    numbers = [format_number(float(x), 4) for x in total]
+    start = left + 1.1 * size
+    end = right - max(text_width(words, size) for words in numbers) - 0.5 * size
+    largest = float(total.max())
+    unit = (end - start) / largest if largest > 0.0 else 0.0
+    marks: list[Mark] = []
+    for c, channel in enumerate(CHANNELS):
+        y, x = top + (c + 0.5) * pitch, start
+        marks.append(Text("bars", (left, y), channel, size, theme.muted, "start"))
+        for part in parts:
+            wide = unit * float(part.value[c])
+            if wide > 0.0:
+                title = f"{part.title}, {channel}: {format_number(float(part.value[c]), 4)}"
+                extent = (wide, min(BAR * size, 0.8 * pitch))
+                marks.append(Box(part.name, (x + 0.5 * wide, y), extent, 0.0, part.ink, None, title=title))
+                x += wide
+        marks.append(Text("bars", (x + 0.4 * size, y), numbers[c], size, theme.text, "start"))
+    return marks

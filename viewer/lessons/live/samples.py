@@ -41,10 +41,15 @@ def samples(context: LiveContext, parameters: Parameters) -> list[Mark]:
     marks.append(Shape("pixel", corners, faded(theme.glass, 0.12), Stroke(theme.text, 2.0), title="the pixel"))
     for k in range(1, side if is_grid else 1):
         at = extent * k / side
-        for start, end in (((left + at, top), (left + at, top + extent)), ((left, top + at), (left + extent, top + at))):
+        for start, end in (
+            ((left + at, top), (left + at, top + extent)),
+            ((left, top + at), (left + extent, top + at)),
+        ):
             marks.append(Line("cells", start, end, Stroke(theme.muted, 0.8, (2.0, 3.0))))
     dots = [
-        Disc(f"sample-{k}", (left + u * extent, top + v * extent), radius, theme.accent, None, title=f"{u:.4f}, {v:.4f}")
+        Disc(
+            f"sample-{k}", (left + u * extent, top + v * extent), radius, theme.accent, None, title=f"{u:.4f}, {v:.4f}"
+        )
         for k, (u, v) in enumerate(points)
     ]
     labels = Labels((left, top, left + extent, top + extent), size, theme, dots)

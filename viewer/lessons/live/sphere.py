@@ -1,6 +1,7 @@
 """The intersection of a ray and a sphere, in the plane of the ray and the centre, and its quadratic with numbers."""
 
 import math
+from itertools import pairwise
 
 from tracer.shapes.sphere import Sphere
 from viewer.base.theme import STYLES, faded
@@ -65,7 +66,7 @@ def sphere(context: LiveContext, _: Parameters) -> list[Mark]:
         marks.append(Disc("origin", at(0.0), 0.22 * size, ink, None))
     labels = Labels((left, top, right, bottom), size, theme, [m for m in marks if m.name != "sphere"])
     circle = [(center[0] + scale * radius * math.cos(a), center[1] + scale * radius * math.sin(a)) for a in _turns()]
-    labels.placer.ways += [("sphere", piece) for piece in zip(circle, circle[1:], strict=False)]
+    labels.placer.ways += [("sphere", piece) for piece in pairwise(circle)]
     for k, told in sorted(enumerate((t1, t2)), key=lambda item: item[0] != chosen):
         words = [f"t{'₁₂'[k]} = {told}", f"t{'₁₂'[k]}"]
         labels.beside(f"root-{k}", words, at(found.roots[k]), theme.accent if k == chosen else theme.text, most=2)
@@ -88,5 +89,3 @@ def _told(roots: tuple[float, float], error: float) -> tuple[float, ...]:
 
 def _turns() -> list[float]:
     return [2.0 * math.pi * k / 48 for k in range(49)]
-
-

@@ -12,18 +12,16 @@ from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.srgb import display_color
 from viewer.base.theme import Color
-from viewer.base.wording import format_number
 from viewer.explain.sums import Term, sum_terms
 from viewer.figures.font import text_width
 from viewer.figures.layout.hit_frame import MARGIN
 from viewer.figures.marks import Box, Line, Mark, Stroke, Text, widened
 from viewer.lessons.live.piece import LiveContext, Parameters
+from viewer.lessons.live.plot import Stacked, stacked_bars
 
 ROW = 1.75  # height of a row, in text sizes
 SWATCH = 1.15  # size of a swatch, in text sizes
 GAP = 0.7  # between columns, in text sizes
-BAR = 0.8  # height of a bar, in text sizes
-CHANNELS = ("r", "g", "b")
 LEAST_BARS = 3 * 1.05  # height of the bars, in text sizes
 
 
@@ -108,31 +106,23 @@ class _Sum:
         """One bar for each channel, of the terms one after the other."""
         size, theme = self.size, self.theme
         pitch = min(2.0 * size, (self.bottom - top) / 3.0)
-        numbers = [format_number(float(x), 4) for x in self.total]
-        start = self.left + 1.1 * size
-        end = self.right - max(text_width(words, size) for words in numbers) - 0.5 * size
-        high = max(float(self.total.max()), 1e-300)
-        for c, channel in enumerate(CHANNELS):
-            y, reached = top + (c + 0.5) * pitch, 0.0
-            self.marks.append(Text("bars", (self.left, y), channel, size, theme.muted, "start"))
-            for part in self.parts:
-                value = float(part.value[c])
-                x0, x1 = (start + (end - start) * x / high for x in (reached, reached + value))
-                reached += value
-                if x1 > x0:
-                    name = "local" if part.row is None else f"ray-{part.row}"
-                    extent = (x1 - x0, min(BAR * size, 0.8 * pitch))
-                    title = f"{channel}: {format_number(value, 4)}"
-                    self.marks.append(Box(name, (0.5 * (x0 + x1), y), extent, 0.0, self._ink(part.row), None, title=title))
-            x = start + (end - start) * reached / high
-            self.marks.append(Text("bars", (x + 0.4 * size, y), numbers[c], size, theme.text, "start"))
+        stacked = [
+            Stacked("local" if part.row is None else f"ray-{part.row}", part.value, self._ink(part.row), self._title(part))
+            for part in self.parts
+        ]
+        self.marks += stacked_bars(stacked, (self.left, top, self.right, top + 3.0 * pitch), size, theme)
         y = top + 3.0 * pitch + 0.8 * size
         if y + 0.6 * size > self.bottom:
             return
         words = ["local, then each ray × its factor, add up to the colour", "the terms add up to the colour", "the sum"]
-        words = words if len(self.parts) > 1 else ["no ray is sent on: the colour is the local light", "only local light"]
+        words = (
+            words if len(self.parts) > 1 else ["no ray is sent on: the colour is the local light", "only local light"]
+        )
         said = next((line for line in words if text_width(line, size) <= self.right - self.left), "")
         self.marks.append(Text("bars", (self.left, y), said, size, theme.muted, "start"))
+
+    def _title(self, part: Part) -> str:
+        return "local light" if part.row is None else f"{self.tree.label(part.row)} times its factor"
 
     def _ink(self, row: int | None) -> Color:
         return self.theme.muted if row is None else self._color(row)
