@@ -133,7 +133,7 @@ def flattened(corners: np.ndarray, point: np.ndarray) -> Flat:
 
 
 def barycentric(corners: np.ndarray, point: np.ndarray) -> tuple[float, float, float]:
-    """The areas of the three triangles that a point (3,) makes with the sides of a triangle (3, 3), each opposite of its
+    """The areas of the three triangles that a point (3,) makes with the sides of a triangle (3, 3), each opposite its
     corner, as shares of its area; negative beyond that side. The point is projected to the plane along the normal.
     """
     a, b, c, p = (exact(place) for place in (*corners, point))

@@ -96,8 +96,10 @@ def phong_terms(tree: RayTree, world: World, i: int, child: int) -> tuple[np.nda
     arriving = np.array(world.scene.lights[tree.nodes["light"][child]].color) * tree.nodes["factor"][child]
     arriving = arriving * (n_l > 0.0 and tree.end(child) != "blocked")
     ambient = np.array(world.scene.tracing.ambient) * material.ambient * color
-    return ambient, arriving * material.diffuse * max(n_l, 0.0) * color, (
-        arriving * (material.specular * r_v**material.shininess if r_v > 0.0 else 0.0)
+    return (
+        ambient,
+        arriving * material.diffuse * max(n_l, 0.0) * color,
+        (arriving * (material.specular * r_v**material.shininess if r_v > 0.0 else 0.0)),
     )
 
 

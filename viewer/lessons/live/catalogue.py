@@ -48,7 +48,7 @@ class LiveKind:
         return found
 
     def marks(self, context: LiveContext, parameters: Parameters, words: Sequence[str] = ()) -> list[Mark]:
-        """The marks of the piece. Parameters go before the words of the block. ValueError with a line for the reader."""
+        """The marks of the piece. Parameters go before words. ValueError with a line for the reader."""
         return resolve_name(self.function)(context, {**self.given(words, context.world), **parameters})
 
 

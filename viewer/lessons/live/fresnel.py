@@ -1,4 +1,4 @@
-"""Fresnel's equations as curves: the shares of light that are reflected and transmitted, against the angle of incidence.
+"""Fresnel's equations as curves: the reflected and the transmitted share of light, against the angle of incidence.
 
 Light is unpolarised. At Brewster's angle, atan(n2/n1), light polarised in the plane of incidence is not reflected, so
 half of the unpolarised light at most is. From the critical angle on, all light is reflected.
@@ -33,7 +33,7 @@ def brewster(media: Interface) -> float:
 
 
 def fresnel(context: LiveContext, parameters: Parameters) -> list[Mark]:
-    """The plot for the two media of the hit, or for the parameters `n1` and `n2`; the handle is `theta1`, in degrees."""
+    """The plot for the media of the hit, or for the parameters `n1` and `n2`; the handle is `theta1`, in degrees."""
     media = interface_of(context, parameters, "fresnel")
     theme, theta1 = context.theme, media.theta1
     r, t = reflectance(media, theta1)

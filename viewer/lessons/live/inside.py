@@ -1,4 +1,4 @@
-"""The test whether a point lies in a polygon or a triangle, in the projection that drops the longest axis of the normal.
+"""The test whether a point lies in a polygon or a triangle, in the projection along the normal's longest axis.
 
 A ray from the point to the side crosses the outline of a polygon an odd number of times if the point is inside. In a
 triangle, the barycentric coordinates of a point are the shares of three triangles in the area.

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 from viewer.base.theme import Theme, faded
 from viewer.base.wording import format_number
-from viewer.explain.sections import Section
 from viewer.figures import signs
 from viewer.figures.figure.hit import TINTS
 from viewer.figures.font import text_width

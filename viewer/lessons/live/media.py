@@ -1,4 +1,4 @@
-"""The index of refraction as a ratio of speeds, n = c/v: a table of media, with a bar for the speed of light in each."""
+"""The index of refraction as a ratio of speeds, n = c/v: a table of media, with a bar for each speed."""
 
 import math
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from viewer.base.theme import faded
 from viewer.base.wording import format_number
 from viewer.figures.font import text_width
 from viewer.figures.layout.hit_frame import MARGIN
-from viewer.figures.marks import Box, Disc, Handle, Line, Mark, Shape, Stroke, Text, widened
+from viewer.figures.marks import Box, Disc, Handle, Line, Mark, Stroke, Text, widened
 from viewer.lessons.live.piece import LiveContext, Parameters
 
 SPEED = 299_792.458  # km/s, of light in vacuum (exact, by the definition of the metre)

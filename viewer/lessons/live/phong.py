@@ -35,7 +35,7 @@ def phong(context: LiveContext, parameters: Parameters) -> list[Mark]:
     hit, else the first. ValueError without a hit or a light.
     """
     tree, world, name = context.hit("phong")
-    row, size, theme = context.row, context.size, context.theme
+    row, size = context.row, context.size
     child = _shadow_ray(tree, row, parameters.get("light"), name)
     light = int(tree.nodes["light"][child])
     normal, to_light = tree.nodes["normal"][row], tree.nodes["direction"][child]
@@ -81,7 +81,9 @@ def _vectors(context: LiveContext, child: int, where: Rectangle) -> list[Mark]:
     """N upwards, V on the left, L on its true side, R and r as their mirror directions."""
     tree, row, size, theme = context.tree, context.row, context.size, context.theme
     assert tree is not None
-    normal, direction, to_light = (tree.nodes[name][k] for name, k in (("normal", row), ("direction", row), ("direction", child)))
+    normal, direction, to_light = (
+        tree.nodes[name][k] for name, k in (("normal", row), ("direction", row), ("direction", child))
+    )
     along = along_surface(direction, normal)
     theta, phi = float(tree.nodes["theta1"][row]), optics.angle(vector(normal), vector(to_light))
     side = 1.0 if float(along @ to_light) >= 0.0 else -1.0
@@ -100,7 +102,9 @@ def _vectors(context: LiveContext, child: int, where: Rectangle) -> list[Mark]:
         length = reach * (0.8 if letter in "Rr" else 1.0)
         end = (foot[0] + length * math.sin(turn), foot[1] - length * math.cos(turn))
         dash = (6.0, 4.0) if letter in "Rr" else (0.0, 0.0)
-        marks.append(Line(f"vector-{letter}", foot, end, Stroke(ink, 2.2, dash), Arrow.FILLED, 0.97, title=TITLES[letter]))
+        marks.append(
+            Line(f"vector-{letter}", foot, end, Stroke(ink, 2.2, dash), Arrow.FILLED, 0.97, title=TITLES[letter])
+        )
         ends.append((letter, turn, length, ink))
     labels = Labels(where, size, theme, marks)
     for letter, turn, length, ink in ends:

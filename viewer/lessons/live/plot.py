@@ -1,4 +1,4 @@
-"""Plots made of marks: two axes with ticks, curves, points, and labels that avoid each other; stacked bars of colours."""
+"""Plots made of marks: two axes with ticks, curves, points and labels; and bars of colours that add up."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from viewer.figures.font import text_width
 from viewer.figures.marks import Box, Disc, Handle, Line, Mark, Point, Rectangle, Shape, Stroke, Text
 from viewer.lessons.live.labels import Labels
 
-TICKS = 1.15  # height of the line of numbers below the plot, in text sizes
+TICKS = 1.45  # height of the line of numbers below the plot, in text sizes
 TITLE = 1.35  # height of the title below, in text sizes
 HEAD = 1.75  # height of the title above, clear of the uppermost number
 APART = 0.9  # least distance between the numbers of an axis, in text sizes
@@ -21,7 +21,9 @@ DOT = 0.3  # radius of a point, in text sizes
 
 @dataclass(frozen=True)
 class Axis:
-    """`titles` are the longest first; the first that has room is used. `steps` are distances of ticks, the finest first; the first whose numbers have room is used."""
+    """`titles` are the longest first; the first with room is used. `steps` are distances of ticks, the finest first;
+    the first whose numbers have room is used.
+    """
 
     titles: tuple[str, ...]
     low: float
@@ -79,7 +81,7 @@ class Plot:
         for value, words in self.across.ticks(size, right - left, False):
             (x, _) = self.at(value, self.up.low)
             self.marks.append(Line("grid", (x, top), (x, bottom), grid))
-            self.marks.append(Text("axis", (x, bottom + 0.8 * size), words, size, theme.muted))
+            self.marks.append(Text("axis", (x, bottom + 1.05 * size), words, size, theme.muted))
         ink = Stroke(theme.text, 1.4)
         self.marks.append(Line("axis", (left, bottom), (right, bottom), ink))
         self.marks.append(Line("axis", (left, top), (left, bottom), ink))

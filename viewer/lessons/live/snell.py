@@ -20,7 +20,7 @@ TINT = 0.16  # opacity of the region of total internal reflection
 
 
 def snell(context: LiveContext, parameters: Parameters) -> list[Mark]:
-    """The plot for the two media of the hit, or for the parameters `n1` and `n2`; the handle is `theta1`, in degrees."""
+    """The plot for the media of the hit, or for the parameters `n1` and `n2`; the handle is `theta1`, in degrees."""
     media = interface_of(context, parameters, "snell")
     picture, text = lay_out(context, [section(media)], captions(media))
     theme, theta1, theta2 = context.theme, media.theta1, media.refracted(media.theta1)

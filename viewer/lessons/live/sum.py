@@ -107,7 +107,9 @@ class _Sum:
         size, theme = self.size, self.theme
         pitch = min(2.0 * size, (self.bottom - top) / 3.0)
         stacked = [
-            Stacked("local" if part.row is None else f"ray-{part.row}", part.value, self._ink(part.row), self._title(part))
+            Stacked(
+                "local" if part.row is None else f"ray-{part.row}", part.value, self._ink(part.row), self._title(part)
+            )
             for part in self.parts
         ]
         self.marks += stacked_bars(stacked, (self.left, top, self.right, top + 3.0 * pitch), size, theme)
