@@ -59,15 +59,17 @@ def words(marks: list[Mark]) -> str:
 
 
 def test_pieces_lie_inside_their_room_and_no_texts_overlap() -> None:
-    """Every piece, at several hits, with its handles at their ends and in the middle, in rooms of all sizes and in all themes."""
+    """Every piece, at several hits, with its handles at an end and in the middle, in rooms of all sizes."""
     seen = world()
     tree = tracer.trace(seen, ray=RAY, depth=3)
     rows = [row_of(tree, path) for path in ("E", "T", "TT")]  # on glass, from inside it, on the polygon
     drawn = dict.fromkeys(LIVE_NAMES, 0)
     given = {"snell": ("1.33", "1"), "fresnel": ("glass", "air"), "lifeguard": ("1", "6"), "media": ("water", "1.7")}
     for kind, (k, size), row in itertools.product(LIVE, enumerate(SIZES), rows):
+        if row and (k % 2 or kind.name in ("lifeguard", "samples", "media")):
+            continue  # the same picture, or enough of them
         theme = (LIGHT, DARK, MONO)[k % 3]
-        for with_words in ((), given.get(kind.name, ())):
+        for with_words in ((), given.get(kind.name, ())) if row == 0 else ((),):
             try:
                 place = context(seen, tree, row, size, theme)
                 marks = kind.marks(place, {}, with_words)
@@ -76,12 +78,12 @@ def test_pieces_lie_inside_their_room_and_no_texts_overlap() -> None:
                 continue
             handles = [mark for mark in marks if isinstance(mark, Handle)]
             moved = [{h.name: value} for h in handles for value in (h.range[k % 2], 0.5 * sum(h.range))]
-            for parameters in [{}, *(moved if kind.name != "hit" else [])]:
+            for parameters in [{}, *(moved if kind.name != "hit" and row == 0 else [])]:
                 marks = kind.marks(place, parameters, with_words)
                 check_inside([mark for mark in marks if not isinstance(mark, Handle)], place.where)
                 check_texts(marks)
                 drawn[kind.name] += 1
-    assert min(drawn.values()) >= len(SIZES)
+    assert min(drawn.values()) >= 3
 
 
 def test_snell_and_the_critical_angle() -> None:

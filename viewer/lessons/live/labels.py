@@ -10,6 +10,8 @@ from viewer.base.theme import Color, Theme
 from viewer.figures.layout.label_placement import LabelPlacer, Spot
 from viewer.figures.marks import Disc, Line, Mark, Point, Rectangle, Shape, Text, clip_shares, inside
 
+CHORDS = 20  # of a curve that labels keep off: each is tested for each place of a label
+
 
 class Labels:
     """`marks` grow with each label. `drawn` are the marks of the picture, which labels keep off."""
@@ -26,7 +28,8 @@ class Labels:
                 case Line():
                     self.placer.ways += [(mark.name, piece) for piece in mark.pieces()]
                 case Shape(closed=False, corners=corners):
-                    self.placer.ways += [(mark.name, piece) for piece in pairwise(corners)]
+                    chords = [*corners[:: max(1, len(corners) // CHORDS)], corners[-1]]
+                    self.placer.ways += [(mark.name, piece) for piece in pairwise(chords)]
                 case Shape(fill=None, corners=corners):
                     self.placer.ways += [(mark.name, piece) for piece in pairwise((*corners, corners[0]))]
                 case Disc(center=center, radius=radius) if mark.fill:

@@ -88,4 +88,4 @@ def _told(roots: tuple[float, float], error: float) -> tuple[float, ...]:
 
 
 def _turns() -> list[float]:
-    return [2.0 * math.pi * k / 48 for k in range(49)]
+    return [2.0 * math.pi * k / 32 for k in range(33)]
