@@ -13,7 +13,7 @@ from viewer.lessons.live.labels import Labels
 from viewer.lessons.live.page import lay_out
 from viewer.lessons.live.piece import LiveContext, Parameters
 
-BEFORE = 2.2  # of the ray in front of the centre, in radii, where it starts farther away
+BEFORE = 2.5  # of the ray in front of the centre, in radii, where it starts farther away
 DOT = 0.3  # radius of a root, in text sizes
 DIGITS = 4
 
@@ -37,7 +37,7 @@ def sphere(context: LiveContext, _: Parameters) -> list[Mark]:
     radius, middle = shape.radius, -0.5 * found.b / found.a
     beside = math.sqrt(max(0.0, radius * radius - 0.25 * found.discriminant / found.a))  # of the centre to the ray
     first = max(min(0.0, middle - 1.25 * radius), middle - BEFORE * radius)
-    last = middle + 1.5 * radius
+    last = middle + 1.8 * radius
     scale = min((right - left) / (last - first), (bottom - top) / (2.1 * radius))
     x0 = 0.5 * (left + right - scale * (last - first))
     y0 = 0.5 * (top + bottom)
@@ -69,12 +69,14 @@ def sphere(context: LiveContext, _: Parameters) -> list[Mark]:
     labels.placer.ways += [("sphere", piece) for piece in pairwise(circle)]
     for k, told in sorted(enumerate((t1, t2)), key=lambda item: item[0] != chosen):
         words = [f"t{'₁₂'[k]} = {told}", f"t{'₁₂'[k]}"]
-        labels.beside(f"root-{k}", words, at(found.roots[k]), theme.accent if k == chosen else theme.text, most=2)
+        (x, y), aside = at(found.roots[k]), (0.4 if k else -0.4) * size
+        places = [((x + aside, y + up * size), "start" if k else "end") for up in (-0.85, 0.85)]
+        labels.place(f"root-{k}", words, places, theme.accent if k == chosen else theme.text)
     if first <= 0.0 <= last:
         labels.beside("origin", ["o: t = 0", "o"], at(0.0), ink, near=True)
     else:
-        words = ["from o"]
-        labels.beside("origin", words, at(first), ink)
+        (x, y) = at(first)
+        labels.place("origin", ["from o", "o"], [((x, y + up * size), "start") for up in (1.0, -1.0)], ink)
     labels.beside("center", ["m"], center, theme.text, near=True)
     distance = format_number(beside, 3)
     shorter = [f"{distance} {'<' if found.discriminant > 0.0 else '='} r = {format_number(radius, 3)}", distance]
