@@ -128,6 +128,8 @@ def test_the_quadratic_of_a_sphere() -> None:
     unit = Sphere((0.0, 0.0, 0.0), 1.0)
     found = sphere_roots((0.0, 0.0, 5.0), (0.0, 0.0, -1.0), unit)
     assert (found.a, found.b, found.c, found.discriminant, found.roots) == (1.0, -10.0, 24.0, 4.0, (4.0, 6.0))
+    larger = sphere_roots((1.0, 0.0, 5.0), (0.0, 0.0, -1.0), Sphere((1.0, 0.0, 0.0), 2.0))
+    assert (larger.c, larger.discriminant, larger.roots) == (21.0, 16.0, (3.0, 7.0))
     tangent = sphere_roots((1.0, 0.0, 5.0), (0.0, 0.0, -1.0), unit)
     assert tangent.discriminant == 0.0 and tangent.roots == (5.0, 5.0)
     inside = sphere_roots((0.0, 0.0, 0.5), (0.0, 0.0, -1.0), unit)
