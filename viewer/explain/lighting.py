@@ -20,7 +20,7 @@ def local_light(tree: RayTree, world: World, i: int, most: int = sys.maxsize) ->
     row = tree.nodes[i]
     material = world.scene.objects[row["object"]].material
     section = Section("Local light", Lecture.LOCAL)
-    color = _color(world, tree, i)
+    color = hit_color(world, tree, i)
     ambient = np.array(world.scene.tracing.ambient) * material.ambient * color
     section.add(Lecture.COLOR, format_rgb(color, 3))
     section.add(Lecture.COEFFICIENTS, "  ".join(format_number(x, 3) for x in _numbers(material)))
@@ -41,7 +41,7 @@ def _add_lights(section: Section, tree: RayTree, world: World, i: int) -> None:
     for j, light in enumerate(world.scene.lights):
         name = world.scene.light_name(j)
         child = rows[j]
-        n_l, r_v = _cosines(tree, i, child)
+        n_l, r_v = light_cosines(tree, i, child)
         if n_l <= 0.0:
             detail = f"N·L {format_number(n_l, 3)}: surface faces away"
         elif tree.end(child) == "blocked":
@@ -62,8 +62,8 @@ def one_light(tree: RayTree, world: World, i: int, j: int) -> Section:
     light = world.scene.lights[j]
     child = next(c for c in tree.children[i] if tree.nodes["light"][c] == j)
     material = world.scene.objects[row["object"]].material
-    n_l, r_v = _cosines(tree, i, child)
-    color = _color(world, tree, i)
+    n_l, r_v = light_cosines(tree, i, child)
+    color = hit_color(world, tree, i)
     section = Section(f"Light from {world.scene.light_name(j)}", Lecture.ONE_LIGHT)
     section.add(Lecture.LIGHT, format_rgb(light.color, 3))
     section.add(Lecture.TO_LIGHT, format_number(n_l))
@@ -86,7 +86,24 @@ def _numbers(material: Material) -> tuple[float, float, float, float]:
     return (material.ambient, material.diffuse, material.specular, material.shininess)
 
 
-def _cosines(tree: RayTree, i: int, child: int) -> tuple[float, float]:
+def phong_terms(tree: RayTree, world: World, i: int, child: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The ambient term at hit i, and the diffuse and the specular term of the light of the shadow ray `child`, each a
+    linear colour (3,). The last two add up to that ray's radiance, to rounding.
+    """
+    material = world.scene.objects[tree.nodes["object"][i]].material
+    color = hit_color(world, tree, i)
+    n_l, r_v = light_cosines(tree, i, child)
+    arriving = np.array(world.scene.lights[tree.nodes["light"][child]].color) * tree.nodes["factor"][child]
+    arriving = arriving * (n_l > 0.0 and tree.end(child) != "blocked")
+    ambient = np.array(world.scene.tracing.ambient) * material.ambient * color
+    return (
+        ambient,
+        arriving * material.diffuse * max(n_l, 0.0) * color,
+        (arriving * (material.specular * r_v**material.shininess if r_v > 0.0 else 0.0)),
+    )
+
+
+def light_cosines(tree: RayTree, i: int, child: int) -> tuple[float, float]:
     """N·L and R·V at hit i, for the light of a shadow ray."""
     row = tree.nodes[i]
     n, to_light = np.array(row["normal"]), tree.nodes["direction"][child]
@@ -95,7 +112,8 @@ def _cosines(tree: RayTree, i: int, child: int) -> tuple[float, float]:
     return n_l, float(r @ -row["direction"])
 
 
-def _color(world: World, tree: RayTree, i: int) -> np.ndarray:
+def hit_color(world: World, tree: RayTree, i: int) -> np.ndarray:
+    """The colour C of the surface at hit i, linear (3,): of its material, or of its checkers."""
     row = tree.nodes[i]
     this = world.arrays.objects[row["object"]]
     material = world.arrays.materials[this["material"]]

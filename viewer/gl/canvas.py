@@ -1,6 +1,7 @@
 """The pictures in panels: the 3D view, the rendered image and its maps. Each is made again only if it has changed."""
 
 import time
+from collections import defaultdict
 from typing import NamedTuple
 
 import moderngl
@@ -74,6 +75,9 @@ class Canvas:
         self.ray_ends: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)  # left, top, right, bottom of the same
         self.explanation: Cached[list[Part]] = Cached()  # of that ray
         self.hit: Cached[list[Mark]] = Cached()  # the marks of the hit on show
+        # The marks of the live pieces of a lesson, by their lines; left and top on the screen, and pixels per point.
+        self.live: defaultdict[int, Cached[list[Mark]]] = defaultdict(Cached[list[Mark]])
+        self.live_places: dict[int, tuple[float, float, float]] = {}
         self._whole: Cached[Step] = Cached()
         self._map: Cached[moderngl.Texture | None] = Cached(_release)
         self._near: Cached[Seen | None] = Cached(lambda seen: _release(seen and seen.texture))

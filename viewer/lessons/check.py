@@ -14,10 +14,15 @@ from tracer.kernel.world import World
 from tracer.printable import shown_path
 from tracer.tree.raytree import RayTree
 from viewer.base.files import Unusable
+from viewer.base.theme import LIGHT
 from viewer.explain.plain_formula import FormulaError
+from viewer.figures.export_options import TEXT_SIZE
 from viewer.figures.formula.typeset import typeset
+from viewer.figures.marks import HEIGHT, WIDTH
 from viewer.lessons.expectation import failures
 from viewer.lessons.lesson import Lesson, read_file
+from viewer.lessons.live.catalogue import live_kind
+from viewer.lessons.live.piece import LiveContext
 from viewer.lessons.step import PIXEL, Step
 from viewer.lessons.text import Block, Formula, InlineFormula, Items, Quote, Run, count_words, inlines, names_of_values
 from viewer.lessons.values import ABSENT, NAMES, OF_TREE, split_name, value_text
@@ -111,6 +116,18 @@ class _Check:
             if "unknown name" in fault or "in quotes" in fault:  # a goal is reached elsewhere
                 yield Fault(f"goal: {fault}", step.line_of(key, "goal"))
         yield from self._text(step, tree)
+        yield from self._live(step, tree, world)
+
+    def _live(self, step: Step, tree: RayTree, world: World) -> Iterator[Fault]:
+        """Live pieces that are not known, and those that this hit cannot serve."""
+        row = (tree.find(step.state.hit) if step.state.hit else 0) or 0
+        for fence in (fence for part in step.parts for fence in part.live):
+            name, *words = fence.content.split() or [""]
+            try:
+                context = LiveContext(tree, row, world, LIGHT, TEXT_SIZE, (0.0, 0.0, WIDTH, HEIGHT))
+                live_kind(name).marks(context, {}, words)
+            except ValueError as error:
+                yield Fault(f"live: {error}", fence.line + 1)
 
     def _text(self, step: Step, tree: RayTree) -> Iterator[Fault]:
         """Values and links that resolve to nothing."""

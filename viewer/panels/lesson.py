@@ -6,9 +6,10 @@ from imgui_bundle import imgui
 
 from viewer.base.theme import Color
 from viewer.gl.canvas import Canvas
-from viewer.lessons.text import filled
+from viewer.lessons.text import Fence, filled
 from viewer.lessons.values import ABSENT, value_text
 from viewer.panels import draw as d
+from viewer.panels.live import draw_piece
 from viewer.panels.panel import Panel
 from viewer.panels.text_flow import BETWEEN, Colors, TextFlow
 from viewer.session.session import Session
@@ -23,14 +24,24 @@ def draw(session: Session, canvas: Canvas) -> None:
     corner, (width, height) = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     colors = Colors(session.appearance.theme, lambda target: _color(session, target))
     flow = TextFlow(colors, corner.x, corner.y, width)
+    flow.fence = lambda fence: _fence(session, canvas, flow, fence, corner.y + height)
     flow.heading(step.title, TITLE, session.appearance.theme.accent)
     flow.y += 0.5 * BETWEEN * flow.em
     for part in step.parts[: session.player.shown.parts]:
         flow.blocks(filled(part.blocks, lambda name: _value(session, name)))
+    imgui.set_cursor_screen_pos(corner)
     imgui.dummy((1.0, max(1.0, flow.y - corner.y)))
     line = imgui.get_text_line_height_with_spacing()
     session.player.lines_too_many = max(0, math.ceil((flow.y - BETWEEN * flow.em - corner.y - height) / line))
     _follow(session, canvas, flow.pointed)
+
+
+def _fence(session: Session, canvas: Canvas, flow: TextFlow, fence: Fence, bottom: float) -> bool:
+    """Draw a live piece, down to the bottom of the panel."""
+    if fence.kind != "live":
+        return False
+    flow.y += draw_piece(session, canvas, fence, (flow.x, flow.y), flow.width, bottom - flow.y)
+    return True
 
 
 def _value(session: Session, name: str) -> str:

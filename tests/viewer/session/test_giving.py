@@ -8,6 +8,7 @@ import pytest
 from imgui_bundle import imgui
 
 from tests.viewer.driver import Driver, viewer
+from viewer.figures.marks import Handle, point_along
 from viewer.lessons import lesson as lessons
 from viewer.lessons.lesson import Lesson, read_file
 from viewer.lessons.moments import Moment
@@ -134,3 +135,24 @@ def test_the_keys_go_on_to_the_next_lesson(driver: Driver) -> None:
     driver.press(K.page_up)
     driver.app.settle()
     assert driver.session.lesson == first and driver.session.player.moment.step == len(first.steps) - 1
+
+
+def test_a_live_piece_is_drawn_and_dragged(driver: Driver, tmp_path: Path) -> None:
+    """The lifeguard's place on the shore: at 4 of 7 metres the time is least, 35/12 seconds."""
+    (tmp_path / "scene.toml").write_text(SCENE, "utf-8")
+    text = '+++\ntitle = "Guard"\nquestion = "Where?"\npixel = [160, 150]\n+++\n## One\n```live\nlifeguard 4 3\n```\n'
+    (tmp_path / "lesson.md").write_text(text, "utf-8")
+    begin(driver, read_file(tmp_path / "lesson.md"))
+    ((line, (left, top, scale)),) = driver.canvas.live_places.items()
+    handle = next(mark for mark in driver.canvas.live[line].last if isinstance(mark, Handle))
+    before = picture(driver)
+    low, high = handle.range
+    goal = point_along((handle.path[0], handle.path[-1]), (4.0 - low) / (high - low))
+    start, end = ((left + scale * x, top + scale * y) for x, y in (handle.at, goal))
+    driver.drag([start, (start[0] + 3.0, start[1]), end])
+    pixel = (high - low) / (scale * (handle.path[-1][0] - handle.path[0][0]))  # the mouse is at whole pixels
+    assert driver.session.player.parameters == {"x": pytest.approx(4.0, abs=pixel)}
+    assert not np.array_equal(picture(driver), before)
+    driver.press(K.home)
+    driver.move(5.0, 300.0)
+    assert driver.session.player.parameters == {}

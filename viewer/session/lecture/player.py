@@ -19,6 +19,7 @@ class Taught(Protocol):
     """The parts of a session that a lesson changes."""
 
     reveal: Reveal
+    selection: str | None
     notice: Notice
 
     @property
@@ -35,6 +36,8 @@ class LessonPlayer:
 
     def __init__(self, session: Taught) -> None:
         self.session = session
+        self.parameters: dict[str, float] = {}  # of the live pieces, by the names of their handles
+        self.held: str | None = None  # the handle on which the mouse button went down
         self.lines_too_many = 0  # of the step's text in its panel, when it was drawn last
         self.is_due = False  # whether the stage is to be shown as soon as there is a tree
 
@@ -45,6 +48,11 @@ class LessonPlayer:
     @property
     def step(self) -> Step | None:
         return self.session.opening.step if self.session.opening else None
+
+    @property
+    def hit(self) -> str | None:
+        """The path of the ray whose hit is looked at: that which is selected, or that of the step."""
+        return self.session.selection or (self.step.state.hit if self.step else None)
 
     @property
     def moment(self) -> Moment:
@@ -123,6 +131,7 @@ class LessonPlayer:
     def show(self, lesson: Lesson, moment: Moment) -> None:
         """Show a moment of a lesson."""
         step = lesson.step_at(moment.step)
+        self.parameters = {}
         state = replace(view_of(step), at=(moment.step + 1, moment.press))
         opening = Opening(step.scene, lesson, state, is_return=True, shows_stage=True, sets_view=True)
         self.session.show_moment(opening)

@@ -1,0 +1,203 @@
+"""The tests of a ray against a sphere, a polygon and a triangle, with their numbers: the lecture's formulas at a hit.
+
+The numbers are those of the table, computed in exact fractions and rounded once: a textbook's formula in float64 would
+show rounding errors that the tracer does not make.
+"""
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from tracer.formulas.exact import area, dot, exact, minus
+from tracer.shapes.mesh import Mesh
+from tracer.shapes.polygon import Polygon
+from tracer.shapes.sphere import Sphere
+from tracer.shapes.triangle import Triangle
+from tracer.tree.raytree import RayTree
+from viewer.base.wording import format_number
+from viewer.explain.formulas import Lecture
+from viewer.explain.sections import Section
+
+DIGITS = 5
+
+
+@dataclass(frozen=True)
+class SphereRoots:
+    """a t^2 + b t + c = 0 for the distances at which the line of a ray meets a sphere, and its roots."""
+
+    a: float
+    b: float
+    c: float
+    discriminant: float
+    roots: tuple[float, float]  # the smaller first
+
+    def nearest(self, t: float) -> int:
+        """The number, 0 or 1, of the root that a hit at distance t is."""
+        return min((0, 1), key=lambda k: abs(self.roots[k] - t))
+
+
+def sphere_roots(origin: tuple, direction: tuple, sphere: Sphere) -> SphereRoots:
+    """The quadratic of a ray and a sphere that it hits. A discriminant below 0 by rounding counts as 0 for the roots.
+
+    The root of larger magnitude is q/a, the other c/q with q = -(b + sign(b) sqrt(D))/2, so that nothing cancels.
+    """
+    d, arm = exact(direction), minus(exact(origin), exact(sphere.center))
+    a, b = dot(d, d), 2 * dot(d, arm)
+    c = dot(arm, arm) - Fraction(sphere.radius) ** 2
+    discriminant = b * b - 4 * a * c
+    q = -0.5 * (float(b) + math.copysign(math.sqrt(max(0.0, float(discriminant))), float(b)))
+    found = (q / float(a), float(c) / q) if q else (0.0, 0.0)
+    return SphereRoots(float(a), float(b), float(c), float(discriminant), (min(found), max(found)))
+
+
+def hit_roots(tree: RayTree, i: int) -> SphereRoots | None:
+    """The quadratic of the hit of ray i; None if it is not on a sphere."""
+    row = tree.nodes[i]
+    shape = tree.scene.objects[int(row["object"])].shape if row["object"] >= 0 else None
+    if not isinstance(shape, Sphere):
+        return None
+    return sphere_roots(tuple(map(float, row["origin"])), tuple(map(float, row["direction"])), shape)
+
+
+def sphere_section(tree: RayTree, i: int) -> Section | None:
+    """The quadratic at the hit of ray i with its numbers, and which root is its distance; None if it is no sphere's."""
+    found = hit_roots(tree, i)
+    if found is None:
+        return None
+    section = Section("Ray and sphere", Lecture.QUADRATIC)
+    error = start_error(tree, i)
+    on_sphere = abs(found.roots[0]) <= error  # then c is rounding error
+    for symbol, value in (
+        (Lecture.QUADRATIC_A, found.a),
+        (Lecture.QUADRATIC_B, found.b),
+        (Lecture.QUADRATIC_C, 0.0 if on_sphere else found.c),
+        (Lecture.DISCRIMINANT, found.discriminant),
+    ):
+        section.add(symbol, format_number(value, DIGITS))
+    section.add(Lecture.ROOTS)
+    for symbol, root in zip((Lecture.ROOT_1, Lecture.ROOT_2), found.roots, strict=True):
+        section.add(symbol, format_number(0.0 if abs(root) <= error else root, DIGITS))
+    t = float(tree.nodes["t"][i])
+    chosen = found.nearest(t)
+    section.add("t of the ray", f"{format_number(t, DIGITS)} = t{'₁₂'[chosen]}")
+    section.add(root_reason(found, chosen, error))
+    return section
+
+
+def start_error(tree: RayTree, i: int) -> float:
+    """A bound on the distance along ray i at which it meets the sphere that it starts on, which would be 0 exactly."""
+    row = tree.nodes[i]
+    before = float(tree.nodes["error"][row["parent"]]) if row["parent"] >= 0 else 0.0
+    return 2.0 * (float(row["error"]) + before) / max(math.cos(float(row["theta1"])), float(row["turn"]), 1e-8)
+
+
+def root_reason(found: SphereRoots, chosen: int, error: float) -> str:
+    """Why this root is the distance of the hit."""
+    if chosen == 0:
+        return "the smaller root above 0"
+    if abs(found.roots[0]) <= error:
+        return "the ray starts on the sphere"
+    return "from inside: t₁ < 0" if found.roots[0] < 0.0 else "t₁ is no hit of the ray"
+
+
+@dataclass(frozen=True)
+class Flat:
+    """A face and a point of it, projected along the axis in which its normal is longest."""
+
+    outline: tuple[tuple[float, float], ...]
+    point: tuple[float, float]
+    axes: str  # the two coordinates that are kept, like "xy"
+
+    def crossings(self) -> list[tuple[float, float]]:
+        """The places where a ray from the point, in the direction of the first coordinate, crosses the outline.
+
+        A side counts if one of its ends is above the ray, and the other is not: a corner on the ray counts once.
+        """
+        (px, py), found = self.point, []
+        for (x0, y0), (x1, y1) in zip(self.outline, (*self.outline[1:], self.outline[0]), strict=True):
+            if (y0 > py) != (y1 > py):
+                x = x0 + (py - y0) / (y1 - y0) * (x1 - x0)
+                if x > px:
+                    found.append((x, py))
+        return sorted(found)
+
+
+def flattened(corners: np.ndarray, point: np.ndarray) -> Flat:
+    """The projection of a face (n, 3) and a point (3,)."""
+    normal = np.abs([float(x) for x in area([exact(corner) for corner in corners])])
+    u, v = (k for k in range(3) if k != int(np.argmax(normal)))
+    outline = tuple((float(corner[u]), float(corner[v])) for corner in corners)
+    return Flat(outline, (float(point[u]), float(point[v])), "xyz"[u] + "xyz"[v])
+
+
+def barycentric(corners: np.ndarray, point: np.ndarray) -> tuple[float, float, float]:
+    """The areas of the three triangles that a point (3,) makes with the sides of a triangle (3, 3), each opposite its
+    corner, as shares of its area; negative beyond that side. The point is projected to the plane along the normal.
+    """
+    a, b, c, p = (exact(place) for place in (*corners, point))
+    whole = area((a, b, c))
+    alpha, beta, gamma = (
+        float(dot(area(part), whole) / dot(whole, whole)) for part in ((p, b, c), (a, p, c), (a, b, p))
+    )
+    return alpha, beta, gamma
+
+
+def hit_face(tree: RayTree, i: int) -> np.ndarray | None:
+    """The corners (n, 3) of the polygon, the triangle or the face of a mesh that ray i meets; None for other shapes."""
+    row = tree.nodes[i]
+    match tree.scene.objects[int(row["object"])].shape if row["object"] >= 0 else None:
+        case Polygon() as shape:
+            return shape.outline()
+        case Triangle(vertices=vertices):
+            return np.array(vertices)
+        case Mesh() as shape:
+            return _face_at(shape.placed(), row["point"])
+    return None
+
+
+def _face_at(faces: np.ndarray, point: np.ndarray) -> np.ndarray:
+    """The face (3, 3) of these (m, 3, 3) that a point lies in: of those whose sides it does not lie beyond, the one
+    whose plane is nearest.
+    """
+    a, b, c = faces[:, 0], faces[:, 1], faces[:, 2]
+    whole = np.cross(b - a, c - a)
+    size = np.einsum("ij,ij->i", whole, whole)
+    arms = [np.cross(q - p, point - p) for p, q in ((b, c), (c, a), (a, b))]
+    least = np.min([np.einsum("ij,ij->i", arm, whole) for arm in arms], axis=0) / size
+    heights = np.abs(np.einsum("ij,ij->i", point - a, whole)) / np.sqrt(size)
+    reach = np.sqrt(np.sqrt(size))
+    return faces[int(np.argmin(heights + reach * np.maximum(0.0, -least)))]
+
+
+def inside_section(tree: RayTree, i: int) -> Section | None:
+    """The test of the hit of ray i against its face: barycentric coordinates of a triangle, the number of crossings of
+    a polygon; None for other shapes.
+    """
+    corners = hit_face(tree, i)
+    if corners is None:
+        return None
+    point = tree.nodes["point"][i]
+    if len(corners) == 3:
+        section = Section("Point in triangle", Lecture.BARYCENTRIC)
+        shares = barycentric(corners, point)
+        for symbol, share in zip((Lecture.ALPHA, Lecture.BETA, Lecture.GAMMA), shares, strict=True):
+            section.add(symbol, f"{share:.4f}")
+        section.add(Lecture.BARYCENTRIC_SUM, format_number(sum(shares), DIGITS))
+        section.add("none is below 0: inside" if min(shares) >= 0.0 else "one is below 0: outside")
+        return section
+    flat = flattened(corners, point)
+    count = len(flat.crossings())
+    section = Section("Point in polygon", Lecture.CROSSINGS)
+    section.add(f"projected to {flat.axes[0]} and {flat.axes[1]}")
+    section.add("p", f"({format_number(flat.point[0], 4)}, {format_number(flat.point[1], 4)})")
+    section.add("corners", str(len(corners)))
+    section.add("sides crossed", str(count))
+    section.add(verdict(count))
+    return section
+
+
+def verdict(count: int) -> str:
+    """The decision that a number of crossings makes."""
+    return f"{count} is odd: inside" if count % 2 else f"{count} is even: outside"

@@ -1,0 +1,68 @@
+"""The sample points of a pixel, for anti-aliasing: the first points of the Sobol sequence that images use.
+
+Of the first 4, 16, 64 ... points, each cell of a grid of 2 x 2, 4 x 4, 8 x 8 ... holds exactly one.
+"""
+
+import math
+
+import numpy as np
+
+from tracer.formulas.sampler import PIXEL_CENTER, make_samples, sample_offset
+from viewer.base.theme import faded
+from viewer.figures.layout.hit_frame import MARGIN
+from viewer.figures.marks import Disc, Line, Mark, Shape, Stroke, widened
+from viewer.lessons.live.labels import Labels
+from viewer.lessons.live.page import with_caption
+from viewer.lessons.live.piece import LiveContext, Parameters
+
+DEFAULT, MOST = 16, 1024
+NUMBERED = 64  # points that have a number beside them at most
+
+
+def samples(context: LiveContext, parameters: Parameters) -> list[Mark]:
+    """The first `count` sample points in the pixel of the tree, else in pixel (0, 0), as an image of so many samples
+    has them. ValueError for a count that is no whole number from 1 to 1024.
+    """
+    count = parameters.get("count", DEFAULT)
+    if not (count == int(count) and 1 <= count <= MOST):
+        raise ValueError(f"samples: count must be a whole number from 1 to {MOST}, got {count:g}")
+    x, y = (context.tree.pixel or (0, 0)) if context.tree else (0, 0)
+    points = sample_points(x, y, int(count))
+    side = math.isqrt(len(points))
+    is_grid = side * side == len(points) and side & (side - 1) == 0 and side > 1
+    cells = f"{len(points)} points in a pixel" + (f": one in each cell of {side} × {side}" if is_grid else "")
+    size, theme = context.size, context.theme
+    captions = [cells, f"{len(points)} points in a pixel", f"{len(points)} points"]
+    (left, top, right, bottom), marks = with_caption(context, widened(context.where, -MARGIN * size), captions)
+    radius = max(1.2, min(0.28 * size, 0.13 * min(right - left, bottom - top) / math.sqrt(len(points))))
+    extent = min(right - left, bottom - top) - 2.0 * radius - 2.0
+    left, top = 0.5 * (left + right - extent), 0.5 * (top + bottom - extent)
+    corners = ((left, top), (left + extent, top), (left + extent, top + extent), (left, top + extent))
+    marks.append(Shape("pixel", corners, faded(theme.glass, 0.12), Stroke(theme.text, 2.0), title="the pixel"))
+    for k in range(1, side if is_grid else 1):
+        at = extent * k / side
+        for start, end in (
+            ((left + at, top), (left + at, top + extent)),
+            ((left, top + at), (left + extent, top + at)),
+        ):
+            marks.append(Line("cells", start, end, Stroke(theme.muted, 0.8, (2.0, 3.0))))
+    dots = [
+        Disc(
+            f"sample-{k}", (left + u * extent, top + v * extent), radius, theme.accent, None, title=f"{u:.4f}, {v:.4f}"
+        )
+        for k, (u, v) in enumerate(points)
+    ]
+    labels = Labels((left, top, left + extent, top + extent), size, theme, dots)
+    for k, dot in enumerate(dots if len(points) <= NUMBERED and extent / side >= 3.0 * size else []):
+        (cx, cy), away = dot.center, radius + 0.25 * size
+        labels.place(dot.name, [str(k)], [((cx + away, cy), "start"), ((cx - away, cy), "end")], theme.text)
+    return [*marks, *dots, *labels.marks]
+
+
+def sample_points(x: int, y: int, count: int) -> list[tuple[float, float]]:
+    """The sample points of a pixel, from its top left corner, in [0, 1)."""
+    chosen = make_samples(count)
+    if chosen == PIXEL_CENTER:
+        return [(0.5, 0.5)]
+    with np.errstate(over="ignore"):  # the integers of the scramble wrap around
+        return [sample_offset(x, y, k, chosen.sampler) for k in range(count)]

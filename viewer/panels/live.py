@@ -1,0 +1,68 @@
+"""A live piece of a lesson, drawn below its text. Its handles are dragged; a double click puts them back."""
+
+from imgui_bundle import imgui
+
+from viewer.base.theme import PANEL_TEXT
+from viewer.figures.marks import Handle, Mark, Point
+from viewer.figures.picking import handle_at, nearest_value
+from viewer.figures.writers.imgui import draw_marks
+from viewer.gl.canvas import Canvas
+from viewer.lessons.live.catalogue import live_kind
+from viewer.lessons.live.piece import LiveContext
+from viewer.lessons.text import Fence
+from viewer.panels import draw as d
+from viewer.session.session import Session
+
+LEAST = (320.0, 220.0)  # points: the smallest room of a piece
+ASPECT = 0.8  # its height, at most, in widths
+HANDLE_REACH = 11.0  # points from the mouse to the middle of a handle
+
+
+def draw_piece(session: Session, canvas: Canvas, fence: Fence, corner: Point, width: float, height: float) -> float:
+    """Draw a piece at a place on the screen, into at most this width and height in pixels, if that is not too small.
+    Returns the height that it took.
+    """
+    scale = min(d.unit(), width / LEAST[0])
+    size = (round(width / scale), round(min(ASPECT * width, max(height, LEAST[1] * scale)) / scale))
+    canvas.live_places[fence.line] = (*corner, scale)
+    imgui.set_cursor_screen_pos(corner)
+    imgui.invisible_button(f"live {fence.line}", (width, max(1.0, size[1] * scale)))
+    mouse = imgui.get_mouse_pos()
+    at = ((mouse.x - corner[0]) / scale, (mouse.y - corner[1]) / scale)
+    try:
+        _drag(session, _marks(session, canvas, fence, size), at)
+        draw_marks(imgui.get_window_draw_list(), _marks(session, canvas, fence, size), corner, scale)
+    except ValueError as error:
+        d.text(imgui.get_window_draw_list(), corner, session.appearance.theme.muted, str(error), imgui.get_font_size())
+    return size[1] * scale
+
+
+def _marks(session: Session, canvas: Canvas, fence: Fence, size: tuple[int, int]) -> list[Mark]:
+    """The marks, in points from the piece's top left corner."""
+    name, *words = fence.content.split()
+    parameters = session.player.parameters
+    row = session.tree.find(session.player.hit) if session.tree and session.player.hit else 0
+    theme = session.appearance.theme
+
+    def make() -> list[Mark]:
+        where = (0.0, 0.0, float(size[0]), float(size[1]))
+        context = LiveContext(session.tree, row or 0, session.world, theme, PANEL_TEXT, where)
+        return live_kind(name).marks(context, parameters, words)
+
+    key = (session.tree, row, theme, fence, size, tuple(sorted(parameters.items())))
+    return canvas.live[fence.line].get(key, make)
+
+
+def _drag(session: Session, marks: list[Mark], at: Point) -> None:
+    """Move a parameter with its handle."""
+    player, over = session.player, handle_at(marks, at, HANDLE_REACH)
+    if imgui.is_item_activated():
+        player.held = over.name if over else None
+    if over and imgui.is_item_hovered():
+        imgui.set_mouse_cursor(imgui.MouseCursor_.hand)
+    if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+        player.parameters = {}
+    elif imgui.is_item_active() and player.held and imgui.is_mouse_dragging(imgui.MouseButton_.left, 0.0):
+        handle = next((mark for mark in marks if isinstance(mark, Handle) and mark.name == player.held), None)
+        if handle:
+            player.parameters = {**player.parameters, handle.name: nearest_value(handle, at)}
