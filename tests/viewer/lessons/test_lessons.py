@@ -11,6 +11,8 @@ from tests import ROOT
 from tests.conftest import LESSONS
 from viewer.base.files import Unusable
 from viewer.lessons import lesson
+from viewer.lessons.check import check
+from viewer.window.lesson_room import room_faults
 
 
 @pytest.mark.parametrize("name", LESSONS)
@@ -120,3 +122,15 @@ def test_a_lesson_that_is_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "lesson.md")
     with pytest.raises(Unusable, match="must be a file, got a pipe"):
         lesson.read_file(tmp_path / "lesson.md")
+
+
+@pytest.mark.parametrize("name", LESSONS)
+def test_nothing_is_wrong_with_a_lesson(name: str) -> None:
+    """All that it expects holds, and all that its text names is there."""
+    assert check(lesson.read(name).path) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", LESSONS)
+def test_the_text_of_a_lesson_has_room_in_the_hall(name: str) -> None:
+    assert room_faults(lesson.read(name).path) == []
