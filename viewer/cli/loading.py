@@ -18,8 +18,8 @@ from viewer.lessons import lesson
 from viewer.lessons.lesson import Lesson
 from viewer.reopen.places import CARRYING, is_figure
 from viewer.reopen.view_state import UNCHANGED, ViewState, merged
+from viewer.session.loading.scene_loader import with_lesson
 from viewer.session.restore.figure_scene import FigureScene, FigureScenes
-from viewer.session.scene_loader import with_lesson
 
 
 def find(name: str, takes_figures: bool = False) -> tuple[Path, Lesson | None]:

@@ -19,9 +19,9 @@ from viewer.cli.options import ViewOptions
 from viewer.cli.terminal import compile_once, compiling
 from viewer.lessons import lesson as lessons
 from viewer.reopen.view_state import merged
+from viewer.session.loading.opening import Opening
 from viewer.session.restore.last_session import LastSession, SessionKeeper, read_last
 from viewer.session.restore.view import restore_appearance
-from viewer.session.scene_loader import Opening
 from viewer.session.session import Session
 from viewer.window.app import FRAMES_AFTER_EVENT, App
 from viewer.window.backend import NoWindow, Offscreen, Window

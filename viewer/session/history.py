@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Any
 
-from viewer.session.scene_loader import Opening
+from viewer.session.loading.opening import Opening
 
 
 @dataclass(frozen=True)

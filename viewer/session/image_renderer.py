@@ -6,8 +6,8 @@ If pixels have several samples, their centres are shown first, and then the mean
 import os
 import threading
 import time
-from collections import OrderedDict
-from collections.abc import Callable
+from collections import OrderedDict, deque
+from collections.abc import Callable, Container, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 
@@ -24,8 +24,10 @@ from tracer.kernel.limits import Limits
 from tracer.kernel.world import World
 from viewer.base.srgb import srgb
 
+Job = tuple[World, Limits, tuple[int, int]]  # an image: its world, the limits of its trees, its size
+
 BLACK = (0, 0, 0, 255)
-MAX_KEPT = 8  # finished images, so that stepping the depth back and forth shows them at once
+MAX_KEPT = 12  # finished images, so that stepping the depth back and forth shows them at once
 NICENESS = 10  # of rendering threads, so that the window has priority
 
 
@@ -66,21 +68,54 @@ class ImageRenderer:
         self.finished = finished  # called in another thread when an image ends
         self.progress: Callable[[], object] = lambda: None  # called in another thread after each tile
         self.picture: Picture | None = None
-        self.kept: OrderedDict[tuple, Picture] = OrderedDict()
+        self.kept: OrderedDict[Job, Picture] = OrderedDict()
         self.threads = processors()
         self.pool = ThreadPoolExecutor(self.threads, initializer=_lower_priority)
         self.runner = ThreadPoolExecutor(1)
         self.running: Future[None] | None = None
+        self.ahead: deque[Job] = deque()  # images to render while no other is
+        self.aside: tuple[Job, Picture, Future[None]] | None = None  # that of them which renders
+        self.lock = threading.Lock()  # of the two
 
     def show(self, world: World, limits: Limits, size: tuple[int, int]) -> None:
         """Show this image: at once if it is kept, otherwise as it renders. The image in progress is dropped."""
-        key = (id(world), limits, size)
+        key = (world, limits, size)
         self.pause()
         if key in self.kept:
             self.kept.move_to_end(key)
             self.picture = self.kept[key]
             return
-        width, height = size
+        with self.lock:
+            aside, self.aside = self.aside, None
+            if aside and aside[0] == key:
+                _, self.picture, self.running = aside
+                return
+            if aside:
+                aside[1].cancelled.set()
+            self._start(key)
+
+    def prepare(self, jobs: Iterable[Job]) -> None:
+        """Render these images when no other is, so that they are kept when they are to be shown."""
+        with self.lock:
+            self.ahead = deque(job for job in jobs if job not in self.kept)
+        self.runner.submit(self._go_ahead)
+
+    def _go_ahead(self) -> None:
+        """Start the next image that is rendered ahead. Called in the runner's thread."""
+        with self.lock:
+            while self.ahead and self.aside is None:
+                key = self.ahead.popleft()
+                if key not in self.kept:
+                    world, limits, (width, height) = key
+                    shown = np.full((height, width, 4), BLACK, np.uint8)
+                    picture = Picture(
+                        shown, np.zeros((height, width, 3)), world.scene.image.samples, max_nodes=limits.max_nodes
+                    )
+                    self.aside = (key, picture, self.runner.submit(self._render, picture, world, limits, key))
+
+    def _start(self, key: Job) -> None:
+        """Show an image as it renders."""
+        world, limits, (width, height) = key
         # Until its first tiles are there, the image before is shown: a black one would flash.
         before = self.picture.shown if self.picture else np.zeros(0)
         shown = before.copy() if before.shape == (height, width, 4) else np.full((height, width, 4), BLACK, np.uint8)
@@ -104,12 +139,18 @@ class ImageRenderer:
         if self.picture and not self.picture.finished:
             self.picture.cancelled.set()
 
-    def forget(self) -> None:
-        """Drop every image, for another world."""
+    def forget(self, keeping: Container[World] = ()) -> None:
+        """Drop the images, for another world, except those of some worlds."""
         if self.picture:
             self.picture.cancelled.set()
         self.picture = None
-        self.kept.clear()
+        with self.lock:
+            self.ahead.clear()
+            if self.aside and self.aside[0][0] not in keeping:
+                self.aside[1].cancelled.set()
+                self.aside = None
+            for key in [key for key in self.kept if key[0] not in keeping]:
+                del self.kept[key]
 
     def wait(self) -> None:
         """Wait until the shown image is finished, unless it is endless."""
@@ -121,7 +162,7 @@ class ImageRenderer:
         self.runner.shutdown()
         self.pool.shutdown()
 
-    def _render(self, picture: Picture, world: World, limits: Limits, key: tuple) -> None:
+    def _render(self, picture: Picture, world: World, limits: Limits, key: Job) -> None:
         pixels = picture.pixels
         if picture.cancelled.is_set():
             return
@@ -154,6 +195,10 @@ class ImageRenderer:
             while len(self.kept) > MAX_KEPT:
                 self.kept.popitem(last=False)
             self.finished()
+            with self.lock:
+                if self.aside and self.aside[1] is picture:
+                    self.aside = None
+            self._go_ahead()
 
     def _refine(
         self,

@@ -9,8 +9,15 @@ from tracer.kernel.limits import Limits, image_max_nodes, make_limits
 from tracer.kernel.world import World
 from viewer.lessons.lesson import Lesson
 from viewer.lessons.step import Step
-from viewer.session.scene_loader import Opening
+from viewer.session.loading.opening import Opening
 from viewer.session.view_state import Looks
+
+
+def image_limits(world: World, depth: int, model: str) -> Limits:
+    """The limits of the trees of a scene's image."""
+    image = world.scene.image
+    max_nodes = image_max_nodes(world, image.width * image.height)
+    return make_limits(world, depth, max_nodes=max_nodes, model=model, records=False)
 
 
 @dataclass(eq=False)
@@ -57,9 +64,7 @@ class OnShow(Looks):
     def limits(self) -> Limits:
         """The limits of the image's trees."""
         assert self.world
-        width, height = self.size
-        max_nodes = image_max_nodes(self.world, width * height)
-        return make_limits(self.world, self.depth, max_nodes=max_nodes, model=self.model, records=False)
+        return image_limits(self.world, self.depth, self.model)
 
     def inside(self, x: int, y: int) -> tuple[int, int]:
         """The nearest pixel of the image."""

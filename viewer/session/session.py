@@ -21,12 +21,13 @@ from viewer.session.call_queue import CallQueue
 from viewer.session.figure_export import FigureExport
 from viewer.session.guard import Guard
 from viewer.session.history import History, Place
-from viewer.session.image_renderer import ImageRenderer
+from viewer.session.image_renderer import ImageRenderer, Job
 from viewer.session.lecture.player import LessonPlayer
+from viewer.session.loading.opening import Opening
+from viewer.session.loading.scene_loader import SceneLoader
 from viewer.session.refinement import Refinement
 from viewer.session.restore.view import restore
-from viewer.session.scene_loader import Opening, SceneLoader
-from viewer.session.scene_on_show import OnShow
+from viewer.session.scene_on_show import OnShow, image_limits
 from viewer.session.stepping.recursion import Recursion
 from viewer.session.stepping.reveal import Reveal
 from viewer.session.stepping.sample import SampleChoice
@@ -77,7 +78,7 @@ class Session(OnShow):
         self.faults = []
         if world is not self.world:
             self.guard.open_all()
-            self.image.forget()
+            self.image.forget([scene.world for scene in self.loader.prepared.scenes])
             self.refinement.forget()
         if opening.lesson and not again:
             self.requests.append(Request.SHOW_LESSON)
@@ -261,7 +262,12 @@ class Session(OnShow):
         """Show the image with the scene's number of samples of each pixel."""
         assert self.world
         self.refinement.current = None
-        self.image.show(self.world, self.limits, self.size)
+        self.image.show(*self.image_job(self.depth))
+
+    def image_job(self, depth: int) -> Job:
+        """The image of the scene on show at this depth."""
+        assert self.world
+        return (self.world, image_limits(self.world, depth, self.model), self.size)
 
     def show_faults(self, faults: list[str], in_files: bool = False) -> None:
         """Show faults of an action, or those `in_files`, which are read again when they are saved."""

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from viewer.session import file_watch
-from viewer.session.file_watch import LOST, SETTLED, FileWatch
+from viewer.session.loading import file_watch
+from viewer.session.loading.file_watch import LOST, SETTLED, FileWatch
 
 
 @pytest.fixture

@@ -156,3 +156,17 @@ def test_a_live_piece_is_drawn_and_dragged(driver: Driver, tmp_path: Path) -> No
     driver.press(K.home)
     driver.move(5.0, 300.0)
     assert driver.session.player.parameters == {}
+
+
+def test_the_next_moment_is_complete_in_the_first_frame(driver: Driver, mine: Lesson) -> None:
+    """Scene, image and tree of the next step are prepared while the one before is on show."""
+    begin(driver, mine)
+    session = driver.session
+    for by in (K.page_down, K.page_down, K.page_down, K.page_up, K.page_up):
+        while session.loader.worker.submit(session.calls.run_posted).result() or session.image.aside:
+            session.image.runner.submit(lambda: None).result()
+        before = session.player.moment
+        driver.press(by)
+        assert session.player.moment != before and session.loader.loading is None
+        assert session.image.picture and session.image.picture.finished and session.tree
+    assert session.player.moment == Moment(0, 1)

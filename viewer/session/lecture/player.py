@@ -3,12 +3,16 @@
 from dataclasses import replace
 from typing import Protocol
 
+from tracer.kernel.world import World
 from viewer.base.files import Unusable
 from viewer.lessons import lesson as lessons
 from viewer.lessons.lesson import Lesson
 from viewer.lessons.moments import Moment, Shown, count_presses, shown_at, view_of
 from viewer.lessons.step import COLOUR, DEPTH, Step
-from viewer.session.scene_loader import Opening
+from viewer.session.image_renderer import ImageRenderer, Job
+from viewer.session.loading.opening import Opening
+from viewer.session.loading.scene_loader import SceneLoader
+from viewer.session.scene_on_show import image_limits
 from viewer.session.stepping.reveal import Reveal
 from viewer.session.view_state import Notice
 
@@ -19,6 +23,8 @@ class Taught(Protocol):
     """The parts of a session that a lesson changes."""
 
     reveal: Reveal
+    loader: SceneLoader
+    image: ImageRenderer
     selection: str | None
     notice: Notice
 
@@ -26,6 +32,7 @@ class Taught(Protocol):
     def opening(self) -> Opening | None: ...
     def show_moment(self, opening: Opening) -> None: ...
     def show_faults(self, faults: list[str]) -> None: ...
+    def image_job(self, depth: int) -> Job: ...
     def set_depth(self, depth: int) -> None: ...
     @property
     def scene_depth(self) -> int: ...
@@ -130,19 +137,52 @@ class LessonPlayer:
 
     def show(self, lesson: Lesson, moment: Moment) -> None:
         """Show a moment of a lesson."""
-        step = lesson.step_at(moment.step)
         self.parameters = {}
+        self.session.show_moment(self._opening(lesson, moment))
+
+    def look_ahead(self) -> None:
+        """Prepare what the next presses show: scenes of the neighbouring steps, and images."""
+        lesson, step, moment = self.lesson, self.step, self.moment
+        if not lesson or not step:
+            return
+        jobs: list[Job] = []
+        if step.state.reveal == DEPTH:
+            jobs += [self.session.image_job(depth) for depth in range(self.stages)]
+        waiting = []
+        for number in (moment.step + 1, moment.step - 1):
+            if 0 <= number < len(lesson.steps):
+                opening = self._opening(lesson, Moment(number))
+                found = self.session.loader.prepared.find(opening)
+                if found:
+                    jobs.append(_image_of(opening, found.world))
+                else:
+                    waiting.append(opening)
+        self.session.image.prepare(jobs)
+        for opening in waiting:
+            self.session.loader.prepare(opening, lambda world: self.look_ahead())
+
+    def _opening(self, lesson: Lesson, moment: Moment) -> Opening:
+        step = lesson.step_at(moment.step)
         state = replace(view_of(step), at=(moment.step + 1, moment.press))
-        opening = Opening(step.scene, lesson, state, is_return=True, shows_stage=True, sets_view=True)
-        self.session.show_moment(opening)
+        return Opening(step.scene, lesson, state, is_return=True, shows_stage=True, sets_view=True)
 
     def show_stage(self) -> None:
-        """Show the stage of the reveal. Called when there is a tree."""
+        """Show the stage of the reveal, and prepare what comes next. Called when there is a tree."""
         step = self.step
-        if not self.is_due or not step or not step.state.reveal:
+        if not self.is_due or not step:
             return
         self.is_due = False
         if step.state.reveal == DEPTH:
             self.session.set_depth(self.shown.stage)
-        else:
+        elif step.state.reveal:
             self.session.reveal.go_to(self._pages[self.shown.stage])
+        self.look_ahead()
+
+
+def _image_of(opening: Opening, world: World) -> Job:
+    """The first image of a step."""
+    step, tracing, image = opening.step, world.scene.tracing, world.scene.image
+    assert step
+    depth = 0 if step.state.reveal == DEPTH else step.state.depth
+    limits = image_limits(world, tracing.depth if depth is None else depth, step.state.model or tracing.model)
+    return (world, limits, (image.width, image.height))

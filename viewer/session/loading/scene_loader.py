@@ -1,67 +1,26 @@
 """Loads scenes in the background, and again when their files are saved."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import tracer
 from tracer.kernel.world import World
 from tracer.printable import shown_path
 from viewer.base.files import Unusable
 from viewer.lessons.lesson import Lesson, read_file
-from viewer.lessons.moments import Moment, view_of
-from viewer.lessons.step import Step
+from viewer.lessons.moments import view_of
 from viewer.reopen.places import is_figure
 from viewer.reopen.scene_files import SceneFiles, scene_files
 from viewer.reopen.view_state import UNCHANGED, ViewState, merged
 from viewer.session.call_queue import CallQueue
-from viewer.session.file_watch import FileWatch
+from viewer.session.loading.file_watch import FileWatch
+from viewer.session.loading.opening import Opening
+from viewer.session.loading.prepared import PreparedScenes
 from viewer.session.restore.figure_scene import FigureScenes
 from viewer.session.restore.view import complete
 from viewer.session.warmup import Warmup
-
-
-@dataclass(frozen=True)
-class Opening:
-    """A scene to open, and the state of its view; what is None there is the lesson's or the scene's own."""
-
-    path: Path  # of the scene; of a figure until it is read
-    lesson: Lesson | None = None
-    state: ViewState = UNCHANGED
-    is_return: bool = False  # to a place that was looked at before
-    shows_stage: bool = False  # of the reveal of the lesson's step, after the presses that the state says
-    sets_view: bool = False  # the state is taken over even if the scene is on show already
-    figure: Path | None = None  # whose copy of the scene this is
-    files: SceneFiles | None = None  # the content of the scene's files, when it is loaded
-    note: str = ""  # a notice for when it is shown
-    instead: "Opening | None" = None  # what to open if this cannot be loaded; its note is followed by the reason
-
-    @property
-    def up(self) -> str:
-        """The axis of a mesh file that points upwards."""
-        return self.state.up
-
-    @property
-    def step(self) -> Step | None:
-        """The step of the lesson."""
-        return self.lesson and self.lesson.step_at(self.moment.step)
-
-    @property
-    def moment(self) -> Moment:
-        """The place in the lesson."""
-        step, press = self.state.at or (1, 0)
-        return Moment(step - 1, press)
-
-    @property
-    def changes(self) -> Mapping[str, Any]:
-        """The values of the scene that the step replaces."""
-        return self.step.state.set if self.step else {}
-
-    def is_of(self, other: "Opening") -> bool:
-        """Whether both open the same scene with the same values."""
-        return (self.path, self.up, self.changes) == (other.path, other.up, other.changes)
 
 
 class SceneLoader:
@@ -81,6 +40,7 @@ class SceneLoader:
         self.worker = ThreadPoolExecutor(1)
         self.watch = FileWatch()
         self.figures = FigureScenes()
+        self.prepared = PreparedScenes()
 
     def open(self, path: Path, lesson: Lesson | None = None, state: ViewState = UNCHANGED) -> None:
         """Load a scene, or that of a figure, in the background. The scene on show stays until it is there, or if it
@@ -103,17 +63,45 @@ class SceneLoader:
         if self.loading:
             self.loading.cancel()
 
+        self.loading = None
+        ready = self.prepared.find(opening) if opening.lesson else None
+        if ready:
+            self.opening = replace(opening, files=ready.opening.files)
+            self.watch.follow_also(ready.world.scene.files)
+            self.loaded(ready.world, self.opening)
+            return
+
         def load() -> tuple[World, Opening]:
             if not self.warmup.ready and self.warmup.compiles:
                 self.warmup.wait()  # the kernels that prepare a large scene are being compiled as well
-            found = self._read(opening) if is_figure(opening.path) else opening
-            scene = tracer.load(found.path, up=found.up, changes=found.changes)
-            home = found.files.folder if found.figure and found.files else None
-            files = scene_files(scene, found.lesson.path if found.lesson else None, home)
-            return tracer.prepare(scene), replace(found, files=files)
+            return self._load(self._read(opening) if is_figure(opening.path) else opening)
 
         self.loading = self.worker.submit(load)
         self.loading.add_done_callback(lambda loading: self.calls.post(lambda: self._finish(loading, opening)))
+
+    def prepare(self, opening: Opening, then: Callable[[World], object]) -> None:
+        """Prepare a scene in the background, for when it is opened. One that has faults is left for then."""
+
+        def work() -> None:
+            try:
+                world, found = self._load(opening)
+            except Exception:
+                return
+            self.calls.post(lambda: keep(found, world))
+
+        def keep(found: Opening, world: World) -> None:
+            self.prepared.add(found, world)
+            then(world)
+
+        self.worker.submit(work)
+
+    @staticmethod
+    def _load(opening: Opening) -> tuple[World, Opening]:
+        """The scene of an opening, ready to be traced, and the opening with the content of its files."""
+        scene = tracer.load(opening.path, up=opening.up, changes=opening.changes)
+        home = opening.files.folder if opening.figure and opening.files else None
+        files = scene_files(scene, opening.lesson.path if opening.lesson else None, home)
+        return tracer.prepare(scene), replace(opening, files=files)
 
     def reload(self) -> None:
         """Load the last scene again, with its lesson."""
@@ -172,6 +160,8 @@ class SceneLoader:
             if found.path != opening.path:
                 self._follow(found)
             self.watch.follow_also(world.scene.files)
+            if found.lesson and not found.figure:
+                self.prepared.add(found, world)
             self.loaded(world, found)
 
     def _fail(self, faults: list[str], opening: Opening) -> None:

@@ -23,12 +23,12 @@ class FileWatch:
 
     def follow(self, path: Path) -> None:
         """Look at this file from now on, and at no other. Call it before the file is read."""
-        self.known = self.seen = {path: _stamp(path)}
+        self.known = self.seen = {path: stamp(path)}
         self.agreed, self.told = 0, False
 
     def follow_also(self, files: Iterable[Path]) -> None:
         """Look at these files, too: meshes, their materials and buffers. A file may be missing: it may come."""
-        more = {path: _stamp(path) for path in files if path not in self.known}
+        more = {path: stamp(path) for path in files if path not in self.known}
         self.known, self.seen, self.agreed = {**self.known, **more}, {**self.seen, **more}, 0
 
     def changed(self) -> bool:
@@ -37,7 +37,7 @@ class FileWatch:
         if now - self.last < PERIOD or not self.known:
             return False
         self.last = now
-        stamps = {path: _stamp(path) for path in self.known}
+        stamps = {path: stamp(path) for path in self.known}
         self.agreed = self.agreed + 1 if stamps == self.seen else 1
         self.seen = stamps
         replaced = any(stamps[path] is None and stamp is not None for path, stamp in self.known.items())
@@ -55,7 +55,8 @@ class FileWatch:
         return gone[0]
 
 
-def _stamp(path: Path) -> Stamp:
+def stamp(path: Path) -> Stamp:
+    """The time of change and the size of a file."""
     try:
         found = path.stat()
     except OSError:

@@ -1,0 +1,1 @@
+"""Opening scenes: what to open, loading it in the background, and following its files."""

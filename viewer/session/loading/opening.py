@@ -1,0 +1,53 @@
+"""What to open: a scene, perhaps a step of a lesson, and the state of its view."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from viewer.lessons.lesson import Lesson
+from viewer.lessons.moments import Moment
+from viewer.lessons.step import Step
+from viewer.reopen.scene_files import SceneFiles
+from viewer.reopen.view_state import UNCHANGED, ViewState
+
+
+@dataclass(frozen=True)
+class Opening:
+    """A scene to open, and the state of its view; what is None there is the lesson's or the scene's own."""
+
+    path: Path  # of the scene; of a figure until it is read
+    lesson: Lesson | None = None
+    state: ViewState = UNCHANGED
+    is_return: bool = False  # to a place that was looked at before
+    shows_stage: bool = False  # of the reveal of the lesson's step, after the presses that the state says
+    sets_view: bool = False  # the state is taken over even if the scene is on show already
+    figure: Path | None = None  # whose copy of the scene this is
+    files: SceneFiles | None = None  # the content of the scene's files, when it is loaded
+    note: str = ""  # a notice for when it is shown
+    instead: "Opening | None" = None  # what to open if this cannot be loaded; its note is followed by the reason
+
+    @property
+    def up(self) -> str:
+        """The axis of a mesh file that points upwards."""
+        return self.state.up
+
+    @property
+    def step(self) -> Step | None:
+        """The step of the lesson."""
+        return self.lesson and self.lesson.step_at(self.moment.step)
+
+    @property
+    def moment(self) -> Moment:
+        """The place in the lesson."""
+        step, press = self.state.at or (1, 0)
+        return Moment(step - 1, press)
+
+    @property
+    def changes(self) -> Mapping[str, Any]:
+        """The values of the scene that the step replaces."""
+        return self.step.state.set if self.step else {}
+
+    def is_of(self, other: "Opening") -> bool:
+        """Whether both open the same scene with the same values."""
+        return (self.path, self.up, self.changes) == (other.path, other.up, other.changes)
