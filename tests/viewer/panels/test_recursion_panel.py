@@ -29,7 +29,7 @@ def begin(driver: Driver) -> None:
     driver.session.requests.append(Request.SHOW_RECURSION)
     driver.frames(4)
     driver.type("o")
-    driver.press(Key.page_down)
+    driver.press(Key.mod_ctrl, Key.page_down)
     driver.session.recursion.wait()
     driver.frames()
 
@@ -130,8 +130,8 @@ def test_the_page_says_where_it_differs_from_the_kernel(glass: Driver) -> None:
     begin(glass)
     session = glass.session
     assert session.recursion.recording and "epsilon" in session.recursion.recording.note
-    glass.press(Key.page_down)
-    glass.press(Key.page_down)
+    glass.press(Key.mod_ctrl, Key.page_down)
+    glass.press(Key.mod_ctrl, Key.page_down)
     assert session.recursion.moment is None and session.step  # the tree goes on, the page shows no line
     glass.press(Key.mod_shift, Key.page_up)
     assert session.recursion.moment == 0  # back to the last line that there is

@@ -69,7 +69,7 @@ def test_a_coordinate_is_typed_over_the_old_one_and_other_keys_leave_the_field(d
     for name, acted in (
         ("b", lambda: session.is_blank),
         ("period", lambda: session.is_blank),
-        ("Next", lambda: session.reveal.position == 0),
+        ("ctrl+Next", lambda: session.reveal.position == 0),
         ("Tab", lambda: session.appearance.is_lecture_size),
         ("alt+Left", lambda: session.pixel != (305, row)),
         ("t", lambda: not session.appearance.theme.dark),
@@ -167,23 +167,23 @@ def test_a_remote_reveals_the_tree(desk: Desk) -> None:
     assert session.tree
     expected = list(by_level(session.tree))
     for k, step in enumerate(expected):
-        hand("key", "Next")
+        hand("key", "ctrl+Next")
         desk.until(lambda k=k: reveal.position == k, "the next step")
         assert session.step == step
     for k in range(len(expected) - 2, -1, -1):
-        hand("key", "Prior")
+        hand("key", "ctrl+Prior")
         desk.until(lambda k=k: reveal.position == k, "the step before")
         assert session.step == expected[k]
     hand("key", "End")
     desk.until(lambda: session.step == expected[-1], "the last step")
-    hand("key", "Home")
+    hand("key", "ctrl+Home")
     desk.until(lambda: session.step == expected[0], "the first step")
     for start in ("F5", "space"):
         hand("key", start)
         desk.until(lambda: reveal.is_playing and reveal.position == 2, f"the animation after {start}")
         hand("key", start)
         desk.until(lambda: not reveal.is_playing, f"the pause after {start}")
-        hand("key", "Home")
+        hand("key", "ctrl+Home")
         desk.until(lambda: reveal.position == 0, "the first step")
     assert (session.pixel, session.selection, session.depth) == shown
     hand("key", "Escape")
@@ -204,7 +204,7 @@ def test_shift_and_page_down_go_line_by_line(desk: Desk) -> None:
     hand("key", "shift+Prior", "shift+Prior")
     desk.until(lambda: lines.moment == 1, "two lines back")
     assert session.reveal.position == 0
-    hand("key", "Next", "Next")
+    hand("key", "ctrl+Next", "ctrl+Next")
     desk.until(lambda: session.reveal.position == 2, "a step of the tree")
     recording = lines.recording
     assert recording and session.step and lines.moment == recording.find(max(session.step.current), False)
