@@ -4,7 +4,6 @@ from tracer.choices import MODELS
 from viewer.base.files import Unusable
 from viewer.base.orbit import Orbit
 from viewer.lessons import lesson as lessons
-from viewer.lessons.moments import Moment
 from viewer.session.history import Place
 from viewer.session.refinement import Strategy
 from viewer.session.session import Session
@@ -102,7 +101,7 @@ def open_lesson(session: Session, name: str) -> None:
     except Unusable as unusable:
         session.show_faults(list(unusable.faults))
         return
-    session.player.show(lesson, Moment())
+    session.loader.open(lesson.scene, lesson)
 
 
 def step_line(session: Session, by: int) -> None:

@@ -35,6 +35,7 @@ def test_json_has_every_field_and_reads_back_to_the_same_bits(tree: tracer.RayTr
         "format",
         "scene",
         "pixel",
+        "sample",
         "size",
         "depth",
         "model",

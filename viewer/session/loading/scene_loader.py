@@ -177,12 +177,14 @@ class SceneLoader:
 
 def with_lesson(state: ViewState, lesson: Lesson | None) -> ViewState:
     """The state, with what the lesson's step asks for where the state has nothing. Raises Unusable for a step that the
-    lesson does not have. Only a step that is asked for decides on the panels.
+    lesson does not have. Only a step that is asked for decides on how it is looked at.
     """
     if lesson is None:
         return state
     number = state.at[0] if state.at else 1
     if number > len(lesson.steps):
         raise Unusable(f"{shown_path(lesson.path)}: --at must be within 1 .. {len(lesson.steps)}, got {number}")
-    asked = view_of(lesson.steps[number - 1])
-    return merged(asked if state.at else replace(asked, panels=None), state)
+    step = lesson.steps[number - 1]
+    first = step.state
+    plain = ViewState(pixel=first.pixel, sample=first.sample, depth=first.depth, model=first.model)
+    return merged(view_of(step) if state.at else plain, state)
