@@ -69,7 +69,6 @@ def test_a_coordinate_is_typed_over_the_old_one_and_other_keys_leave_the_field(d
     for name, acted in (
         ("b", lambda: session.is_blank),
         ("period", lambda: session.is_blank),
-        ("ctrl+Next", lambda: session.reveal.position == 0),
         ("Tab", lambda: session.appearance.is_lecture_size),
         ("alt+Left", lambda: session.pixel != (305, row)),
         ("t", lambda: not session.appearance.theme.dark),
