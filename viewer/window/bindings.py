@@ -172,7 +172,8 @@ BINDINGS = (
     ),
     Binding(
         "Ctrl+Home, End", "the tree: first step, last step",
-        pressed={K.end: lambda s: s.reveal.last()}, ctrl={K.home: lambda s: s.reveal.first(), K.end: lambda s: s.reveal.last()},
+        pressed={K.end: lambda s: s.reveal.last()},
+        ctrl={K.home: lambda s: s.reveal.first(), K.end: lambda s: s.reveal.last()},
     ),
     Binding(
         "F5 or Space", "play the steps, pause", pressed=dict.fromkeys((K.f5, K.space), lambda s: s.reveal.toggle_play())
