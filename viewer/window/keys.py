@@ -47,8 +47,9 @@ def handle(session: Session) -> None:
             return
         internal.clear_active_id()
     if io.key_ctrl or io.key_super or just_released(CTRL):
-        _press([binding.ctrl for binding in BINDINGS], session, repeat=False)
-        return
+        acted = _press([binding.ctrl for binding in BINDINGS], session, repeat=False)
+        if acted or io.key_ctrl or io.key_super:
+            return
     if io.key_alt or just_released(ALT):
         acted = _press([binding.alt for binding in BINDINGS], session, repeat=False)
         if acted or io.key_alt:
