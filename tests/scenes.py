@@ -1,6 +1,7 @@
 """Small scenes whose results are known in advance."""
 
 import dataclasses
+import json
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -123,3 +124,34 @@ def cube_mesh(low: np.ndarray, high: np.ndarray) -> Mesh:
         (0, 6, 4),
     ]
     return Mesh(Geometry(np.array(places, float), np.array([*faces, (1, 5, 7), (1, 7, 3)])), "cube")
+
+
+NAMED = """
+format = 1
+title = NAME
+[image]
+width = 40
+height = 30
+[[light]]
+name = NAME
+position = [4, 6, 5]
+color = [1, 1, 1]
+[[material]]
+name = NAME
+diffuse = 0.5
+reflect = 0.6
+transmit = 0.6
+ior = 1.5
+checker = { color = [0.2, 0.2, 0.2] }
+[[object]]
+name = NAME
+shape = "sphere"
+center = [0, 0, 0]
+radius = 1
+material = NAME
+"""
+
+
+def named_scene(name: str) -> str:
+    """The text of a scene file in which the title, the light, the material and the object have this name."""
+    return NAMED.replace("NAME", json.dumps(name))

@@ -195,6 +195,12 @@ def nearest(name: Any, known: Iterable[str]) -> str:
     return f' (did you mean "{close[0]}"?)' if close else ""
 
 
+def hint(name: Any, known: Iterable[str]) -> str:
+    """The nearest of the known names, as `nearest`; if none is similar, all of them, like " (known: a, b)"."""
+    known = tuple(known)
+    return nearest(name, known) or f" (known: {', '.join(known) or 'none'})"
+
+
 def shown(value: Any) -> str:
     """A value as the author wrote it, shortened if it is long."""
     match value:
@@ -240,8 +246,7 @@ def read_fields(kind: type, table: Mapping[str, Any], faults: list[str], also: I
             except Refused as allowed:
                 faults.append(refusal(key, allowed, value))
         elif key not in known:
-            hint = nearest(key, known) or f" (known: {', '.join(known)})"
-            faults.append(f'unknown key "{key}"{hint}')
+            faults.append(f'unknown key "{key}"{hint(key, known)}')
     for name, field in rules.items():
         if name not in table and field.default is MISSING and field.default_factory is MISSING:
             faults.append(f"{name} is missing")

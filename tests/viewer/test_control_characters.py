@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import tracer
+from tests.scenes import named_scene
 from tests.viewer.cli.test_cli import raytree
 from tests.viewer.driver import Driver
 from tracer.measure.conditions import Moment
@@ -27,35 +28,11 @@ from viewer.window.menu import save_image
 EVIL = "a\x1b[2J\x07\x08\x7f\x9b31m\u202e\u2066\u200e\r\n\u2028\u2029\x85z"
 SHOWN = r"a\x1b[2J\x07\x08\x7f\x9b31m\u202e\u2066\u200e\r\n\u2028\u2029\x85z"
 FILE = "f\x1b[2J\n\u202e\udcff.toml"  # the last is a byte that is not UTF-8
-SCENE = """
-format = 1
-title = NAME
-[image]
-width = 40
-height = 30
-[[light]]
-name = NAME
-position = [4, 6, 5]
-color = [1, 1, 1]
-[[material]]
-name = NAME
-diffuse = 0.5
-reflect = 0.6
-transmit = 0.6
-ior = 1.5
-checker = { color = [0.2, 0.2, 0.2] }
-[[object]]
-name = NAME
-shape = "sphere"
-center = [0, 0, 0]
-radius = 1
-material = NAME
-"""
 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    (tmp_path / FILE).write_text(SCENE.replace("NAME", json.dumps(EVIL)), "utf-8")
+    (tmp_path / FILE).write_text(named_scene(EVIL), "utf-8")
     return tmp_path
 
 

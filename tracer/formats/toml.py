@@ -94,7 +94,7 @@ class Reader:
         self._format(document)
         for key in document:
             if key not in KEYS:
-                self.fault("", f'unknown key "{key}"{fields.nearest(key, KEYS) or known(KEYS)}')
+                self.fault("", f'unknown key "{key}"{fields.hint(key, KEYS)}')
         title = document.get("title", "")
         if not isinstance(title, str):
             self.fault("", fields.refusal("title", "a text", title))
@@ -210,8 +210,8 @@ class Reader:
         if name is None:
             return None if table.get("shape") == Mesh.name else NO_MATERIAL
         if not isinstance(name, str) or name not in materials:
-            hint = fields.nearest(name, materials) or known(materials)
-            self.fault(where, f"material must be the name of a [[material]], got {fields.shown(name)}{hint}")
+            got = f"{fields.shown(name)}{fields.hint(name, materials)}"
+            self.fault(where, f"material must be the name of a [[material]], got {got}")
             return None
         return materials[name] or NO_MATERIAL
 
@@ -255,7 +255,3 @@ class Reader:
         for fault in dict.fromkeys(fault for item in objects for fault in item.shape.faults()):
             self.fault(where, fault)
         return objects
-
-
-def known(names: Iterable[str]) -> str:
-    return f" (known: {', '.join(names) or 'none'})"

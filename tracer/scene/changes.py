@@ -21,7 +21,7 @@ def overridden(
     changed, faults = deepcopy(dict(document)), []
     for key, change in changes.items():
         if key not in (*tables, *lists):
-            faults.append(f'set: unknown key "{key}"{_hint(key, (*tables, *lists))}')
+            faults.append(f'set: unknown key "{key}"{fields.hint(key, (*tables, *lists))}')
         elif not isinstance(change, Mapping):
             faults.append(fields.refusal(f"set: {key}", "a table", change))
         elif key in tables:
@@ -42,14 +42,9 @@ def _change_list(key: str, entries: Any, change: Mapping[str, Any]) -> list[str]
             known.setdefault(str(entry.get("name", f"#{k}")), entry)
     for name, values in change.items():
         if name not in known:
-            faults.append(f'set: {key} must be the name of a [[{key}]], got "{name}"{_hint(name, known)}')
+            faults.append(f'set: {key} must be the name of a [[{key}]], got "{name}"{fields.hint(name, known)}')
         elif not isinstance(values, Mapping):
             faults.append(fields.refusal(f'set: {key} "{name}"', "a table", values))
         else:
             known[name].update(values)
     return faults
-
-
-def _hint(name: str, known: Iterable[str]) -> str:
-    known = tuple(known)
-    return fields.nearest(name, known) or f" (known: {', '.join(known) or 'none'})"

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from tracer.printable import printable, shown_path
-from viewer.base.files import Unusable, has_folder, is_there
 from viewer.base.streams import put
+from viewer.cli.loading import lesson_file
 from viewer.cli.options import LessonsOptions
 from viewer.cli.terminal import compile_once
 from viewer.lessons import lesson
@@ -22,7 +22,7 @@ def lessons(options: LessonsOptions) -> int:
     course = lesson.course()
     for name in lesson.names():
         mark = "" if name in course else "  (deeper)"
-        put(f"{name:14} {printable(lesson.read(name).title)}{mark}\n")
+        put(f"{name:14} {printable(lesson.read_title(name))}{mark}\n")
     return 0
 
 
@@ -31,7 +31,7 @@ def _check(name: str) -> int:
     from viewer.lessons.check import check
     from viewer.window.lesson_room import room_faults
 
-    path = _lesson_file(name)
+    path = lesson_file(Path(name)) or lesson.read(name).path
     compile_once()
     faults = check(path) + room_faults(path)
     for fault in faults:
@@ -39,17 +39,3 @@ def _check(name: str) -> int:
     if not faults:
         put(f"{shown_path(path)}: nothing is wrong\n")
     return int(bool(faults))
-
-
-def _lesson_file(name: str) -> Path:
-    """The lesson.md of a folder, of a file, or of a lesson of the program. Raises Unusable if there is none."""
-    path = Path(name)
-    if has_folder(path):
-        path = path / "lesson.md"
-    elif not is_there(path):
-        if path.suffix or len(path.parts) > 1:
-            raise Unusable(f"{shown_path(path)}: file not found")
-        return lesson.read(name).path
-    if not is_there(path):
-        raise Unusable(f"{shown_path(path)}: file not found")
-    return path

@@ -21,6 +21,8 @@ from viewer.reopen.view_state import UNCHANGED, ViewState, merged
 from viewer.session.loading.scene_loader import with_lesson
 from viewer.session.restore.figure_scene import FigureScene, FigureScenes
 
+LESSON_FILE = "lesson.md"
+
 
 def find(name: str, takes_figures: bool = False) -> tuple[Path, Lesson | None]:
     """The scene's file, and the lesson if a lesson was named. Unusable if there is neither, or for a figure unless the
@@ -29,17 +31,28 @@ def find(name: str, takes_figures: bool = False) -> tuple[Path, Lesson | None]:
     path = Path(name)
     if is_figure(path) and not takes_figures:
         raise Unusable(f"{name}: a figure is opened by raytree view, trace and export; a scene is {SCENE_HELP}")
-    if is_there(path / "lesson.md"):
-        found = lesson.read_file(path / "lesson.md")
+    if file := lesson_file(path):
+        found = lesson.read_file(file)
         return found.scene, found
-    if has_folder(path):
-        raise Unusable(f"{shown_path(path)}: a folder must have a file lesson.md, got none")
     if is_there(path) or path.suffix.lower() in (*READERS, *OTHER_MESHES, *CARRYING):
         return path, None
     if name not in lesson.names() and (path.suffix or len(path.parts) > 1):
         raise Unusable(f"{name}: a scene must be one of {', '.join(READERS)} or a lesson's name")
     found = lesson.read(name)
     return found.scene, found
+
+
+def lesson_file(path: Path) -> Path | None:
+    """The file of the lesson in a folder, or this file if it is one; None for other paths. Unusable for a folder
+    without a lesson.
+    """
+    if path.name == LESSON_FILE and is_there(path):
+        return path
+    if not has_folder(path):
+        return None
+    if not is_there(path / LESSON_FILE):
+        raise Unusable(f"{shown_path(path)}: a folder must have a file {LESSON_FILE}, got none")
+    return path / LESSON_FILE
 
 
 @contextlib.contextmanager
@@ -54,8 +67,7 @@ def found_scene(name: str, at: tuple[int, int] | None = None) -> Iterator[Figure
     try:
         found = figures.find(path) if is_figure(path) else FigureScene(path, lesson, UNCHANGED, path.parent)
         state = merged(found.state, ViewState(at=at))
-        found = replace(found, state=with_lesson(state, found.lesson))
-        yield replace(found, path=found.step.scene) if found.step else found
+        yield replace(found, state=with_lesson(state, found.lesson)).at_its_step()
     finally:
         figures.close()
 

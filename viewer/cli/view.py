@@ -78,7 +78,7 @@ def _opening(options: ViewOptions) -> Opening:
     if not is_there(path):  # a file that cannot be read is shown with its faults: perhaps it is being written
         raise Unusable(f"{shown_path(path)}: file not found")
     is_whole = options.depth is not None or options.page is not None  # as in a copied command line
-    return Opening(path, lesson, options.state, shows_stage=options.at is not None and not is_whole)
+    return Opening(path, lesson, options.state, shows_stage=options.at is not None and not is_whole).at_its_step()
 
 
 def _with_last_session(options: ViewOptions, folder: Path | None) -> tuple[LastSession | None, Opening]:
@@ -96,7 +96,8 @@ def _with_last_session(options: ViewOptions, folder: Path | None) -> tuple[LastS
     except Unusable as unusable:
         return last, replace(first, note=f"{NOT_RESTORED}{unusable.faults[0]}")
     instead = replace(first, note=NOT_RESTORED)
-    return last, replace(opening, state=merged(last.state, options.state), shows_stage=False, instead=instead)
+    again = replace(opening, state=merged(last.state, options.state), shows_stage=False, instead=instead)
+    return last, again.at_its_step()
 
 
 class TreeCheck:

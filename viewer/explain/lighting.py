@@ -21,7 +21,7 @@ def local_light(tree: RayTree, world: World, i: int, most: int = sys.maxsize) ->
     material = world.scene.objects[row["object"]].material
     section = Section("Local light", Lecture.LOCAL)
     color = hit_color(world, tree, i)
-    ambient = np.array(world.scene.tracing.ambient) * material.ambient * color
+    ambient = _ambient(world, material, color)
     section.add(Lecture.COLOR, format_rgb(color, 3))
     section.add(Lecture.COEFFICIENTS, "  ".join(format_number(x, 3) for x in _numbers(material)))
     section.add(f"ambient: A · {format_number(material.ambient)} · C", format_rgb(ambient, 4))
@@ -71,10 +71,9 @@ def one_light(tree: RayTree, world: World, i: int, j: int) -> Section:
         section.add(Lecture.FACES_AWAY, "the surface faces away from it: no light")
         return section
     section.add(Lecture.DIFFUSE, format_rgb(material.diffuse * n_l * color, 4))
-    highlight = material.specular * r_v**material.shininess if r_v > 0.0 else 0.0
     section.add(Lecture.MIRRORED, format_number(r_v))
     section.add(Lecture.EXPONENT, format_number(material.shininess))
-    section.add(Lecture.HIGHLIGHT, f"{highlight:.4f}")
+    section.add(Lecture.HIGHLIGHT, f"{_highlight(material, r_v):.4f}")
     section.add(
         "S: fraction that arrives", format_weight(tree.nodes["factor"][child], tree.nodes["factor_error"][child])
     )
@@ -95,12 +94,17 @@ def phong_terms(tree: RayTree, world: World, i: int, child: int) -> tuple[np.nda
     n_l, r_v = light_cosines(tree, i, child)
     arriving = np.array(world.scene.lights[tree.nodes["light"][child]].color) * tree.nodes["factor"][child]
     arriving = arriving * (n_l > 0.0 and tree.end(child) != "blocked")
-    ambient = np.array(world.scene.tracing.ambient) * material.ambient * color
-    return (
-        ambient,
-        arriving * material.diffuse * max(n_l, 0.0) * color,
-        (arriving * (material.specular * r_v**material.shininess if r_v > 0.0 else 0.0)),
-    )
+    diffuse = arriving * material.diffuse * max(n_l, 0.0) * color
+    return _ambient(world, material, color), diffuse, arriving * _highlight(material, r_v)
+
+
+def _ambient(world: World, material: Material, color: np.ndarray) -> np.ndarray:
+    return np.array(world.scene.tracing.ambient) * material.ambient * color
+
+
+def _highlight(material: Material, r_v: float) -> float:
+    """ks (R·V)^p, 0 on the side of the mirrored light that faces away."""
+    return material.specular * r_v**material.shininess if r_v > 0.0 else 0.0
 
 
 def light_cosines(tree: RayTree, i: int, child: int) -> tuple[float, float]:

@@ -44,7 +44,7 @@ def nearest_value(handle: Handle, point: Point) -> float:
 def ray_of(name: str, kinds: Sequence[str] = PICKED) -> int | None:
     """The row of the tree that a mark of one of these kinds belongs to, by its name; None for other marks."""
     kind, _, number = name.rpartition("-")
-    return int(number) if kind in kinds and number.isdecimal() else None
+    return row_of(name) if kind in kinds and number.isdecimal() else None
 
 
 def row_of(name: str | None) -> int | None:

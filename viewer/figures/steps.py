@@ -79,6 +79,11 @@ class Steps(Sequence[Step]):
         name = f"{self.letter}{k:0{len(str(len(self) - 1))}}"
         return Step(self.tree, frozenset(rows), frozenset(sums), current, name)
 
+    @cached_property
+    def count_reveals(self) -> int:
+        """How many of the changes add rays."""
+        return sum(not change.sums for change in self.changes)
+
     @property
     def _begin(self) -> int:
         """The number of the change after which the first page is."""

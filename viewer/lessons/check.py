@@ -135,8 +135,7 @@ class _Check:
             path, quantity = split_name(name)
             found = value_text(tree, step.state.hit, name)
             if found is None:
-                known = (*NAMES, *OF_TREE)
-                hint = fields.nearest(quantity, known) or f" (known: {', '.join(known)})"
+                hint = fields.hint(quantity, (*NAMES, *OF_TREE))
                 yield Fault(f'{{{name}}}: unknown value "{quantity}"{hint}', line)
             elif path and tree.find(path) is None:
                 yield Fault(f"{{{name}}}: this pixel has no ray {path} ({_paths(tree)})", line)

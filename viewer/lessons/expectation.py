@@ -44,7 +44,7 @@ def _entries(expected: Mapping[str, Any], path: str = "") -> Iterator[tuple[str,
 def _fault(key: str, path: str, name: str, value: Any, tree: RayTree, hit: str | None) -> str:
     """What is wrong; empty if nothing is."""
     if name not in NAMES:
-        return f'unknown name "{name}"{fields.nearest(name, NAMES) or " (known: " + ", ".join(NAMES) + ")"}'
+        return f'unknown name "{name}"{fields.hint(name, NAMES)}'
     row = row_named(tree, path or None, hit)
     if row is None:
         known = ", ".join(tree.path(i) for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW)

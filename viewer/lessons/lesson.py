@@ -28,6 +28,8 @@ from viewer.base.files import Unusable, is_there
 from viewer.lessons.reader import MARK, Source, read_head, read_steps, split
 from viewer.lessons.step import Step
 
+FIRST_LINE = 2  # of a lesson's data
+
 
 @dataclass(frozen=True)
 class Lesson:
@@ -59,34 +61,63 @@ def folder() -> Path:
 
 def names() -> list[str]:
     """All lessons: those of the course in their order, then the deeper ones by name."""
-    return [*course(), *deeper()]
+    found = {path.parent.name for path in folder().glob("*/lesson.md")}
+    ordered = _order()
+    return [*(name for name in ordered if name in found), *sorted(found.difference(ordered))]
 
 
 def course() -> list[str]:
-    """The lessons of the file ORDER, which make a course."""
-    found = _found()
-    return [name for name in (folder() / "ORDER").read_text("utf-8").split() if name in found]
+    """The lessons of the file ORDER, which make a course. The others are deeper ones."""
+    ordered = _order()
+    return [name for name in names() if name in ordered]
 
 
-def deeper() -> list[str]:
-    """The lessons beside the course."""
-    return sorted(_found().difference(course()))
-
-
-def _found() -> set[str]:
-    return {path.parent.name for path in folder().glob("*/lesson.md")}
+def _order() -> list[str]:
+    return (folder() / "ORDER").read_text("utf-8").split()
 
 
 def read(name: str) -> Lesson:
     """Read one lesson by name. Raises Unusable with all faults of its file."""
+    return read_file(_path(name))
+
+
+def _path(name: str) -> Path:
+    """The file of a lesson of the program. Raises Unusable if there is none."""
     path = folder() / name / "lesson.md"
     if not is_there(path):
         raise Unusable(f'no lesson "{name}"{fields.nearest(name, names())} (known: {", ".join(names())})')
-    return read_file(path)
+    return path
+
+
+def read_title(name: str) -> str:
+    """The title of a lesson, without reading its steps. Raises Unusable as `read`."""
+    place, head, _ = _split_file(_path(name))
+    source = Source(Path())
+    data = read_head(source, head, FIRST_LINE)
+    _check(source, place)
+    return data.title
 
 
 def read_file(path: Path) -> Lesson:
     """Read a lesson from any file. Raises Unusable with all its faults, each with its line."""
+    place, head, body = _split_file(path)
+    source = Source(path.parent)
+    data = read_head(source, head, FIRST_LINE)
+    steps = read_steps(source, data.state, split(body, head.count("\n") + FIRST_LINE + 1))
+    _check(source, place)
+    return Lesson(
+        path.absolute().parent.name, data.title, path, data.question, data.minutes, data.objectives, tuple(steps)
+    )
+
+
+def _check(source: Source, place: str) -> None:
+    """Raise Unusable if there are faults."""
+    if source.faults:
+        raise Unusable(*(fault.within(place) for fault in source.faults))
+
+
+def _split_file(path: Path) -> tuple[str, str, str]:
+    """(the file's name for messages, the lesson's data, its text). Raises Unusable."""
     place = shown_path(path)
     try:
         text = _text(path)
@@ -99,15 +130,7 @@ def read_file(path: Path) -> Lesson:
         raise Unusable(f"{place}: cannot be read: {error.strerror}") from None
     except Fault as fault:
         raise Unusable(fault.within(place)) from None
-    source = Source(path.parent)
-    data = read_head(source, head, 2)
-    sections = split(body, head.count("\n") + 3)
-    steps = read_steps(source, data.state, sections)
-    if source.faults:
-        raise Unusable(*(fault.within(place) for fault in source.faults))
-    return Lesson(
-        path.absolute().parent.name, data.title, path, data.question, data.minutes, data.objectives, tuple(steps)
-    )
+    return place, head, body
 
 
 def _text(path: Path) -> str:

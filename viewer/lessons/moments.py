@@ -1,6 +1,6 @@
 """The moments of a lesson: each press of a key leads to the next one.
 
-In a step, the stages of its reveal come first, then the end of its sweep, then its hidden parts, one by one.
+In a step, the stages of its reveal come first, then its hidden parts, one by one.
 """
 
 from dataclasses import dataclass
@@ -20,24 +20,21 @@ class Moment:
 
 @dataclass(frozen=True)
 class Shown:
-    """What is shown of a step: how many of its parts, the stage of its reveal, and the share of its sweep."""
+    """What is shown of a step: how many of its parts, and the stage of its reveal."""
 
     parts: int = 1
     stage: int = 0
-    share: float = 0.0
 
 
 def count_presses(step: Step, stages: int) -> int:
     """The presses inside a step whose reveal has so many stages (1: it has none)."""
-    return stages - 1 + (step.state.sweep is not None) + len(step.parts) - 1
+    return stages - 1 + len(step.parts) - 1
 
 
 def shown_at(step: Step, stages: int, press: int) -> Shown:
     """What is shown after so many presses."""
     stage = min(press, stages - 1)
-    sweeps = step.state.sweep is not None and press >= stages
-    parts = 1 + max(0, press - (stages - 1) - (step.state.sweep is not None))
-    return Shown(min(parts, len(step.parts)), stage, float(sweeps))
+    return Shown(min(1 + press - stage, len(step.parts)), stage)
 
 
 def view_of(step: Step) -> ViewState:
@@ -55,5 +52,5 @@ def view_of(step: Step) -> ViewState:
         camera=(view.azimuth, view.elevation, view.distance, *(view.target or ())),
         filter=state.show,
         hide=(),
-        panels=("lesson", *state.panels) if state.panels else None,
+        beside=state.panels or None,
     )

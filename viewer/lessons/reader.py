@@ -173,8 +173,7 @@ def _state(
             values = fields.read_fields(State, {key: value}, faults)
             base = replace(base, **values)
         else:
-            known = (*also, *allowed)
-            faults.append(f'unknown key "{key}"{fields.nearest(key, known) or " (known: " + ", ".join(known) + ")"}')
+            faults.append(f'unknown key "{key}"{fields.hint(key, (*also, *allowed))}')
         found += [(key, fault) for fault in faults]
     lines = lines_of(text, first_line)
     for key, fault in found:

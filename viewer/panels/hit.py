@@ -12,17 +12,17 @@ from viewer.base.theme import PANEL_TEXT
 from viewer.explain.ray import headline
 from viewer.explain.turned import turned
 from viewer.figures.figure.hit import hit_marks
-from viewer.figures.marks import Handle, Mark, Point, with_line_width
-from viewer.figures.picking import handle_at, mark_at, nearest_value, row_of
+from viewer.figures.marks import Mark, Point, with_line_width
+from viewer.figures.picking import mark_at, row_of
 from viewer.figures.steps import Step
 from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d
+from viewer.panels.handles import drag
 from viewer.panels.panel import Panel
 from viewer.session.session import Session
 
 REACH = 6.0  # logical pixels from the mouse to a ray
-HANDLE_REACH = 11.0  # logical pixels from the mouse to the middle of a handle
 DIGITS = 1  # of the angle in degrees
 THICKER = 1.6  # factor of the line widths of the ray under the mouse
 
@@ -64,22 +64,16 @@ def draw(session: Session, canvas: Canvas) -> None:
 
 def _drag(session: Session, marks: list[Mark], at: Point) -> bool:
     """Turn the ray with its handle. Returns whether the mouse is over the handle, or drags it."""
-    over = handle_at(marks, at, HANDLE_REACH)
-    if imgui.is_item_activated():
-        session.holds_handle = over is not None
-    is_held = imgui.is_item_active() and session.holds_handle
-    handle = next((mark for mark in marks if isinstance(mark, Handle)), None)
-    if is_held and handle and imgui.is_mouse_dragging(imgui.MouseButton_.left):
+    dragging = drag(session, marks, at)
+    if dragging.moved:
         if session.turn is None:
             session.notice.say("turned by hand; a double click brings back the traced ray")
-        session.turn = round(nearest_value(handle, at), DIGITS)
-    if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
+        session.turn = round(dragging.moved[1], DIGITS)
+    if dragging.is_put_back:
         session.turn_back()
-    if over and imgui.is_item_hovered():
-        imgui.set_mouse_cursor(imgui.MouseCursor_.hand)
-        if session.turn is None and not is_held:
-            imgui.set_tooltip(over.title)
-    return is_held or bool(over)
+    if dragging.over and imgui.is_item_hovered() and session.turn is None and not dragging.is_held:
+        imgui.set_tooltip(dragging.over.title)
+    return dragging.is_held or bool(dragging.over)
 
 
 def shown_row(tree: RayTree, row: int) -> int | None:

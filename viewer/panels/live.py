@@ -3,19 +3,18 @@
 from imgui_bundle import imgui
 
 from viewer.base.theme import PANEL_TEXT
-from viewer.figures.marks import Handle, Mark, Point
-from viewer.figures.picking import handle_at, nearest_value
+from viewer.figures.marks import Mark, Point
 from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
 from viewer.lessons.text import Fence
 from viewer.panels import draw as d
+from viewer.panels.handles import drag
 from viewer.session.session import Session
 
 LEAST = (320.0, 220.0)  # points: the smallest room of a piece
 ASPECT = 0.8  # its height, at most, in widths
-HANDLE_REACH = 11.0  # points from the mouse to the middle of a handle
 
 
 def draw_piece(session: Session, canvas: Canvas, fence: Fence, corner: Point, width: float, height: float) -> float:
@@ -55,14 +54,8 @@ def _marks(session: Session, canvas: Canvas, fence: Fence, size: tuple[int, int]
 
 def _drag(session: Session, marks: list[Mark], at: Point) -> None:
     """Move a parameter with its handle."""
-    player, over = session.player, handle_at(marks, at, HANDLE_REACH)
-    if imgui.is_item_activated():
-        player.held = over.name if over else None
-    if over and imgui.is_item_hovered():
-        imgui.set_mouse_cursor(imgui.MouseCursor_.hand)
-    if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
-        player.parameters = {}
-    elif imgui.is_item_active() and player.held and imgui.is_mouse_dragging(imgui.MouseButton_.left, 0.0):
-        handle = next((mark for mark in marks if isinstance(mark, Handle) and mark.name == player.held), None)
-        if handle:
-            player.parameters = {**player.parameters, handle.name: nearest_value(handle, at)}
+    dragging = drag(session, marks, at, threshold=0.0)
+    if dragging.is_put_back:
+        session.player.parameters = {}
+    elif dragging.moved:
+        session.player.parameters = {**session.player.parameters, **dict([dragging.moved])}

@@ -18,15 +18,18 @@ from viewer.figures.writers.imgui_formula import draw_formula
 from viewer.lessons import text
 from viewer.lessons.text import Block, Fence, Inline, InlineFormula, Items, Paragraph, Quote, Run, Table
 from viewer.panels import draw as d
+from viewer.panels.card import Card
 
 # In font sizes.
 LINE = 1.28  # from line to line
 BETWEEN = 0.62  # two blocks
 INDENT = 1.35  # of lists and quotes
 HEADING = 1.12  # size of a heading inside a step
-DISPLAY = 1.3 * EM  # a formula in a line of its own
 INLINE = 1.08 * EM  # a formula in a line
 COLUMN = 1.4  # between columns of a table
+SPACE = 0.27  # between two words
+
+BREAK = "\n"  # in the text of a run: a new line
 
 
 @dataclass(frozen=True)
@@ -112,7 +115,7 @@ class TextFlow:
     def _table(self, block: Table) -> None:
         cells = [[list(self._pieces(cell, self.em)) for cell in row] for row in block.rows]
         gap = COLUMN * self.em
-        widths = [max(_length(row[k]) for row in cells) for k in range(len(cells[0]))] if cells else []
+        widths = [max(_length(row[k], self.em) for row in cells) for k in range(len(cells[0]))] if cells else []
         over = (self.width - gap * (len(widths) - 1)) / max(sum(widths), 1.0)
         lefts = [sum(min(1.0, over) * width + gap for width in widths[:k]) for k in range(len(widths))]
         for number, row in enumerate(cells):
@@ -125,19 +128,14 @@ class TextFlow:
                 self.y += 0.2 * self.em
 
     def _display(self, source: str) -> None:
-        """A formula in a line of its own, smaller if it is wider than the column; as text if it cannot be typeset."""
+        """A formula in lines of its own; as code if it cannot be typeset."""
+        card = Card(self.colors.theme, self.x, self.y, self.width)
         try:
-            left, top, right, bottom = typeset(source).box
+            card.formula(source)
         except FormulaError:
             self._code(source)
-            return
-        size = DISPLAY * self.em * min(1.0, self.width / (DISPLAY * self.em * (right - left)))
-        baseline = self.y + size * -top + 0.1 * self.em
-        mark = Formula(
-            "text", joined(source), (self.x + 0.4 * self.em, baseline), size, self.colors.theme.text, "start"
-        )
-        draw_formula(self.pad, mark, (0.0, 0.0), 1.0)
-        self.y = baseline + size * bottom + 0.1 * self.em
+        else:
+            self.y = card.y
 
     def _code(self, content: str) -> None:
         font, size = d.font(d.SOURCE), 0.94 * self.em
@@ -161,22 +159,24 @@ class TextFlow:
         """A paragraph, wrapped to the width."""
         pixels = round(size * self.em)
         line: list[Piece] = []
-        space, right = 0.27 * pixels, 0.0
+        space, right = SPACE * pixels, 0.0
         for word in _words(self._pieces(content, pixels)):
             wide = sum(piece.width for piece in word)
             lead = space if line and word[0].spaced else 0.0
-            if line and (right + lead + wide > self.width or word[0].content == "\n"):
+            is_break = word[0].content == BREAK
+            if line and (right + lead + wide > self.width or is_break):
                 self._line(line, self.x, pixels, color)
                 self.y += LINE * pixels
                 line, right, lead = [], 0.0, 0.0
-            line += word
-            right += lead + wide
+            if not is_break:
+                line += word
+                right += lead + wide
         self._line(line, self.x, pixels, color)
         self.y += LINE * pixels
 
     def _line(self, pieces: Sequence[Piece], x: float, size: float, color: Color | None = None) -> None:
         for k, piece in enumerate(pieces):
-            x += 0.27 * size if k and piece.spaced else 0.0
+            x += SPACE * size if k and piece.spaced else 0.0
             self._put(piece, x, self.y, size, color)
             x += piece.width
 
@@ -188,7 +188,7 @@ class TextFlow:
                 yield self._formula_piece(item, size, spaced)
                 spaced = False
                 continue
-            words = item.text.split(" ")
+            words = item.text.replace(BREAK, f" {BREAK} ").split(" ")
             for k, word in enumerate(words):
                 spaced = spaced or k > 0
                 if word:
@@ -258,5 +258,6 @@ def _words(pieces: Iterator[Piece]) -> Iterator[list[Piece]]:
         yield word
 
 
-def _length(pieces: Sequence[Piece]) -> float:
-    return sum(piece.width + (8.0 if piece.spaced else 0.0) for piece in pieces)
+def _length(pieces: Sequence[Piece], size: float) -> float:
+    """The width of a line in pixels."""
+    return sum(piece.width + (SPACE * size if k and piece.spaced else 0.0) for k, piece in enumerate(pieces))

@@ -76,6 +76,9 @@ class ViewState:
     panels: tuple[str, ...] | None = option(
         some_of(PANEL_NAMES, "PANELS"), f"show these panels; a single one has all of the room: {','.join(PANEL_NAMES)}"
     )
+    beside: tuple[str, ...] | None = option(
+        some_of(PANEL_NAMES, "PANELS"), "show the text of the lesson, and beside it these panels, at most three"
+    )
     borders: tuple[float, float, float] | None = option(
         SHARES, "shares of the left column, and of the upper panel in the left and in the right column"
     )

@@ -79,20 +79,21 @@ class ImageRenderer:
 
     def show(self, world: World, limits: Limits, size: tuple[int, int]) -> None:
         """Show this image: at once if it is kept, otherwise as it renders. The image in progress is dropped."""
-        key = (world, limits, size)
+        job = (world, limits, size)
         self.pause()
-        if key in self.kept:
-            self.kept.move_to_end(key)
-            self.picture = self.kept[key]
+        if job in self.kept:
+            self.kept.move_to_end(job)
+            self.picture = self.kept[job]
             return
         with self.lock:
             aside, self.aside = self.aside, None
-            if aside and aside[0] == key:
+            if aside and aside[0] == job:
                 _, self.picture, self.running = aside
                 return
             if aside:
                 aside[1].cancelled.set()
-            self._start(key)
+            self.picture = _new_picture(job, self.picture)
+            self.running = self.runner.submit(self._render, self.picture, job)
 
     def prepare(self, jobs: Iterable[Job]) -> None:
         """Render these images when no other is, so that they are kept when they are to be shown."""
@@ -104,25 +105,10 @@ class ImageRenderer:
         """Start the next image that is rendered ahead. Called in the runner's thread."""
         with self.lock:
             while self.ahead and self.aside is None:
-                key = self.ahead.popleft()
-                if key not in self.kept:
-                    world, limits, (width, height) = key
-                    shown = np.full((height, width, 4), BLACK, np.uint8)
-                    picture = Picture(
-                        shown, np.zeros((height, width, 3)), world.scene.image.samples, max_nodes=limits.max_nodes
-                    )
-                    self.aside = (key, picture, self.runner.submit(self._render, picture, world, limits, key))
-
-    def _start(self, key: Job) -> None:
-        """Show an image as it renders."""
-        world, limits, (width, height) = key
-        # Until its first tiles are there, the image before is shown: a black one would flash.
-        before = self.picture.shown if self.picture else np.zeros(0)
-        shown = before.copy() if before.shape == (height, width, 4) else np.full((height, width, 4), BLACK, np.uint8)
-        samples = world.scene.image.samples
-        picture = Picture(shown, np.zeros((height, width, 3)), samples, max_nodes=limits.max_nodes)
-        self.picture = picture
-        self.running = self.runner.submit(self._render, picture, world, limits, key)
+                job = self.ahead.popleft()
+                if job not in self.kept:
+                    picture = _new_picture(job, None)
+                    self.aside = (job, picture, self.runner.submit(self._render, picture, job))
 
     def refine(self, image: ProgressiveImage, picture: Picture, noted: Callable[[RoundStats | None], None]) -> None:
         """Continue an image that converges, and show it, until it is paused or another image is shown.
@@ -149,8 +135,8 @@ class ImageRenderer:
             if self.aside and self.aside[0][0] not in keeping:
                 self.aside[1].cancelled.set()
                 self.aside = None
-            for key in [key for key in self.kept if key[0] not in keeping]:
-                del self.kept[key]
+            for job in [job for job in self.kept if job[0] not in keeping]:
+                del self.kept[job]
 
     def wait(self) -> None:
         """Wait until the shown image is finished, unless it is endless."""
@@ -162,12 +148,12 @@ class ImageRenderer:
         self.runner.shutdown()
         self.pool.shutdown()
 
-    def _render(self, picture: Picture, world: World, limits: Limits, key: Job) -> None:
+    def _render(self, picture: Picture, job: Job) -> None:
+        world, limits, (width, height) = job
         pixels = picture.pixels
         if picture.cancelled.is_set():
             return
         began = time.perf_counter()
-        height, width, _ = pixels.shape
         stages = [(PIXEL_CENTER, make_passes(width, height, COARSE_TO_FINE))]
         if picture.samples > 1:
             stages.append((make_samples(picture.samples), make_passes(width, height, side=SIDE)))
@@ -191,7 +177,7 @@ class ImageRenderer:
         except Stopped:
             return
         if not picture.cancelled.is_set():
-            self.kept[key] = picture
+            self.kept[job] = picture
             while len(self.kept) > MAX_KEPT:
                 self.kept.popitem(last=False)
             self.finished()
@@ -232,6 +218,16 @@ class ImageRenderer:
         if picture.cancelled is cancelled:  # otherwise it has been continued since
             picture.share = 1.0
             self.finished()
+
+
+def _new_picture(job: Job, before: Picture | None) -> Picture:
+    """An image to be rendered. Until its first tiles are there, the image before is shown: a black one would flash."""
+    world, limits, (width, height) = job
+    if before and before.shown.shape == (height, width, 4):
+        shown = before.shown.copy()
+    else:
+        shown = np.full((height, width, 4), BLACK, np.uint8)
+    return Picture(shown, np.zeros((height, width, 3)), world.scene.image.samples, max_nodes=limits.max_nodes)
 
 
 def _show(picture: Picture, tile: Tile, linear: np.ndarray) -> None:

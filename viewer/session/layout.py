@@ -89,9 +89,7 @@ class Layout:
     desk: Arrangement = field(default_factory=at_the_desk)
     lecture: Arrangement = field(default_factory=in_a_lecture)
     lesson: Arrangement = field(default_factory=while_taught)
-    taught: tuple[
-        str, ...
-    ] = ()  # the panels of a lesson's step, which stand beside its text; empty: no lesson is given
+    taught: tuple[str, ...] = ()  # the panels beside the text of a lesson; empty: no lesson is given
     maximised: str | None = None  # its name
     on_show: set[Corner] = field(default_factory=set)  # places of the last frame
     papers: dict[str, tuple[int, int]] = field(default_factory=dict)  # sizes of the figures in panels, in points
@@ -154,11 +152,9 @@ class Layout:
         return had_one
 
     def shown(self, is_lecture: bool) -> tuple[str, ...]:
-        """The names of the panels on show."""
+        """The names of the panels on show, if no lesson is given."""
         if self.maximised:
             return (self.maximised,)
-        if self.taught:
-            return (LESSON, *(self.lesson.front.get(self._place_beside(name), name) for name in self.taught))
         arrangement, found = self.current(is_lecture), {}
         for name in PLACES:
             place = self.place_in(name, is_lecture)
@@ -167,12 +163,7 @@ class Layout:
         return tuple(found.values())
 
     def show(self, names: Sequence[str], is_lecture: bool) -> None:
-        """Show these panels and no others; a single one has all of the room. If the lesson is the first, the others
-        stand beside its text.
-        """
-        if names[0] == LESSON and len(names) > 1:
-            self.teach(names[1:])
-            return
+        """Show these panels and no others; a single one has all of the room."""
         self.taught = ()
         self.maximised = names[0] if len(names) == 1 else None
         if not self.maximised:
@@ -183,6 +174,12 @@ class Layout:
             arrangement.front |= front
             if BESIDE_TREE not in names or not is_lecture:
                 arrangement.closed = set(Corner) - set(front)
+
+    def beside(self) -> tuple[str, ...]:
+        """The names of the panels on show beside the text of a lesson; none if no lesson is given."""
+        if self.maximised:
+            return ()
+        return tuple(self.lesson.front.get(self._place_beside(name), name) for name in self.taught)
 
     def borders(self, is_lecture: bool) -> tuple[float, float, float]:
         """The shares of the left column, and of the upper place in each column."""

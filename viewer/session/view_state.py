@@ -155,7 +155,7 @@ class Looks:
     is_blank: bool = False  # the window is black
     scroll: int = 0  # lines by which the texts are to be scrolled
     hovered: int | None = None  # the row of the tree under the mouse, in any view
-    holds_handle: bool = False  # whether the mouse button went down on the handle of the hit
+    held_handle: str | None = None  # the name of the handle on which the mouse button went down
 
     def turn_back(self) -> None:
         """Show the selected hit as it was traced."""

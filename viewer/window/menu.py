@@ -94,7 +94,7 @@ def _lessons_menu(session: Session) -> None:
 
 def _lesson_item(session: Session, name: str) -> None:
     try:
-        title = printable(lessons.read(name).title)
+        title = printable(lessons.read_title(name))
     except Unusable:
         title = name
     on = session.lesson is not None and session.lesson.name == name

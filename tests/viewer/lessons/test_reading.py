@@ -76,7 +76,7 @@ def plain(blocks: tuple) -> str:
 
 
 def test_steps_have_absolute_states(made) -> None:
-    """What a step leaves out is that of the step before, except for what is about its own rays."""
+    """A step inherits the fields that it leaves out, except for those about its own rays."""
     first, second = made(BODY).steps
     assert first.state == State(
         set={"material": {"pool tiles": {"ior": 1.5}}}, pixel=(3, 4), depth=2, panels=("scene", "hit"), hit="T",

@@ -44,7 +44,6 @@ class LessonPlayer:
     def __init__(self, session: Taught) -> None:
         self.session = session
         self.parameters: dict[str, float] = {}  # of the live pieces, by the names of their handles
-        self.held: str | None = None  # the handle on which the mouse button went down
         self.lines_too_many = 0  # of the step's text in its panel, when it was drawn last
         self.is_due = False  # whether the stage is to be shown as soon as there is a tree
 
@@ -90,8 +89,9 @@ class LessonPlayer:
         steps = self.session.reveal.steps
         if not steps or not self.step:
             return range(1)
-        revealed = sum(not change.sums for change in steps.changes)
-        return range(revealed - 1, len(steps)) if self.step.state.reveal == COLOUR else range(revealed)
+        if self.step.state.reveal == COLOUR:
+            return range(steps.count_reveals - 1, len(steps))
+        return range(steps.count_reveals)
 
     # --- going on -----------------------------------------------------------------------------------------------------
 
@@ -108,11 +108,6 @@ class LessonPlayer:
         else:
             self._go_to_lesson(lesson, by)
         return True
-
-    def go_to_step(self, number: int) -> None:
-        """Go to the beginning of a step."""
-        if self.lesson:
-            self.show(self.lesson, Moment(number))
 
     def come_back(self) -> bool:
         """Show the moment as it was, after wandering off. Returns False if no lesson is on show."""

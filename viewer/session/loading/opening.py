@@ -1,9 +1,9 @@
 """What to open: a scene, perhaps a step of a lesson, and the state of its view."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from viewer.lessons.lesson import Lesson
 from viewer.lessons.moments import Moment
@@ -12,8 +12,36 @@ from viewer.reopen.scene_files import SceneFiles
 from viewer.reopen.view_state import UNCHANGED, ViewState
 
 
+class InLesson:
+    """A scene that may belong to a lesson, and what follows from the place in it that the state has."""
+
+    path: Path
+    lesson: Lesson | None
+    state: ViewState
+
+    @property
+    def moment(self) -> Moment:
+        """The place in the lesson."""
+        step, press = self.state.at or (1, 0)
+        return Moment(step - 1, press)
+
+    @property
+    def step(self) -> Step | None:
+        """The step of the lesson."""
+        return self.lesson and self.lesson.step_at(self.moment.step)
+
+    @property
+    def changes(self) -> Mapping[str, Any]:
+        """The values of the scene that the step replaces."""
+        return self.step.state.set if self.step else {}
+
+    def at_its_step(self) -> Self:
+        """The same, with the scene of the lesson's step."""
+        return replace(self, path=self.step.scene) if self.step else self  # type: ignore[type-var]
+
+
 @dataclass(frozen=True)
-class Opening:
+class Opening(InLesson):
     """A scene to open, and the state of its view; what is None there is the lesson's or the scene's own."""
 
     path: Path  # of the scene; of a figure until it is read
@@ -32,22 +60,6 @@ class Opening:
         """The axis of a mesh file that points upwards."""
         return self.state.up
 
-    @property
-    def step(self) -> Step | None:
-        """The step of the lesson."""
-        return self.lesson and self.lesson.step_at(self.moment.step)
-
-    @property
-    def moment(self) -> Moment:
-        """The place in the lesson."""
-        step, press = self.state.at or (1, 0)
-        return Moment(step - 1, press)
-
-    @property
-    def changes(self) -> Mapping[str, Any]:
-        """The values of the scene that the step replaces."""
-        return self.step.state.set if self.step else {}
-
     def is_of(self, other: "Opening") -> bool:
-        """Whether both open the same scene with the same values."""
+        """True if both open the same scene with the same values."""
         return (self.path, self.up, self.changes) == (other.path, other.up, other.changes)

@@ -56,8 +56,6 @@ class SceneLoader:
         except Unusable as unusable:
             self._fail(list(unusable.faults), opening)
             return
-        if opening.step:
-            opening = replace(opening, path=opening.step.scene)
         self.opening = opening
         self._follow(opening)
         if self.loading:
@@ -117,7 +115,7 @@ class SceneLoader:
         before, after = self.opening.step, again.step
         if before and after and before.state != after.state:  # the lesson's author has changed it
             again = replace(again, state=replace(view_of(after), at=again.state.at), sets_view=True, shows_stage=True)
-        self.load(again)
+        self.load(again.at_its_step())
 
     def look(self) -> None:
         """Load the scene again if one of its files has been saved. Called before every frame."""
@@ -134,7 +132,7 @@ class SceneLoader:
         opened = Opening(
             found.path, found.lesson, state, sets_view=True, figure=found.copy_of, files=files, note=found.note
         )
-        return replace(opened, path=opened.step.scene) if opened.step else opened
+        return opened.at_its_step()
 
     def _follow(self, opening: Opening) -> None:
         """Look at the files of an opening that are known before it is read."""
@@ -184,7 +182,9 @@ def with_lesson(state: ViewState, lesson: Lesson | None) -> ViewState:
     number = state.at[0] if state.at else 1
     if number > len(lesson.steps):
         raise Unusable(f"{shown_path(lesson.path)}: --at must be within 1 .. {len(lesson.steps)}, got {number}")
-    step = lesson.steps[number - 1]
-    first = step.state
-    plain = ViewState(pixel=first.pixel, sample=first.sample, depth=first.depth, model=first.model)
-    return merged(view_of(step) if state.at else plain, state)
+    asked = view_of(lesson.steps[number - 1])
+    if not state.at:
+        asked = ViewState(pixel=asked.pixel, sample=asked.sample, depth=asked.depth, model=asked.model)
+    elif state.panels:
+        asked = replace(asked, beside=None)
+    return merged(asked, state)

@@ -5,25 +5,23 @@ Copies are unpacked into a temporary folder, which is removed when the window cl
 
 import shutil
 import tempfile
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from tracer.printable import shown_path
 from viewer.base.files import Unusable, free_path, write_atomically
 from viewer.lessons import lesson as lessons
-from viewer.lessons.step import Step
 from viewer.reopen.embedded import MOST_CARRIED, Embedded
 from viewer.reopen.places import read_figure
 from viewer.reopen.scene_files import SceneFile, SceneFiles, checksum
 from viewer.reopen.view_state import ViewState
+from viewer.session.loading.opening import InLesson
 
 NETWORK = ("\\\\", "//")  # begin the paths of other computers, which a figure must not make this one ask
 
 
 @dataclass(frozen=True)
-class FigureScene:
+class FigureScene(InLesson):
     """The scene that a figure shows, and its view. `copy_of` is set if it is the figure's own copy."""
 
     path: Path
@@ -32,16 +30,6 @@ class FigureScene:
     home: Path  # the folder of the files that the figure was made from
     copy_of: Path | None = None
     note: str = ""  # says that it is a copy, and why
-
-    @property
-    def step(self) -> Step | None:
-        """The step of the lesson."""
-        return self.lesson and self.lesson.step_at(self.state.at[0] - 1 if self.state.at else 0)
-
-    @property
-    def changes(self) -> Mapping[str, Any]:
-        """The values of the scene that the step replaces."""
-        return self.step.state.set if self.step else {}
 
 
 class FigureScenes:

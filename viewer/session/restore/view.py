@@ -66,7 +66,8 @@ def state_of(viewed: Viewed) -> ViewState:
         hide=hidden or None,
         theme=look.theme.name,
         type_size=type_size_of(look),
-        panels=viewed.layout.shown(look.is_lecture_size),
+        panels=None if viewed.layout.beside() else viewed.layout.shown(look.is_lecture_size),
+        beside=viewed.layout.beside() or None,
         borders=_unless_usual(
             viewed.layout.borders(look.is_lecture_size), usual_borders(viewed.layout, look.is_lecture_size)
         ),
@@ -107,7 +108,7 @@ def restore(viewed: Viewed, state: ViewState, note: str = "") -> None:
     viewed.turn = state.turn
     viewed.reveal.ask(state.step, state.order, state.page)
     restore_camera(viewed, state)
-    if state.panels:
+    if state.panels or state.beside:
         viewed.requests[:] = [request for request in viewed.requests if request is not Request.SHOW_LESSON]
     elif state.select:
         viewed.requests.append(Request.SHOW_RAY)
@@ -123,7 +124,9 @@ def restore_appearance(look: Appearance, state: ViewState) -> None:
 
 def restore_layout(layout: Layout, is_lecture: bool, state: ViewState) -> None:
     """Take over the panels on show, and the borders between them."""
-    if state.panels:
+    if state.beside:
+        layout.teach(state.beside)
+    elif state.panels:
         layout.show(state.panels, is_lecture)
     for which, share in zip((None, 0, 1), state.borders or (), strict=False):
         layout.current(is_lecture).split(which, share)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import tracer
+from tests.scenes import named_scene
 from tests.viewer.chromium import Browser, chromium
 from tracer.kernel.nodes import SHADOW
 from tracer.printable import printable
@@ -29,29 +30,6 @@ LESSON = "glass-ball"
 DEPTHS = range(2, 4)
 TAP = 24.0  # pixels: the least size of a target (WCAG 2.2, 2.5.8)
 EVIL = "<script>evil=1</script><img src=x onerror=evil=2>\"'&amp;</style>--></svg>\x1b[2J\u202e"
-SCENE = """
-format = 1
-title = NAME
-[image]
-width = 40
-height = 30
-[[light]]
-name = NAME
-position = [4, 6, 5]
-color = [1, 1, 1]
-[[material]]
-name = NAME
-diffuse = 0.5
-reflect = 0.6
-transmit = 0.6
-ior = 1.5
-[[object]]
-name = NAME
-shape = "sphere"
-center = [0, 0, 0]
-radius = 1
-material = NAME
-"""
 VISIBLE = "document.querySelector('.page:not([hidden])')"
 MARKS = f"[...{VISIBLE}.querySelectorAll('.on')].filter(mark => mark.getClientRects().length)"
 LIT = f"[...new Set({MARKS}.map(mark => mark.dataset.ray))]"
@@ -126,7 +104,7 @@ def messages(browser: Browser) -> list[dict]:
 
 
 def agrees(shown: str, number: float) -> bool:
-    """Whether a number is that of a table, up to half a unit of the last digit shown."""
+    """The number shown is that of a table, up to half a unit of its last digit."""
     if math.isnan(number):
         return shown == "–"
     text = shown.replace("−", "-").rstrip("°")
@@ -287,7 +265,7 @@ def test_paper_and_a_browser_without_scripts_have_all_pages_and_numbers(browser:
 
 def test_hostile_names_stay_text_and_nothing_is_asked_of_the_network(browser: Browser, tmp_path: Path) -> None:
     scene, path = tmp_path / "scene.toml", tmp_path / "a.html"
-    scene.write_text(SCENE.replace("NAME", json.dumps(EVIL)), "utf-8")
+    scene.write_text(named_scene(EVIL), "utf-8")
     assert main(["export", str(scene), "--figure", "both", "--pixel", "20,15", "--depth", "0..2", "-o", str(path)]) == 0
     browser.size(1280, 720)
     browser.open(path.as_uri())
