@@ -40,9 +40,12 @@ def draw(session: Session, canvas: Canvas) -> None:
 
 
 def _fence(session: Session, canvas: Canvas, flow: TextFlow, fence: Fence, bottom: float) -> bool:
-    """Draw a live piece, down to the bottom of the panel."""
+    """Draw a live piece, down to the bottom of the panel, or as small as it may be if more text follows."""
     if fence.kind != "live":
         return False
+    step = session.lesson_step
+    if step and fence is not step.parts[-1].blocks[-1]:
+        bottom = flow.y
     flow.y += draw_piece(session, canvas, fence, (flow.x, flow.y), flow.width, bottom - flow.y)
     return True
 
