@@ -92,16 +92,18 @@ INDICES = (Argument("n1", _index), Argument("n2", _index))
 SPEEDS = (Argument("v1", _speed), Argument("v2", _speed))
 
 LIVE = (
-    LiveKind("snell", "Snell's law", "viewer.lessons.live.snell:snell", INDICES),
-    LiveKind("lifeguard", "The lifeguard", "viewer.lessons.live.lifeguard:lifeguard", SPEEDS),
-    LiveKind("fresnel", "Fresnel's equations", "viewer.lessons.live.fresnel:fresnel", INDICES),
-    LiveKind("media", "Media and the speed of light", "viewer.lessons.live.media:media", INDICES),
-    LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.sphere:sphere"),
-    LiveKind("inside", "Inside a polygon or a triangle", "viewer.lessons.live.inside:inside_piece"),
-    LiveKind("phong", "Phong's terms", "viewer.lessons.live.phong:phong", (Argument("light", _light),)),
-    LiveKind("sum", "The sum of a hit", "viewer.lessons.live.sum:sum_piece"),
-    LiveKind("samples", "Samples of a pixel", "viewer.lessons.live.samples:samples", (Argument("count", _count),)),
-    LiveKind("hit", "The hit", "viewer.lessons.live.hit:hit"),
+    LiveKind("snell", "Snell's law", "viewer.lessons.live.pieces.snell:snell", INDICES),
+    LiveKind("lifeguard", "The lifeguard", "viewer.lessons.live.pieces.lifeguard:lifeguard", SPEEDS),
+    LiveKind("fresnel", "Fresnel's equations", "viewer.lessons.live.pieces.fresnel:fresnel", INDICES),
+    LiveKind("media", "Media and the speed of light", "viewer.lessons.live.pieces.media:media", INDICES),
+    LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.pieces.sphere:sphere"),
+    LiveKind("inside", "Inside a polygon or a triangle", "viewer.lessons.live.pieces.inside:inside_piece"),
+    LiveKind("phong", "Phong's terms", "viewer.lessons.live.pieces.phong:phong", (Argument("light", _light),)),
+    LiveKind("sum", "The sum of a hit", "viewer.lessons.live.pieces.sum:sum_piece"),
+    LiveKind(
+        "samples", "Samples of a pixel", "viewer.lessons.live.pieces.samples:samples", (Argument("count", _count),)
+    ),
+    LiveKind("hit", "The hit", "viewer.lessons.live.pieces.hit:hit"),
 )  # fmt: skip
 LIVE_NAMES = tuple(kind.name for kind in LIVE)
 

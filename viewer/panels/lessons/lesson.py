@@ -9,9 +9,9 @@ from viewer.gl.canvas import Canvas
 from viewer.lessons.text import Fence, filled
 from viewer.lessons.values import ABSENT, value_text
 from viewer.panels import draw as d
-from viewer.panels.live import draw_piece
+from viewer.panels.lessons.live import draw_piece
+from viewer.panels.lessons.text_flow import BETWEEN, Colors, TextFlow
 from viewer.panels.panel import Panel
-from viewer.panels.text_flow import BETWEEN, Colors, TextFlow
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
