@@ -15,6 +15,7 @@ from tracer.printable import shown_path
 from tracer.tree.raytree import RayTree
 from viewer.base.files import Unusable
 from viewer.base.theme import LIGHT
+from viewer.explain.listing import listing
 from viewer.explain.plain_formula import FormulaError
 from viewer.figures.export_options import TEXT_SIZE
 from viewer.figures.formula.typeset import typeset
@@ -24,7 +25,18 @@ from viewer.lessons.lesson import Lesson, read_file
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
 from viewer.lessons.step import PIXEL, Step
-from viewer.lessons.text import Block, Formula, InlineFormula, Items, Quote, Run, count_words, inlines, names_of_values
+from viewer.lessons.text import (
+    Block,
+    Formula,
+    InlineFormula,
+    Items,
+    Quote,
+    Run,
+    count_words,
+    fences,
+    inlines,
+    names_of_values,
+)
 from viewer.lessons.values import ABSENT, NAMES, OF_TREE, split_name, value_text
 
 MOST_AT_ONCE, MOST_WORDS = 40, 90  # words between two presses, and in a step
@@ -53,6 +65,7 @@ class _Check:
         for step in self.lesson.steps:
             yield from self._words(step)
             yield from self._formulas(step)
+            yield from self._sources(step)
             world, faults = self._world(step)
             yield from faults
             if world:
@@ -88,6 +101,16 @@ class _Check:
                 typeset(source)
             except FormulaError as error:
                 yield Fault(str(error), line)
+
+    def _sources(self, step: Step) -> Iterator[Fault]:
+        """Source text of functions that are not there."""
+        for fence in (fence for part in step.parts for fence in fences(part.blocks) if fence.kind == "source"):
+            try:
+                listing(fence.argument)
+            except ValueError as error:
+                yield Fault(f"source: {error}", fence.line)
+            if fence.content.strip():
+                yield Fault("source: the block must be empty, its text is that of the function", fence.line + 1)
 
     def _rays(self, step: Step, world: World) -> Iterator[Fault]:
         """What is wrong about the pixel and its rays."""

@@ -5,6 +5,7 @@ import math
 from imgui_bundle import imgui
 
 from viewer.base.theme import Color
+from viewer.explain.listing import listing
 from viewer.gl.canvas import Canvas
 from viewer.lessons.text import Fence, filled
 from viewer.lessons.values import ABSENT, value_text
@@ -37,11 +38,25 @@ def draw(session: Session, canvas: Canvas) -> None:
 
 
 def _fence(session: Session, canvas: Canvas, flow: TextFlow, fence: Fence, bottom: float) -> bool:
-    """Draw a live piece, down to the bottom of the panel."""
-    if fence.kind != "live":
-        return False
-    flow.y += draw_piece(session, canvas, fence, (flow.x, flow.y), flow.width, bottom - flow.y)
+    """Draw a live piece, down to the bottom of the panel, or the source text of a function."""
+    match fence.kind:
+        case "live":
+            flow.y += draw_piece(session, canvas, fence, (flow.x, flow.y), flow.width, bottom - flow.y)
+        case "source":
+            _source(flow, fence.argument)
+        case _:
+            return False
     return True
+
+
+def _source(flow: TextFlow, name: str) -> None:
+    """The text of the function that computes the numbers, with its file and line."""
+    try:
+        found = listing(name)
+    except ValueError as error:
+        flow.code([], str(error))
+    else:
+        flow.code(found.lines, found.place)
 
 
 def _value(session: Session, name: str) -> str:
