@@ -28,6 +28,7 @@ from viewer.session.loading.scene_loader import SceneLoader
 from viewer.session.refinement import Refinement
 from viewer.session.restore.view import restore
 from viewer.session.scene_on_show import OnShow, image_limits
+from viewer.session.small_images import SmallImages
 from viewer.session.stepping.recursion import Recursion
 from viewer.session.stepping.reveal import Reveal
 from viewer.session.stepping.sample import SampleChoice
@@ -48,6 +49,7 @@ class Session(OnShow):
         self.warmup = Warmup(lambda note: self.calls.post(lambda: self.notice.say(note)))
         self.loader = SceneLoader(self.calls, self.warmup, self._show, lambda faults: self.show_faults(faults, True))
         self.image = ImageRenderer(self.calls.post)
+        self.small_images = SmallImages(self.calls.post)
         self.refinement = Refinement(self.image)
         self.export = FigureExport(self.calls.post)
         self.verification = Verification(self.calls.post)
@@ -292,4 +294,5 @@ class Session(OnShow):
     def close(self) -> None:
         self.warmup.close()
         self.image.close()
+        self.small_images.close()
         self.loader.close()

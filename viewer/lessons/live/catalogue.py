@@ -103,6 +103,9 @@ LIVE = (
     LiveKind(
         "samples", "Samples of a pixel", "viewer.lessons.live.pieces.samples:samples", (Argument("count", _count),)
     ),
+    LiveKind(
+        "difference", "What a depth adds", "viewer.lessons.live.pieces.difference:difference", (Argument("d", _count),)
+    ),
     LiveKind("hit", "The hit", "viewer.lessons.live.pieces.hit:hit"),
 )  # fmt: skip
 LIVE_NAMES = tuple(kind.name for kind in LIVE)

@@ -1,5 +1,6 @@
 """A live piece of a lesson, drawn below its text. Its handles are dragged; a double click puts them back."""
 
+import numpy as np
 from imgui_bundle import imgui
 
 from viewer.base.theme import PANEL_TEXT
@@ -43,12 +44,16 @@ def _marks(session: Session, canvas: Canvas, fence: Fence, size: tuple[int, int]
     row = session.tree.find(session.player.hit) if session.tree and session.player.hit else 0
     theme = session.appearance.theme
 
+    def images(depth: int) -> np.ndarray | None:
+        return session.small_images.get(session.world, depth, session.model) if session.world else None
+
     def make() -> list[Mark]:
         where = (0.0, 0.0, float(size[0]), float(size[1]))
-        context = LiveContext(session.tree, row or 0, session.world, theme, PANEL_TEXT, where)
+        context = LiveContext(session.tree, row or 0, session.world, theme, PANEL_TEXT, where, images)
         return live_kind(name).marks(context, parameters, words)
 
     key = (session.tree, row, theme, fence, size, tuple(sorted(parameters.items())))
+    key = (*key, session.world, session.model, len(session.small_images.kept))
     return canvas.live[fence.line].get(key, make)
 
 
