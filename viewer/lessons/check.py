@@ -20,7 +20,7 @@ from viewer.explain.plain_formula import FormulaError
 from viewer.figures.export_options import TEXT_SIZE
 from viewer.figures.formula.typeset import typeset
 from viewer.figures.marks import HEIGHT, WIDTH
-from viewer.lessons.expectation import failures
+from viewer.lessons.expectation import conditions, failures
 from viewer.lessons.lesson import Lesson, read_file
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
@@ -138,6 +138,8 @@ class _Check:
         for key, fault in failures(state.goal, tree, state.hit):
             if "unknown name" in fault or "in quotes" in fault:  # a goal is reached elsewhere
                 yield Fault(f"goal: {fault}", step.line_of(key, "goal"))
+        if state.goal and all(condition.holds for condition in conditions(state.goal, tree, state.hit)):
+            yield Fault("goal: it is reached at this pixel already", step.line_of("goal"))
         yield from self._text(step, tree)
         yield from self._live(step, tree, world)
 

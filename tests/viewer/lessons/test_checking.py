@@ -50,6 +50,7 @@ def test_the_skeleton_passes_and_is_never_written_over(
         ("expect = { t = 1.5 }", "", "line 9: expect: t must be a number in quotes"),
         ('expect = { thata1 = "1" }', "", 'line 9: expect: unknown name "thata1" (did you mean "theta1"?)'),
         ('goal = { endd = "x" }', "", 'line 9: goal: unknown name "endd"'),
+        ('goal = { object = "ball", R.object = "floor" }', "", "line 9: goal: it is reached at this pixel already"),
         ("pixel = [320, 1]", "", "line 9: pixel must be within 0,0 .. 319,239, got 320,1"),
         ("sample = 1", "", "line 9: sample must be within 0 .. 0"),
         ("set = { material.miror.ior = 1 }", "", '(did you mean "mirror"?)'),

@@ -7,9 +7,11 @@ from imgui_bundle import imgui
 from viewer.base.theme import Color
 from viewer.explain.listing import listing
 from viewer.gl.canvas import Canvas
+from viewer.lessons.expectation import conditions
 from viewer.lessons.text import Fence, filled
 from viewer.lessons.values import ABSENT, value_text
 from viewer.panels import draw as d
+from viewer.panels.lessons.goal import draw_goal, goal_height
 from viewer.panels.lessons.live import draw_piece
 from viewer.panels.lessons.text_flow import BETWEEN, Colors, TextFlow
 from viewer.panels.panel import Panel
@@ -25,11 +27,16 @@ def draw(session: Session, canvas: Canvas) -> None:
     corner, (width, height) = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     colors = Colors(session.appearance.theme, lambda target: _color(session, target))
     flow = TextFlow(colors, corner.x, corner.y, width)
-    flow.fence = lambda fence: _fence(session, canvas, flow, fence, corner.y + height)
+    goal = conditions(step.state.goal, session.tree, session.player.hit)
+    below = goal_height(goal, width)
+    bottom = corner.y + height - (below + BETWEEN * flow.em if below else 0.0)
+    flow.fence = lambda fence: _fence(session, canvas, flow, fence, bottom)
     flow.heading(step.title, TITLE, session.appearance.theme.accent)
     flow.y += 0.5 * BETWEEN * flow.em
     for part in step.parts[: session.player.shown.parts]:
         flow.blocks(filled(part.blocks, lambda name: _value(session, name)))
+    draw_goal(session.appearance.theme, goal, (flow.x, flow.y), width)
+    flow.y += below + BETWEEN * flow.em if below else 0.0
     imgui.set_cursor_screen_pos(corner)
     imgui.dummy((1.0, max(1.0, flow.y - corner.y)))
     line = imgui.get_text_line_height_with_spacing()
