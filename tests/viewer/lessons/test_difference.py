@@ -88,7 +88,9 @@ def test_the_window_shows_it_when_it_is_traced(tmp_path: Path) -> None:
         assert driver.session.faults == []
         (line,) = driver.canvas.live_places
         share = re.search(r"([\d.]+) % of the pixels", words(driver.canvas.live[line].last))
-        trees = [tracer.trace(driver.session.world, (x, y), depth=1) for x, y in np.ndindex(40, 30)]
+        world = driver.session.world
+        assert world
+        trees = [tracer.trace(world, (x, y), depth=1) for x, y in np.ndindex(40, 30)]
         assert share and share[1] == f"{100 * np.mean([len(tree) > 1 for tree in trees]):.1f}"
         assert picture(driver.canvas.live[line].last).shape == (40, 30)
         driver.session.player.parameters = {"d": 2.0}

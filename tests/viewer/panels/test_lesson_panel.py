@@ -1,12 +1,15 @@
-"""The panel of a lesson: the task of a step is ticked off while it is reached."""
+"""The panel of a lesson: the task of a step is ticked off while it is reached; marks of live pieces are clicked."""
 
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from tests.viewer.driver import Driver, viewer
+from viewer.figures.marks import Box, Disc
 from viewer.lessons.expectation import conditions
 from viewer.lessons.lesson import read_file
+from viewer.lessons.live.pieces.samples import sample_points
 from viewer.lessons.moments import Moment
 from viewer.lessons.skeleton import SCENE
 
@@ -65,3 +68,44 @@ def test_conditions_in_words() -> None:
         "total internal reflection", "θ₁ = 48.7°", "n₂ = 1", "TR meets ball", "R ends: background",
     ]  # fmt: skip
     assert not any(one.holds for one in conditions(goal, None, None))
+
+
+def clicked(driver: Driver, name: str) -> None:
+    """Click the middle of a mark of the live piece on show."""
+    ((line, (left, top, scale)),) = driver.canvas.live_places.items()
+    mark = next(mark for mark in driver.canvas.live[line].last if mark.name == name and isinstance(mark, (Box, Disc)))
+    driver.click(left + scale * mark.center[0], top + scale * mark.center[1])
+
+
+def show(driver: Driver, folder: Path, piece: str, scene: str = SCENE) -> None:
+    (folder / "scene.toml").write_text(scene, "utf-8")
+    head, _, _ = TEXT.partition("## Your turn")
+    (folder / "lesson.md").write_text(f"{head}## One\n```live\n{piece}\n```\n", "utf-8")
+    driver.session.player.show(read_file(folder / "lesson.md"), Moment())
+    driver.app.settle()
+
+
+def test_a_click_on_a_medium_sets_the_indices(tmp_path: Path) -> None:
+    with viewer() as driver:
+        show(driver, tmp_path, "media")
+        clicked(driver, "medium-glass")
+        assert driver.session.player.parameters == {"n": 1.52, "n2": 1.52}
+        clicked(driver, "medium-water")
+        assert driver.session.player.parameters == {"n": 1.33, "n2": 1.33}
+
+
+def test_a_click_on_a_sample_shows_its_tree(tmp_path: Path) -> None:
+    """The point of the piece is that of the tree; a scene whose pixels have one sample says so."""
+    scene = SCENE.replace("width = 320", "samples = 9\nwidth = 320")
+    with viewer() as driver:
+        show(driver, tmp_path, "samples", scene)
+        session = driver.session
+        for k in (5, 2):
+            clicked(driver, f"sample-{k}")
+            assert session.tree and session.tree.sample == k
+            x, y = sample_points(160, 150, 9)[k]
+            assert session.tree.image_point == pytest.approx((160 + x, 150 + y), abs=1e-12)
+        (tmp_path / "other").mkdir()
+        show(driver, tmp_path / "other", "samples 9")
+        clicked(driver, "sample-5")
+        assert session.tree and session.tree.sample is None and "has one sample" in session.notice.text

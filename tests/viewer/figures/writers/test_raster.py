@@ -25,7 +25,7 @@ PIXELS[1, 1:4] = PIXELS[1, 1]  # a run
 CENTER = (PLACE[0] + 0.5 * SCALE * SHAPE[0], PLACE[1] + 0.5 * SCALE * SHAPE[1])
 MARK = Raster("picture", CENTER, (SCALE * SHAPE[0], SCALE * SHAPE[1]), SHAPE, PIXELS.tobytes())
 SIZE = (160, 96)
-FIGURE = Figure("title", "description", "command", (MARK,), LIGHT.panel, True, *map(float, SIZE))
+FIGURE = Figure("title", "description", "command", (MARK,), LIGHT.panel, True, float(SIZE[0]), float(SIZE[1]))
 
 
 def picture_of(file: bytes) -> np.ndarray:
