@@ -29,10 +29,11 @@ def draw(session: Session, canvas: Canvas) -> None:
     flow.y += 0.5 * BETWEEN * flow.em
     for part in step.parts[: session.player.shown.parts]:
         flow.blocks(filled(part.blocks, lambda name: _value(session, name)))
+    used = flow.y - BETWEEN * flow.em - corner.y
     imgui.set_cursor_screen_pos(corner)
-    imgui.dummy((1.0, max(1.0, flow.y - corner.y)))
+    imgui.dummy((1.0, max(1.0, used)))
     line = imgui.get_text_line_height_with_spacing()
-    session.player.lines_too_many = max(0, math.ceil((flow.y - BETWEEN * flow.em - corner.y - height) / line))
+    session.player.lines_too_many = max(0, math.ceil((used - height) / line))
     _follow(session, canvas, flow.pointed)
 
 

@@ -88,7 +88,15 @@ def _light(word: str, world: World | None) -> float:
     return float(names.index(word))
 
 
+def _object(word: str, world: World | None) -> float:
+    names = [world.scene.object_name(k) for k in range(len(world.scene.objects))] if world else []
+    if word not in names:
+        raise ValueError(f"an object of the scene, {', '.join(names)}" if names else "an object of a scene")
+    return float(names.index(word))
+
+
 INDICES = (Argument("n1", _index), Argument("n2", _index))
+OBJECTS = (Argument("object", _object),)
 SPEEDS = (Argument("v1", _speed), Argument("v2", _speed))
 
 LIVE = (
@@ -96,8 +104,8 @@ LIVE = (
     LiveKind("lifeguard", "The lifeguard", "viewer.lessons.live.lifeguard:lifeguard", SPEEDS),
     LiveKind("fresnel", "Fresnel's equations", "viewer.lessons.live.fresnel:fresnel", INDICES),
     LiveKind("media", "Media and the speed of light", "viewer.lessons.live.media:media", INDICES),
-    LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.sphere:sphere"),
-    LiveKind("inside", "Inside a polygon or a triangle", "viewer.lessons.live.inside:inside_piece"),
+    LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.sphere:sphere", OBJECTS),
+    LiveKind("inside", "Inside a polygon or a triangle", "viewer.lessons.live.inside:inside_piece", OBJECTS),
     LiveKind("phong", "Phong's terms", "viewer.lessons.live.phong:phong", (Argument("light", _light),)),
     LiveKind("sum", "The sum of a hit", "viewer.lessons.live.sum:sum_piece"),
     LiveKind("samples", "Samples of a pixel", "viewer.lessons.live.samples:samples", (Argument("count", _count),)),
