@@ -182,6 +182,11 @@ def barycentric(corners: np.ndarray, point: np.ndarray) -> tuple[float, float, f
     return alpha, beta, gamma
 
 
+def format_share(share: float, decimals: int = 3) -> str:
+    """A barycentric coordinate; a dash for NaN."""
+    return format_number(share) if math.isnan(share) else f"{share:z.{decimals}f}".replace("-", "−")
+
+
 def hit_face(tree: RayTree, i: int, number: int | None = None) -> np.ndarray | None:
     """The corners (n, 3) of the polygon, the triangle or the face of a mesh that ray i meets; None for other shapes,
     and for a mesh that it does not meet.
@@ -238,7 +243,7 @@ def inside_section(tree: RayTree, i: int, number: int | None = None) -> Section 
         section = Section("Point in triangle", Lecture.BARYCENTRIC)
         shares = barycentric(corners, point)
         for symbol, share in zip((Lecture.ALPHA, Lecture.BETA, Lecture.GAMMA), shares, strict=True):
-            section.add(symbol, f"{share:.4f}")
+            section.add(symbol, format_share(share, 4))
         section.add(Lecture.BARYCENTRIC_SUM, format_number(sum(shares), DIGITS))
         section.add("none is below 0: inside" if min(shares) >= 0.0 else "one is below 0: outside")
         return section

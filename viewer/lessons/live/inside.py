@@ -11,6 +11,7 @@ from viewer.explain.intersection import (
     Flat,
     barycentric,
     flattened,
+    format_share,
     hit_face,
     inside_section,
     plane_point,
@@ -45,8 +46,8 @@ def inside_piece(context: LiveContext, parameters: Parameters) -> list[Mark]:
     flat = flattened(corners, met[1])
     if len(corners) == 3:
         shares = barycentric(corners, met[1])
-        brief = ", ".join(f"{letter} = {share:.3f}" for letter, share in zip("αβγ", shares, strict=True))
-        picture, text = lay_out(context, [section], [f"{brief}, sum {sum(shares):.3f}", brief])
+        brief = ", ".join(f"{letter} = {format_share(share)}" for letter, share in zip("αβγ", shares, strict=True))
+        picture, text = lay_out(context, [section], [f"{brief}, sum {format_share(sum(shares))}", brief])
         return [*_Picture(flat, picture, context).triangle(shares), *text]
     count = len(flat.crossings())
     picture, text = lay_out(context, [section], [f"sides crossed: {verdict(count)}", verdict(count)])
@@ -102,7 +103,7 @@ class _Picture:
         middles = []
         for k, (kind, letter) in enumerate(zip(KINDS, "αβγ", strict=True)):
             part = (self.p, self.corners[(k + 1) % 3], self.corners[(k + 2) % 3])
-            title = f"{letter} = {shares[k]:.4f}"
+            title = f"{letter} = {format_share(shares[k], 4)}"
             marks.append(
                 Shape(f"part-{k}", part, faded(theme.ray(kind), TINT), Stroke(theme.ray(kind), 1.4), title=title)
             )
@@ -114,7 +115,7 @@ class _Picture:
         for corner, letter in zip(self.corners, "abc", strict=True):
             labels.beside("corner", [letter], corner, theme.text)
         for k, letter in enumerate("αβγ"):
-            words = [f"{letter} = {shares[k]:.3f}", letter]
+            words = [f"{letter} = {format_share(shares[k])}", letter]
             labels.place(f"part-{k}", words, [(middles[k], "middle")], theme.text)
         labels.beside("point", ["p"], self.p, theme.text)
         return [*marks, *labels.marks]

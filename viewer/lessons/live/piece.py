@@ -36,8 +36,8 @@ class LiveContext:
         return self.tree, self.world, hit_label(self.tree, self.row)
 
     def tested(self, piece: str, parameters: "Parameters") -> tuple[RayTree, str, int | None]:
-        """The tree, and the name and number of the object that the ray is tested against: of the parameter `object`, which
-        the ray may miss; or the name of the one that it meets, and None. ValueError where there is none.
+        """The tree, and the name and number of the object that the ray is tested against: of the parameter `object`,
+        which the ray may miss; or the name of the one that it meets, and None. ValueError where there is none.
         """
         if OBJECT not in parameters:
             tree, _, name = self.hit(piece)

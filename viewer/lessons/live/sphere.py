@@ -42,7 +42,7 @@ def sphere(context: LiveContext, parameters: Parameters) -> list[Mark]:
     hits = is_hit(tree, i, number)
     chosen = found.nearest(t) if hits else None
     error = start_error(tree, i) if hits else 0.0
-    roots: tuple[float, ...] = () if found.misses and not hits else found.roots
+    roots = [] if found.misses and not hits else list(found.roots)
     told = [format_number(0.0 if abs(root) <= error else root, DIGITS) for root in roots]
     size, theme = context.size, context.theme
     picture, text = lay_out(context, [section], _captions(found, told, chosen, t, error))
