@@ -24,7 +24,9 @@ from viewer.base.values import (
     PIXEL,
     RAY_PATH,
     SAMPLE_HELP,
+    SHARE,
     SHARES,
+    SWEPT_HELP,
     UP_HELP,
     Unreadable,
     Value,
@@ -48,6 +50,7 @@ class ViewState:
     """The choices in a window. None: the scene's or the lesson's own, or those that the window has already."""
 
     at: tuple[int, int] | None = option(MOMENT, AT_HELP)
+    swept: float | None = option(SHARE, SWEPT_HELP)
     pixel: tuple[int, int] | None = option(PIXEL, "pick this pixel, counted from the top left")
     sample: int | None = option(whole(0, metavar="K"), SAMPLE_HELP)
     depth: int | None = option(whole(0, metavar="D"), DEPTH_HELP)

@@ -40,6 +40,8 @@ class Viewed(Protocol):
     @property
     def at(self) -> tuple[int, int] | None: ...
     @property
+    def swept(self) -> float | None: ...
+    @property
     def up(self) -> str: ...
     @property
     def selected(self) -> int | None: ...
@@ -51,6 +53,7 @@ def state_of(viewed: Viewed) -> ViewState:
     hidden = tuple(name for name in SWITCHES if not getattr(shown, name))
     return ViewState(
         at=viewed.at,
+        swept=viewed.swept,
         pixel=viewed.pixel,
         sample=(viewed.world and viewed.sample.number(viewed.world.scene)) or None,
         depth=viewed.depth,
