@@ -115,7 +115,7 @@ def _captions(found: SphereRoots, told: Sequence[str], chosen: int | None, t: fl
         return [f"{d}, {roots}: {miss_reason(found)}", miss_reason(found)]
     hit = f"t = {format_number(t, DIGITS)}"
     reason = root_reason(found, chosen, error)
-    return [f"{d}, {roots}; {hit}: {reason}", f"{d}, {roots}; {hit}", f"{roots}; {hit}", hit]
+    return [f"{d}, {roots}; {hit}: {reason}", f"{d}, {roots}; {hit}", f"{d}; {hit}", hit]
 
 
 def _turns() -> list[float]:
