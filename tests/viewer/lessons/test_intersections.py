@@ -68,10 +68,13 @@ def test_a_sphere_that_is_grazed_missed_left_behind_or_covered() -> None:
         assert said in told, offset
         assert sum(mark.name.startswith("root-") and isinstance(mark, Disc) for mark in marks) == roots
     assert "t₁ = t₂ = 5" in aside(1.0)[0] and " 1.5 " in aside(1.5)[0]
-    seen = world_of(ball((0.6, 0, 0)), ball((0, 0, 3), name="first"))
+    assert "from o" not in aside(0.6, -30.0)[0]
+    seen = world_of(ball((0.6, 0, 0)), ball((0, 0, 3), name="first"), ball((1, 0, -4), name="grazed"))
     tree = tracer.trace(seen, ray=((0.0, 0.0, 5.0), (0.0, 0.0, -1.0)))
     behind = words(live_kind("sphere").marks(context(seen, tree), {}, ("ball",)))
     assert "another hit is nearer" in behind and "t₁ = 4.2" in behind
+    grazed = words(live_kind("sphere").marks(context(seen, tree), {}, ("grazed",)))
+    assert "another hit is nearer" in grazed and "t₁ = t₂ = 9" in grazed
     assert "t₁ = 1" in words(live_kind("sphere").marks(context(seen, tree), {}, ("first",)))
 
 
@@ -91,6 +94,7 @@ def test_the_plane_of_a_face_that_is_missed() -> None:
     assert "2 is even: outside" in told("inside", (0.5, 0.5, 5.0), (0.0, 0.0, -1.0), "comb")
     assert "1 is odd: inside" in told("inside", (1.5, 0.5, 5.0), (0.0, 0.0, -1.0), "comb")
     assert "α = −0.250, β = 0.500, γ = 0.750" in told("inside", (1.5, -0.5, 5.0), (0.0, 0.0, -1.0), "left")
+    assert "α = −1.000, β = 1.000, γ = 1.000" in told("inside", (6.0, -3.0, 5.0), (0.0, 0.0, -1.0), "left")
     assert "α = 0.000, β = 0.500, γ = 0.500" in told("inside", (0.0, -1.0, 5.0), (0.0, 0.0, -1.0), "left")
     for direction in ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)):
         with pytest.raises(ValueError, match="inside: E does not meet the plane of comb"):
