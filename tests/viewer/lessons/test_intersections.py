@@ -17,6 +17,7 @@ from tracer.shapes.triangle import Triangle
 from viewer.explain.intersection import barycentric, flattened, hit_face, hit_roots, sphere_roots, sphere_section
 from viewer.figures.marks import Disc, Mark
 from viewer.lessons.live.catalogue import live_kind
+from viewer.lessons.values import value_text
 
 
 def test_the_quadratic_of_a_sphere() -> None:
@@ -68,7 +69,6 @@ def test_a_sphere_that_is_grazed_missed_left_behind_or_covered() -> None:
         assert said in told, offset
         assert sum(mark.name.startswith("root-") and isinstance(mark, Disc) for mark in marks) == roots
     assert "t₁ = t₂ = 5" in aside(1.0)[0] and " 1.5 " in aside(1.5)[0]
-    assert "from o" not in aside(0.6, -30.0)[0]
     seen = world_of(ball((0.6, 0, 0)), ball((0, 0, 3), name="first"), ball((1, 0, -4), name="grazed"))
     tree = tracer.trace(seen, ray=((0.0, 0.0, 5.0), (0.0, 0.0, -1.0)))
     behind = words(live_kind("sphere").marks(context(seen, tree), {}, ("ball",)))
@@ -129,3 +129,11 @@ def test_crossings_are_odd_inside_a_polygon_only() -> None:
         winding = round(float(np.angle(np.roll(arms, -1) / arms).sum()) / (2.0 * math.pi))
         flat = flattened(np.column_stack([outline, np.zeros(count)]), np.array([*point, 0.0]))
         assert len(flat.crossings()) % 2 == abs(winding) % 2
+
+
+def test_lessons_name_the_numbers_of_faces(worlds: dict[str, tracer.World]) -> None:
+    triangle = tracer.trace(worlds["ray-triangle"], (280, 316), depth=0)
+    assert [value_text(triangle, None, name) for name in ("alpha", "beta", "gamma")] == ["0.500", "0.300", "0.200"]
+    star = tracer.trace(worlds["ray-polygon"], (280, 460), depth=0)
+    assert value_text(star, None, "crossings") == "3" and value_text(star, None, "alpha") == "–"
+    assert value_text(tracer.trace(worlds["ray-sphere"], (400, 300), depth=0), None, "crossings") == "–"
