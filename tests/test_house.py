@@ -110,7 +110,7 @@ def test_one_place_knows_each_library() -> None:
         "fpdf": {"viewer/figures/writers/pdf.py"},
         "pypdfium2": {"viewer/base/pdfium.py"},
         "ziamath": {"viewer/figures/formula/ziamath_paths.py"},
-        "pptx": {"viewer/figures/writers/pptx.py"},
+        "pptx": {"viewer/figures/writers/pptx.py", "viewer/figures/writers/pptx_file.py"},
         "contourpy": {"viewer/figures/visible/outlines.py"},
         "copykitten": {"viewer/base/clipboard.py"},
     }

@@ -95,16 +95,17 @@ def sphere_section(tree: RayTree, i: int, number: int | None = None) -> Section 
         (Lecture.DISCRIMINANT, found.discriminant),
     ):
         section.add(symbol, format_number(value, DIGITS))
+    doubt = float(tree.nodes["error"][i]) if hits else 0.0  # of the point, and so of the distance
     if hits or not found.misses:
         section.add(Lecture.ROOTS)
         for symbol, root in zip((Lecture.ROOT_1, Lecture.ROOT_2), found.roots, strict=True):
-            section.add(symbol, format_number(0.0 if abs(root) <= error else root, DIGITS))
+            section.add(symbol, format_number(0.0 if abs(root) <= error else root, DIGITS, doubt))
     if not hits:
         section.add(miss_reason(found))
         return section
     t = float(tree.nodes["t"][i])
     chosen = found.nearest(t)
-    section.add("t of the ray", f"{format_number(t, DIGITS)} = t{'₁₂'[chosen]}")
+    section.add("t of the ray", f"{format_number(t, DIGITS, doubt)} = t{'₁₂'[chosen]}")
     section.add(root_reason(found, chosen, error))
     return section
 
@@ -197,7 +198,8 @@ def hit_face(tree: RayTree, i: int, number: int | None = None) -> np.ndarray | N
         case Triangle(vertices=vertices):
             return np.array(vertices)
         case Mesh() as shape if is_hit(tree, i, number):
-            return _face_at(shape.placed(), tree.nodes["point"][i])
+            point = tree.nodes["point"][i]
+            return _face_at(_near(shape, point, float(tree.nodes["error"][i])), point)
     return None
 
 
@@ -215,6 +217,22 @@ def plane_point(tree: RayTree, i: int, number: int | None = None) -> tuple[float
     if t <= 0:
         return None
     return float(t), np.array([float(x + t * y) for x, y in zip(o, d, strict=True)])
+
+
+def _near(mesh: Mesh, point: np.ndarray, error: float) -> np.ndarray:
+    """The faces (m, 3, 3) of a mesh whose boxes have this point in them, which may be wrong by `error`. Of a million
+    faces only some are left for the tests that take longer.
+    """
+    vertices, faces = mesh.vertices(), mesh.geometry.faces
+    for k in range(3):
+        slack = 4.0 * error + float(np.spacing(np.abs(point[k])))
+        below, above = vertices[:, k] <= point[k] + slack, vertices[:, k] >= point[k] - slack
+        a, b, c = faces.T
+        kept = (below[a] | below[b] | below[c]) & (above[a] | above[b] | above[c])
+        if not kept.any():
+            break
+        faces = faces[kept]
+    return vertices[faces]
 
 
 def _face_at(faces: np.ndarray, point: np.ndarray) -> np.ndarray:
@@ -256,6 +274,11 @@ def inside_section(tree: RayTree, i: int, number: int | None = None) -> Section 
     section.add("sides crossed", str(count))
     section.add(verdict(count))
     return section
+
+
+def intersection_sections(tree: RayTree, i: int) -> list[Section]:
+    """The test that found the hit of ray i, with its numbers; none for shapes without one here."""
+    return [section for section in (sphere_section(tree, i), inside_section(tree, i)) if section is not None]
 
 
 def verdict(count: int) -> str:

@@ -64,4 +64,5 @@ def view_of(step: Step, share: float = 0.0) -> ViewState:
         filter=state.show,
         hide=(),
         beside=state.panels or None,
+        inset=view.inset,
     )

@@ -16,7 +16,7 @@ from viewer.base.orbit import AZIMUTH, DISTANCE, ELEVATION
 from viewer.base.values import RAY_PATH, Unreadable
 from viewer.lessons.sweep import Sweep, read_sweep, with_changes
 from viewer.lessons.text import Block, Fence, fences
-from viewer.reopen.view_state import KINDS, PANEL_NAMES
+from viewer.reopen.view_state import INSETS, KINDS, LEFT, PANEL_NAMES
 
 MOST_PANELS = 3
 DEPTH, RAYS, COLOUR = REVEALS = ("depth", "rays", "colour")
@@ -32,6 +32,7 @@ class LessonView:
     elevation: float = field(default=ELEVATION, metadata=fields.number(above=-90, below=90))  # degrees
     distance: float = field(default=DISTANCE, metadata=fields.number(above=0))  # in radii of the scene
     target: tuple[float, float, float] | None = field(default=None, metadata=fields.point())  # None: its centre
+    inset: str = field(default=LEFT, metadata=fields.choice(*INSETS))  # the lower corner with the image
 
 
 def _names(allowed: tuple[str, ...], most: int) -> Mapping[str, Any]:

@@ -42,6 +42,7 @@ GRANULARITIES = ("levels", "rays")
 ORDERS = ("breadth", "recursion")
 THEMES = (DARK.name, LIGHT.name)  # of the window
 TYPE_SIZES = ("normal", "lecture")
+INSETS = LEFT, RIGHT, NO_INSET = ("left", "right", "none")  # where the image lies over the scene
 PANEL_NAMES = ("scene", "image", "tree", "ray", "hit", "lesson", "error", "recursion")
 
 
@@ -81,6 +82,10 @@ class ViewState:
     )
     beside: tuple[str, ...] | None = option(
         some_of(PANEL_NAMES, "PANELS"), "show the text of the lesson, and beside it these panels, at most three"
+    )
+    inset: str | None = option(
+        one_of(INSETS),
+        f"the lower corner of the scene with the image, in lecture type; {LEFT} by default",
     )
     borders: tuple[float, float, float] | None = option(
         SHARES, "shares of the left column, and of the upper panel in the left and in the right column"

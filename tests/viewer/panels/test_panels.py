@@ -15,7 +15,7 @@ from viewer.base.orbit import project
 from viewer.lessons.lesson import read
 from viewer.lessons.moments import Moment
 from viewer.panels import ray
-from viewer.panels.lesson import panel as lesson
+from viewer.panels.lessons import lesson
 from viewer.session import actions
 from viewer.session.lecture.player import LAST
 

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from viewer.base.theme import Color, rgb_bytes
 from viewer.figures.font import BASELINE, FAMILY, FONT, boxed, text_width
 from viewer.figures.formula.typeset import Contour
-from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Raster, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
+from viewer.figures.writers.raster import raster_png
 from viewer.reopen.places import ATTACHMENT
 
 UNDATED = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)  # so that the same figure is the same file on every day
@@ -55,6 +56,8 @@ class _Page:
         match mark:
             case Box():
                 self._box(mark)
+            case Raster(center=(x, y), size=(w, h)):
+                self.pdf.image(raster_png(mark), x - 0.5 * w, y - 0.5 * h, w, h)
             case Disc():
                 self._disc(mark)
             case Shape() if mark.holes:

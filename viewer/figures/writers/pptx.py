@@ -4,9 +4,7 @@ PowerPoint puts arrow heads at the end of a connector, so in this format they ar
 the ray.
 """
 
-import datetime
 import io
-import zipfile
 from collections.abc import Sequence
 from typing import Any, TypeGuard
 
@@ -15,13 +13,11 @@ from viewer.base.files import Unusable
 from viewer.base.theme import Arrow, Color, rgb_bytes
 from viewer.figures.font import ANCHORS, FAMILY, text_width
 from viewer.figures.formula.typeset import Contour
-from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Rectangle, Shape, Stroke, Text
-from viewer.reopen.places import PART, as_part
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Raster, Rectangle, Shape, Stroke, Text
+from viewer.figures.writers.pptx_file import describe, undated
+from viewer.figures.writers.raster import raster_png
 
 EMU = 12_700  # PowerPoint's units per point
-UNDATED = datetime.datetime(2000, 1, 1)  # so that the same figure is the same file on every day
-OLDEST = (1980, 1, 1, 0, 0, 0)  # the earliest time that a ZIP archive can store
-LONGEST_PROPERTY = 255  # characters
 BLANK = 6  # of the default template's layouts
 HEADS = {Arrow.FILLED: "triangle", Arrow.OPEN: "arrow", Arrow.DOUBLE: "stealth"}
 A = "{http://schemas.openxmlformats.org/drawingml/2006/main}"
@@ -35,34 +31,14 @@ def write_pptx(figures: Sequence[Figure]) -> bytes:
         raise Unusable(f"raytree export: {missing_extra('PPTX needs', 'pptx')}") from None
     deck = Presentation()
     deck.slide_width, deck.slide_height = (Emu(_emu(size)) for size in (figures[0].width, figures[0].height))
-    about = deck.core_properties
-    texts = (figures[0].title, figures[0].description, figures[0].command)
-    about.title, about.subject, about.comments = map(_property, texts)
-    about.author = about.last_modified_by = "raytree"
-    about.created = about.modified = UNDATED
-    _add_part(deck, PART, as_part(figures[0].command, figures[0].embedded))
+    describe(deck, figures[0])
     for figure in figures:
         slide = deck.slides.add_slide(deck.slide_layouts[BLANK])
         _paint(slide.background.fill, figure.paper)
         _Slide(slide.shapes, figure).draw()
     buffer = io.BytesIO()
     deck.save(buffer)
-    return _undated(buffer.getvalue())
-
-
-def _property(text: str) -> str:
-    """A text as a property of the document, which has limited room. The custom part has the whole command line."""
-    return text if len(text) <= LONGEST_PROPERTY else text[: LONGEST_PROPERTY - 1] + "…"
-
-
-def _add_part(deck: Any, name: str, content: bytes) -> None:
-    """Add a custom XML part."""
-    from pptx.opc.constants import CONTENT_TYPE, RELATIONSHIP_TYPE
-    from pptx.opc.package import Part
-    from pptx.opc.packuri import PackURI
-
-    part = Part(PackURI(name), CONTENT_TYPE.XML, deck.part.package, content)
-    deck.part.relate_to(part, RELATIONSHIP_TYPE.CUSTOM_XML)
+    return undated(buffer.getvalue())
 
 
 class _Slide:
@@ -142,6 +118,9 @@ class _Slide:
                 made = shapes.add_shape(MSO_SHAPE.OVAL, *_rectangle(x - r, y - r, 2 * r, 2 * r))
                 _name(made, mark.name, "")
                 _look(made, mark.fill, mark.stroke)
+            case Raster(center=(x, y), size=(w, h)):
+                place = _rectangle(x - 0.5 * w, y - 0.5 * h, w, h)
+                _name(shapes.add_picture(io.BytesIO(raster_png(mark)), *place), mark.name, "")
             case Shape():
                 self._outline(mark, shapes)
             case Line():
@@ -288,12 +267,3 @@ def _emu(points: float) -> int:
 
 def _rectangle(left: float, top: float, width: float, height: float) -> tuple[int, int, int, int]:
     return (_emu(left), _emu(top), _emu(width), _emu(height))
-
-
-def _undated(archive: bytes) -> bytes:
-    """The same archive without the times of its files."""
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(archive)) as old, zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as new:
-        for name in old.namelist():
-            new.writestr(zipfile.ZipInfo(name, OLDEST), old.read(name), zipfile.ZIP_DEFLATED)
-    return buffer.getvalue()
