@@ -16,6 +16,7 @@ from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
 from viewer.explain.intersection import barycentric, flattened, hit_face, hit_roots, sphere_roots, sphere_section
 from viewer.figures.marks import Disc, Mark
+from viewer.lessons import lesson
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.values import value_text
 
@@ -131,9 +132,11 @@ def test_crossings_are_odd_inside_a_polygon_only() -> None:
         assert len(flat.crossings()) % 2 == abs(winding) % 2
 
 
-def test_lessons_name_the_numbers_of_faces(worlds: dict[str, tracer.World]) -> None:
-    triangle = tracer.trace(worlds["ray-triangle"], (280, 316), depth=0)
-    assert [value_text(triangle, None, name) for name in ("alpha", "beta", "gamma")] == ["0.500", "0.300", "0.200"]
-    star = tracer.trace(worlds["ray-polygon"], (280, 460), depth=0)
-    assert value_text(star, None, "crossings") == "3" and value_text(star, None, "alpha") == "–"
-    assert value_text(tracer.trace(worlds["ray-sphere"], (400, 300), depth=0), None, "crossings") == "–"
+def test_lessons_name_the_numbers_of_faces() -> None:
+    def told(name: str, pixel: tuple[int, int], *quantities: str) -> list[str | None]:
+        tree = tracer.trace(tracer.prepare(tracer.load(lesson.read(name).scene)), pixel, depth=0)
+        return [value_text(tree, None, quantity) for quantity in quantities]
+
+    assert told("ray-triangle", (280, 316), "alpha", "beta", "gamma") == ["0.500", "0.300", "0.200"]
+    assert told("ray-polygon", (280, 460), "crossings", "alpha") == ["3", "–"]
+    assert told("ray-sphere", (400, 300), "crossings") == ["–"]

@@ -25,8 +25,11 @@ from viewer.lessons.live.piece import LiveContext, Parameters
 
 BEFORE = 2.0  # of the ray in front of the centre, in radii, where it starts farther away
 AFTER = 1.6  # of the ray behind the centre, in radii
+HIGH = 0.7  # of the ray beside the centre, in radii: there is no room for labels beside the circle's top
+LINE = 1.2  # height of a line of labels, in text sizes
 DOT = 0.3  # radius of a root, in text sizes
 DIGITS = 4
+SIDES = ((-1, "end"), (1, "start"))  # of a label: the side of its point, and its anchor
 
 
 def sphere(context: LiveContext, parameters: Parameters) -> list[Mark]:
@@ -53,6 +56,8 @@ def sphere(context: LiveContext, parameters: Parameters) -> list[Mark]:
     first = max(min(0.0, middle - 1.25 * radius), middle - BEFORE * radius)
     last = max(middle + AFTER * radius, min(0.0, middle + BEFORE * radius) + 0.8 * radius)
     above = max(radius, beside)
+    if told and beside > HIGH * radius:
+        top += LINE * size  # labels stand above the ray
     scale = min((right - left) / (last - first), (bottom - top) / (1.05 * (radius + above)))
     x0 = 0.5 * (left + right - scale * (last - first))
     y0 = 0.5 * (top + bottom + scale * (above - radius))
@@ -81,7 +86,7 @@ def sphere(context: LiveContext, parameters: Parameters) -> list[Mark]:
         marks.append(Disc(f"root-{k}", at(root), DOT * size, fill, Stroke(theme.accent, 2.0)))
     if first <= 0.0 <= last:
         marks.append(Disc("origin", at(0.0), 0.22 * size, ink, None))
-    labels = Labels((left, top, right, bottom), size, theme, [m for m in marks if m.name != "sphere"])
+    labels = Labels(widened(picture, -0.3 * MARGIN * size), size, theme, [m for m in marks if m.name != "sphere"])
     circle = [(center[0] + scale * radius * math.cos(a), center[1] + scale * radius * math.sin(a)) for a in _turns()]
     labels.placer.ways += [("sphere", piece) for piece in pairwise(circle)]
     if told and roots[0] == roots[1]:
@@ -93,7 +98,9 @@ def sphere(context: LiveContext, parameters: Parameters) -> list[Mark]:
             places = [((x + aside, y + up * size), "start" if k else "end") for up in (-0.85, 0.85)]
             labels.place(f"root-{k}", words, places, theme.accent if k == chosen else theme.text)
     if first <= 0.0 <= last:
-        labels.beside("origin", ["o: t = 0", "o"], at(0.0), ink, near=True)
+        (x, y) = at(0.0)
+        sides = [((x + 0.4 * aside * size, y + up * size), anchor) for up in (0.9, -0.9) for aside, anchor in SIDES]
+        labels.place("origin", ["o: t = 0", "o"], sides, ink)
     elif first > 0.0:
         (x, y) = at(first)
         labels.place("origin", ["from o", "o"], [((x, y + up * size), "start") for up in (1.0, -1.0)], ink)
