@@ -23,6 +23,7 @@ from viewer.session.guard import Guard
 from viewer.session.history import History, Place
 from viewer.session.image_renderer import ImageRenderer, Job
 from viewer.session.lecture.player import LessonPlayer
+from viewer.session.lesson_list import LessonList
 from viewer.session.loading.opening import Opening
 from viewer.session.loading.scene_loader import SceneLoader
 from viewer.session.refinement import Refinement
@@ -50,6 +51,7 @@ class Session(OnShow):
         self.loader = SceneLoader(self.calls, self.warmup, self._show, lambda faults: self.show_faults(faults, True))
         self.image = ImageRenderer(self.calls.post)
         self.small_images = SmallImages(self.calls.post)
+        self.lesson_list = LessonList(self.calls.post)
         self.refinement = Refinement(self.image)
         self.export = FigureExport(self.calls.post)
         self.verification = Verification(self.calls.post)
@@ -292,7 +294,5 @@ class Session(OnShow):
             )
 
     def close(self) -> None:
-        self.warmup.close()
-        self.image.close()
-        self.small_images.close()
-        self.loader.close()
+        for part in (self.warmup, self.image, self.small_images, self.lesson_list, self.loader):
+            part.close()

@@ -198,7 +198,7 @@ def test_the_face_of_a_mesh_is_shown_with_its_coordinates() -> None:
     for corners in mesh.placed():
         out = np.cross(corners[1] - corners[0], corners[2] - corners[0])
         goal = corners.T @ (0.2, 0.3, 0.5)
-        tree = tracer.trace(world, ray=(goal + out, -out))
+        tree = tracer.trace(world, ray=((goal + out).tolist(), (-out).tolist()))
         (inside,) = intersection_sections(tree, 0)
         assert [line.value for line in inside.lines[:4]] == ["0.2000", "0.3000", "0.5000", "1"]
 
