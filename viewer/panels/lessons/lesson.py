@@ -13,6 +13,7 @@ from viewer.lessons.values import ABSENT, value_text
 from viewer.panels import draw as d
 from viewer.panels.lessons.goal import draw_goal, goal_height
 from viewer.panels.lessons.live import draw_piece
+from viewer.panels.lessons.sweep import draw_handle
 from viewer.panels.lessons.text_flow import BETWEEN, Colors, TextFlow
 from viewer.panels.panel import Panel
 from viewer.session.session import Session
@@ -33,6 +34,8 @@ def draw(session: Session, canvas: Canvas) -> None:
     flow.fence = lambda fence: _fence(session, canvas, flow, fence, bottom)
     flow.heading(step.title, TITLE, session.appearance.theme.accent)
     flow.y += 0.5 * BETWEEN * flow.em
+    taken = draw_handle(session, canvas, (corner.x, flow.y), width)
+    flow.y += taken + BETWEEN * flow.em if taken else 0.0
     for part in step.parts[: session.player.shown.parts]:
         flow.blocks(filled(part.blocks, lambda name: _value(session, name)))
     draw_goal(session.appearance.theme, goal, (flow.x, flow.y), width)
@@ -45,10 +48,15 @@ def draw(session: Session, canvas: Canvas) -> None:
 
 
 def _fence(session: Session, canvas: Canvas, flow: TextFlow, fence: Fence, bottom: float) -> bool:
-    """Draw a live piece, down to the bottom of the panel, or the source text of a function."""
+    """Draw a live piece, or the source text of a function. A piece reaches down to `bottom`, or is small if more text
+    follows.
+    """
     match fence.kind:
         case "live":
-            flow.y += draw_piece(session, canvas, fence, (flow.x, flow.y), flow.width, bottom - flow.y)
+            step = session.lesson_step
+            is_last = step is not None and fence is step.parts[-1].blocks[-1]
+            room = bottom - flow.y if is_last else 0.0
+            flow.y += draw_piece(session, canvas, fence, (flow.x, flow.y), flow.width, room)
         case "source":
             _source(flow, fence.argument)
         case _:
