@@ -88,6 +88,8 @@ class ViewOptions(ViewState):
         LANGUAGE, "show the translation of the lesson into this language; by default that of the system"
     )
 
+    speaker: bool = switch("open a second window for the speaker: notes, next step, clock")
+
     @property
     def state(self) -> ViewState:
         """The state of the view that the options ask for."""

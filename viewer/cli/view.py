@@ -24,6 +24,7 @@ from viewer.session.loading.opening import Opening
 from viewer.session.restore.last_session import LastSession, SessionKeeper, read_last
 from viewer.session.restore.view import restore_appearance
 from viewer.session.session import Session
+from viewer.session.view_state import Request
 from viewer.window.app import FRAMES_AFTER_EVENT, App
 from viewer.window.backend import NoWindow, Offscreen, Window
 
@@ -65,6 +66,8 @@ def view(options: ViewOptions) -> int:
             keeper.look()
 
     app.each_round = look
+    if options.speaker:
+        session.requests.append(Request.SPEAKER)
     try:
         session.loader.load(opening)
         app.run()

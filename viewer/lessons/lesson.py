@@ -82,6 +82,14 @@ def course() -> list[str]:
     return [name for name in names() if name in ordered]
 
 
+def neighbour(lesson: Lesson, by: int) -> str | None:
+    """The name of the lesson after one of the program's (1), or before (-1); None if there is none."""
+    known = names()
+    is_own = lesson.path.absolute().parent == folder() / lesson.name
+    k = known.index(lesson.name) + by if is_own else -1
+    return known[k] if 0 <= k < len(known) else None
+
+
 def _order() -> list[str]:
     return (folder() / "ORDER").read_text("utf-8").split()
 

@@ -6,7 +6,7 @@ from viewer.figures.marks import Raster
 from viewer.figures.writers.imgui import draw_marks
 from viewer.panels import draw as d
 from viewer.session.actions import open_lesson
-from viewer.session.lesson_list import SIZE, Entry
+from viewer.session.lecture.lesson_list import SIZE, Entry
 from viewer.session.session import Session
 
 # In font sizes.

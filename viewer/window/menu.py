@@ -122,6 +122,8 @@ def _view_menu(session: Session) -> None:
         session.appearance.toggle_lecture_size()
     if imgui.menu_item_simple("Full screen", "F11"):
         session.requests.append(Request.FULL_SCREEN)
+    if imgui.menu_item_simple("Speaker's window", "W"):
+        session.requests.append(Request.SPEAKER)
     if imgui.menu_item_simple("Black screen", "B"):
         session.is_blank = True
     if imgui.menu_item_simple("Pointer, spotlight", "X", session.pointer is not Pointer.NONE):

@@ -10,7 +10,7 @@ import tracer
 from tests.viewer.driver import Driver, viewer
 from viewer.base.srgb import srgb
 from viewer.lessons import lesson
-from viewer.session.lesson_list import SAMPLES, SIZE, LessonList
+from viewer.session.lecture.lesson_list import SAMPLES, SIZE, LessonList
 
 
 def wait(listed: LessonList) -> None:
