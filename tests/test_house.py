@@ -99,7 +99,7 @@ def test_one_place_knows_each_library() -> None:
     homes = {
         "numba": {f"tracer/compile/{name}.py" for name in ("jit", "numba_private", "intrinsics", "bundle", "simd")},
         "llvmlite": {f"tracer/compile/{name}.py" for name in ("intrinsics", "bundle", "simd")},
-        "glfw": {"viewer/window/backend.py"},
+        "glfw": {"viewer/window/backend.py", "viewer/window/second.py"},
         "trimesh": set(),
         "mapbox_earcut": {
             "tracer/shapes/polygon.py",
