@@ -1,0 +1,76 @@
+"""Live pieces on paper: a picture for each position of their handles."""
+
+import math
+import re
+from collections.abc import Sequence
+
+from tracer.kernel.world import World
+from tracer.tree.raytree import RayTree
+from viewer.base.theme import LIGHT
+from viewer.figures.marks import CANVAS, Handle, Mark, Text
+from viewer.handout.document import Control, Picture, Room, Show
+from viewer.handout.sentences import of_marks
+from viewer.lessons.live.catalogue import live_kind
+from viewer.lessons.live.piece import LiveContext
+from viewer.lessons.text import Fence
+
+MOST = 100  # positions of a handle
+TEXT = 18.0  # points, on the canvas on which positions are found
+NICE = (1.0, 2.0, 5.0)  # steps between positions, times a power of ten
+NUMBER = re.compile(r"[0-9]")
+DRAG = "drag to "  # begins the titles of handles
+
+
+def live_show(fence: Fence, tree: RayTree | None, row: int, world: World) -> Show | None:
+    """The show of a live piece; None if it cannot show this hit. Frame 0 is the piece as it begins."""
+    name, *words = fence.content.split() or [""]
+    try:
+        kind = live_kind(name)
+        context = LiveContext(tree, row, world, LIGHT, TEXT, CANVAS)
+        marks = kind.marks(context, {}, words)
+    except ValueError:
+        return None
+    parameters: list[dict[str, float]] = [{}]
+    controls = []
+    for handle in (mark for mark in marks if isinstance(mark, Handle)):
+        values = positions(handle)
+        title = handle.title.removeprefix(DRAG)
+        title = title[:1].upper() + title[1:]
+        first = len(parameters)
+        drawn = [kind.marks(context, {handle.name: value}, words) for value in values]
+        said = tuple("; ".join(filter(None, both)) for both in zip(map(_said, values), differences(drawn), strict=True))
+        controls.append(Control(handle.name, title, first, said, values.index(handle.value), True))
+        parameters += [{handle.name: value} for value in values]
+
+    def draw(room: Room, asked: Sequence[int]) -> list[list[Mark]]:
+        place = LiveContext(tree, row, world, room.theme, room.size, room.where)
+        return [kind.marks(place, parameters[k], words) for k in asked]
+
+    def says(k: int) -> str:
+        return of_marks(kind.title, kind.marks(context, parameters[k], words))
+
+    picture = Picture(name, kind.title, draw, says)
+    return Show((picture,), len(parameters), 0, tuple(controls), (tree,) * len(parameters))
+
+
+def differences(drawn: Sequence[Sequence[Mark]]) -> list[str]:
+    """The first text with a number that each of these pictures has, and not all of them have."""
+    texts = [[mark.content for mark in marks if isinstance(mark, Text)] for marks in drawn]
+    common = set(texts[0]).intersection(*texts)
+    return [next((words for words in found if words not in common and NUMBER.search(words)), "") for found in texts]
+
+
+def positions(handle: Handle) -> list[float]:
+    """Values of a handle: at most MOST round ones in its range, and the one that it has."""
+    low, high = handle.range
+    ideal = (high - low) / MOST
+    power = 10.0 ** math.floor(math.log10(ideal))
+    step = next(step * power for step in (*NICE, 10.0) if step * power >= ideal)
+    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+    digits = max(0, -math.floor(math.log10(step)))
+    round_ones = {min(high, max(low, round(k * step, digits))) for k in range(first, last + 1)}
+    return sorted(round_ones | {handle.value})
+
+
+def _said(value: float) -> str:
+    return f"{value:.4g}".replace("-", "−")

@@ -1,0 +1,160 @@
+"""Makes the pages of a lesson: traces its steps, and finds the frames of their pictures."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import tracer
+from tracer.formulas.sampler import sample_number
+from tracer.kernel.world import World
+from tracer.tree.raytree import RayTree
+from viewer.base.files import Unusable
+from viewer.base.orbit import Frame as SceneFrame, initial_orbit
+from viewer.figures import steps as ray_steps
+from viewer.handout.document import Control, Handout, Page, PagePart, Photo, Show
+from viewer.handout.live import live_show
+from viewer.handout.pictures import KINDS, Frame, Frames, Scenery, picture
+from viewer.handout.sentences import of_stage
+from viewer.handout.sweeps import positions
+from viewer.lessons.lesson import Lesson
+from viewer.lessons.step import COLOUR, DEPTH, RAYS, Step
+from viewer.lessons.text import filled
+from viewer.lessons.values import ABSENT, value_text
+
+STAGES = {DEPTH: "Depth", RAYS: "Ray by ray", COLOUR: "Sum by sum"}  # titles of controls
+SWEEP = "sweep"
+
+
+def read_handout(lesson: Lesson, progress: Callable[[float], None] = lambda share: None) -> Handout:
+    """The pages of a lesson. Unusable or SceneError if a step asks for what its scene does not have."""
+    reader = _Reader()
+    pages = []
+    for k, step in enumerate(lesson.steps):
+        pages.append(reader.page(k + 1, step, lesson))
+        progress((k + 1) / len(lesson.steps))
+    return Handout(lesson, tuple(pages))
+
+
+class _Reader:
+    """Scenes, views of them and images are made once for all steps that show them."""
+
+    def __init__(self) -> None:
+        self._worlds: list[tuple[tuple[Path, Mapping[str, Any]], World]] = []
+        self._sceneries: list[tuple[World, Any, Scenery]] = []
+        self._images: dict[tuple[int, int, str], Any] = {}
+        self._seen: tuple | None = None  # the image and the pixel of the step before
+
+    def page(self, number: int, step: Step, lesson: Lesson) -> Page:
+        world = self._world(step)
+        trees = self._trees(step, world, lesson)
+        tree = trees[-1] if trees else None
+        hit = step.state.hit
+        row = (tree.find(hit) if tree and hit else 0) or 0
+        value = _values(tree, hit)
+        parts = []
+        for part in step.parts:
+            shows = {fence.line: live_show(fence, tree, row, world) for fence in part.live}
+            parts.append(PagePart(filled(part.blocks, value), {line: show for line, show in shows.items() if show}))
+        show = self._show(step, world, trees, row) if trees else Show((), 1, 0)
+        return Page(number, step, world, tree, row, self._with_photos(show, step, world, trees), tuple(parts))
+
+    def _world(self, step: Step) -> World:
+        key = (step.scene, step.state.set)
+        for known, world in self._worlds:
+            if known == key:
+                return world
+        world = tracer.prepare(tracer.load(step.scene, changes=step.state.set or None))
+        self._worlds.append((key, world))
+        return world
+
+    def _scenery(self, step: Step, world: World) -> Scenery:
+        for known, view, scenery in self._sceneries:
+            if known is world and view == step.state.view:
+                return scenery
+        scenery = Scenery(world, initial_orbit(world, SceneFrame.of(world), step.state.view))
+        self._sceneries.append((world, step.state.view, scenery))
+        return scenery
+
+    def _trees(self, step: Step, world: World, lesson: Lesson) -> list[RayTree]:
+        """The trees of a step's pixel: of each depth, if the step reveals these; the deepest is the last."""
+        state, image = step.state, world.scene.image
+        if state.pixel is None:
+            return []
+        x, y = state.pixel
+        if not (x < image.width and y < image.height):
+            allowed = f"within 0,0 .. {image.width - 1},{image.height - 1}"
+            raise Unusable(f"{lesson.path}:{step.line_of('pixel')}: pixel must be {allowed}, got {x},{y}")
+        depth = world.scene.tracing.depth if state.depth is None else state.depth
+        depths = range(depth + 1) if state.reveal == DEPTH else (depth,)
+        sample = sample_number(image.samples, state.sample)
+        return [tracer.trace(world, state.pixel, sample=sample, depth=d, model=state.model) for d in depths]
+
+    def _show(self, step: Step, world: World, trees: Sequence[RayTree], row: int) -> Show:
+        """The pictures of the step's panels, with the stages of its reveal or the positions of its sweep."""
+        state, scenery = step.state, self._scenery(step, world)
+        stages = [ray_steps.of_kinds(stage, set(state.show) | {"camera"}) for stage in _stages(step, trees)]
+        stages = [stage for k, stage in enumerate(stages) if k == 0 or not _is_same(stage, stages[k - 1])]
+        frames = [Frame(stage, scenery, 0, row) for stage in stages]
+        controls: tuple[Control, ...] = ()
+        if state.reveal and len(stages) > 1:
+            said = tuple(_name(stage, state.reveal) for stage in stages)
+            controls = (Control(state.reveal, STAGES[state.reveal], 0, said),)
+        elif state.sweep:
+            found = positions(step, state.sweep, world)
+            for k, at in enumerate(found):
+                place = scenery if at.world is world else Scenery(at.world, scenery.orbit)
+                stage = ray_steps.of_kinds(ray_steps.whole(at.tree), set(state.show) | {"camera"})
+                frames.append(Frame(stage, place, k + 1, (at.tree.find(state.hit) if state.hit else 0) or 0))
+            title = "Place in the image" if state.sweep.of == "pixel" else state.sweep.of
+            controls = (Control(SWEEP, title, 1, tuple(at.words for at in found)),)
+        drawn = Frames(tuple(frames), state.hit is not None and not state.reveal, state.reveal in (RAYS, COLOUR))
+        names = [name for name in state.panels if name in KINDS] or ["scene"]
+        pictures = tuple(picture(name, drawn) for name in names)
+        return Show(pictures, len(frames), 0, controls, tuple(frame.step.tree for frame in frames))
+
+    def _with_photos(self, show: Show, step: Step, world: World, trees: Sequence[RayTree]) -> Show:
+        """The show with the rendered image, if the step asks for it, or it is not that of the step before."""
+        model = step.state.model or world.scene.tracing.model
+        depths = [tree.depth for tree in trees] or [world.scene.tracing.depth]
+        now = (id(world), step.state.pixel, depths, model)
+        is_new, self._seen = now != self._seen, now
+        if not is_new and "image" not in step.state.panels:
+            return show
+        if len(depths) != show.frames:
+            depths = depths[-1:]
+        photos = tuple(self._photo(world, depth, model, step.state.pixel) for depth in depths)
+        return Show(show.pictures, show.frames, show.start, show.controls, show.trees, photos)
+
+    def _photo(self, world: World, depth: int, model: str, pixel: tuple[int, int] | None) -> Photo:
+        key = (id(world), depth, model)
+        if key not in self._images:
+            self._images[key] = tracer.render(world, depth=depth, model=model).pixels
+        at = f", with a ring around pixel {pixel[0]},{pixel[1]}" if pixel else ""
+        said = f"The image of the scene, {world.scene.caption}, at depth {depth}{at}."
+        return Photo(self._images[key], pixel, "Image", said)
+
+
+def _stages(step: Step, trees: Sequence[RayTree]) -> Sequence[ray_steps.Step]:
+    """The stages of a step's reveal, the fullest last; without one, the whole tree."""
+    match step.state.reveal:
+        case "depth":
+            return ray_steps.by_depth(trees)
+        case "rays":
+            found = ray_steps.by_ray(trees[-1])
+            return found[: found.count_reveals]
+        case "colour":
+            return list(ray_steps.by_color(trees[-1]))
+    return [ray_steps.whole(trees[-1])]
+
+
+def _is_same(one: ray_steps.Step, other: ray_steps.Step) -> bool:
+    return (one.tree, one.rows, one.summed) == (other.tree, other.rows, other.summed)
+
+
+def _name(stage: ray_steps.Step, reveal: str) -> str:
+    """What is said of a stage."""
+    return f"depth {stage.tree.depth}" if reveal == DEPTH else of_stage(stage)
+
+
+def _values(tree: RayTree | None, hit: str | None) -> Callable[[str], str]:
+    return lambda name: value_text(tree, hit, name) or ABSENT

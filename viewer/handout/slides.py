@@ -1,0 +1,137 @@
+"""A lesson as slides: one for each moment, laid out for a canvas of 16:9. PPTX and PDF show the same slides."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from viewer.base.theme import Theme
+from viewer.figures.marks import WIDTH, Handle, Mark, Rectangle
+from viewer.handout.document import Handout, Page, PagePart, Photo, Room, Show
+from viewer.handout.text_lines import TextLines
+from viewer.lessons.moments import count_presses, shown_at
+from viewer.lessons.text import Items, Paragraph, Run
+
+MARGIN = 36.0  # points, around everything
+TITLE = 30.0  # size of a title
+HEAD = 66.0  # where the text below the title begins
+TEXT, SMALL = 20.0, 17.0  # sizes of text; the smaller one if there is much
+MUCH = 150.0  # points: height of much text
+FOOT = 520.0  # where pictures end; the place in the lesson stands below
+FOOT_SIZE = 12.0
+GAP = 14.0  # between the text and pictures, and between two of these
+SIZES = (17.0, 14.0)  # text of pictures: of one, of two
+SHARES = {"scene": 1.0, "tree": 1.15, "hit": 1.5, "ray": 1.0}  # of the width, relative to each other
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A picture on a slide: its marks, or an image, and its alternative text."""
+
+    kind: str
+    title: str
+    where: Rectangle
+    said: str
+    marks: tuple[Mark, ...] = ()
+    photo: Photo | None = None
+
+
+@dataclass(frozen=True)
+class Slide:
+    """`place` says which step of how many it is. `page` is that step; None: the cover."""
+
+    title: str
+    place: str
+    text: TextLines
+    pictures: tuple[Placed, ...]
+    notes: str
+    page: Page | None = None
+
+    @property
+    def text_box(self) -> Rectangle:
+        return (MARGIN, HEAD, WIDTH - MARGIN, HEAD + self.text.bottom)
+
+
+def slides_of(handout: Handout, theme: Theme) -> list[Slide]:
+    """The cover, and a slide for each moment of the lesson."""
+    return [_cover(handout), *(slide for page in handout.pages for slide in _of_page(handout, page, theme))]
+
+
+def _cover(handout: Handout) -> Slide:
+    lesson = handout.lesson
+    text = TextLines(0.52 * WIDTH - MARGIN, TEXT)
+    if lesson.question:
+        text.add([Paragraph(0, (Run(lesson.question, bold=True),))])
+    if lesson.objectives:
+        text.add([Paragraph(0, (Run("After this lesson you can:"),))])
+        text.add([Items(0, tuple((Paragraph(0, (Run(one),)),) for one in lesson.objectives))])
+    photos = handout.pages[0].show.photos
+    right = (0.56 * WIDTH, HEAD, WIDTH - MARGIN, FOOT)
+    pictures = (_placed_photo(photos[-1], right),) if photos else ()
+    return Slide(lesson.title, "", text, pictures, lesson.question)
+
+
+def _of_page(handout: Handout, page: Page, theme: Theme) -> Iterator[Slide]:
+    show = page.show
+    for press in range(count_presses(page.step, page.stages) + 1):
+        shown = shown_at(page.step, page.stages, press)
+        parts = page.parts[: shown.parts]
+        text = _text(parts)
+        left, right = MARGIN, WIDTH - MARGIN
+        where = (left, HEAD + text.bottom + GAP, right, FOOT)
+        live = [one for part in parts for one in part.live.values()]
+        pictures = _pictures(live[-1], 0, where, theme) if live else _of_show(page, show, shown.stage, where, theme)
+        place = f"{handout.lesson.title}   {page.number}/{len(handout.pages)}"
+        yield Slide(page.title, place, text, tuple(pictures), page.step.notes, page)
+
+
+def _text(parts: Sequence[PagePart]) -> TextLines:
+    for size in (TEXT, SMALL):
+        text = TextLines(WIDTH - 2.0 * MARGIN, size)
+        for part in parts:
+            text.add(part.blocks)
+        if text.bottom <= MUCH:
+            break
+    return text
+
+
+def _of_show(page: Page, show: Show, frame: int, where: Rectangle, theme: Theme) -> list[Placed]:
+    """The pictures of a step, and the image if it is one of its panels."""
+    if "image" not in page.step.state.panels or not show.photos:
+        return _pictures(show, frame, where, theme)
+    photo = show.photos[frame if len(show.photos) > 1 else 0]
+    left, top, right, bottom = where
+    middle = 0.5 * (left + right)
+    image = _placed_photo(photo, (middle + 0.5 * GAP, top, right, bottom))
+    return [*_pictures(show, frame, (left, top, middle - 0.5 * GAP, bottom), theme), image]
+
+
+def _pictures(show: Show, frame: int, where: Rectangle, theme: Theme) -> list[Placed]:
+    """The pictures of a frame side by side."""
+    left, top, right, bottom = where
+    shares = [SHARES.get(picture.kind, 1.0) for picture in show.pictures]
+    unit = (right - left - GAP * (len(shares) - 1)) / sum(shares)
+    size = SIZES[min(len(shares), len(SIZES)) - 1]
+    found = []
+    for picture, share in zip(show.pictures, shares, strict=True):
+        place = (left, top, left + share * unit, bottom)
+        left += share * unit + GAP
+        (marks,) = picture.draw(Room(place, size, theme), [frame])
+        if marks:
+            found.append(
+                Placed(
+                    picture.kind,
+                    picture.title,
+                    place,
+                    picture.says(frame),
+                    tuple(mark for mark in marks if not isinstance(mark, Handle)),
+                )
+            )
+    return found
+
+
+def _placed_photo(photo: Photo, where: Rectangle) -> Placed:
+    """An image in the middle of a rectangle, as large as fits."""
+    left, top, right, bottom = where
+    height, width = photo.pixels.shape[:2]
+    scale = min((right - left) / width, (bottom - top) / height)
+    x, y = 0.5 * (left + right - scale * width), top
+    return Placed("image", photo.title, (x, y, x + scale * width, y + scale * height), photo.description, photo=photo)

@@ -1,0 +1,184 @@
+"""The text of a lesson in lines of a width, for slides: words and formulas at their places."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from viewer.explain.plain_formula import FormulaError, broken, plain
+from viewer.figures.font import text_width
+from viewer.figures.formula.typeset import typeset
+from viewer.lessons.text import Block, Fence, Formula, Inline, InlineFormula, Items, Paragraph, Quote, Run, Table
+
+# In text sizes.
+LINE = 1.34  # from line to line
+BETWEEN = 0.5  # two blocks
+INDENT = 1.4  # of lists and quotes
+COLUMN = 1.5  # between columns of a table
+BOLD = 1.09  # width of bold letters, in widths of the others
+DISPLAY = 1.25  # size of a formula in lines of its own
+TALL = 0.35  # space above and below it
+
+
+@dataclass(frozen=True)
+class Word:
+    """Text in one style, or a formula, on a line. `at` is the left end: of the line's middle, or of the baseline of a
+    formula. Lengths in points, from the top left of the text.
+    """
+
+    content: str  # LaTeX of a formula
+    at: tuple[float, float]
+    size: float
+    style: Run
+    is_formula: bool = False
+
+
+@dataclass(frozen=True)
+class BlockLines:
+    """A block: its words, and how it stands among the others."""
+
+    kind: str  # p, li, h, quote, code, formula, tr
+    words: tuple[Word, ...]
+    top: float
+    bottom: float
+
+
+class TextLines:
+    """Lays out blocks below each other. `bottom` is where they end."""
+
+    def __init__(self, width: float, size: float) -> None:
+        self.left, self.width, self.size = 0.0, width, size
+        self.bottom = 0.0
+        self.blocks: list[BlockLines] = []
+
+    def add(self, blocks: Sequence[Block], kind: str = "p") -> None:
+        """Add blocks below the others. Live pieces are left out."""
+        for block in blocks:
+            if not (isinstance(block, Fence) and block.kind == "live"):
+                self._block(block, kind)
+
+    def _block(self, block: Block, kind: str) -> None:
+        match block:
+            case Paragraph():
+                bold = bool(block.level)
+                content = [replace(i, bold=True) if bold and isinstance(i, Run) else i for i in block.content]
+                self._lines("h" if bold else kind, content)
+            case Items():
+                for k, item in enumerate(block.items):
+                    mark = "•" if block.first is None else f"{block.first + k}."
+                    self._indented(item, "li", mark)
+            case Quote():
+                self._indented(block.blocks, "quote", "")
+            case Table():
+                self._table(block)
+            case Formula():
+                self._display(block.source)
+            case Fence():
+                for line in block.content.rstrip("\n").split("\n"):
+                    self._lines("code", [Run(line, code=True)], 0.0)
+                self.bottom += BETWEEN * self.size
+
+    def _indented(self, blocks: Sequence[Block], kind: str, mark: str) -> None:
+        by, top = INDENT * self.size, self.bottom
+        self.left, self.width = self.left + by, self.width - by
+        first = len(self.blocks)
+        self.add(blocks, kind)
+        self.left, self.width = self.left - by, self.width + by
+        if mark and len(self.blocks) > first:
+            sign = Word(mark, (self.left + 0.3 * self.size, top + 0.5 * LINE * self.size), self.size, Run(mark))
+            self.blocks[first] = replace(self.blocks[first], words=(sign, *self.blocks[first].words))
+
+    def _table(self, block: Table) -> None:
+        cells = [[list(self._pieces(cell)) for cell in row] for row in block.rows]
+        count = max(map(len, cells), default=0)
+        widths = [max(sum(p.width for p in row[k]) for row in cells if k < len(row)) for k in range(count)]
+        for row in cells:
+            x, words = self.left, []
+            for width, cell in zip(widths, row, strict=False):
+                words += self._placed(cell, x, self.bottom + 0.5 * LINE * self.size)
+                x += width + COLUMN * self.size
+            self._end("tr", words, LINE * self.size, 0.0)
+        self.bottom += BETWEEN * self.size
+
+    def _display(self, source: str) -> None:
+        size = DISPLAY * self.size
+        try:
+            for part in broken(source):
+                left, top, _, bottom = typeset(part).box
+                y = self.bottom + TALL * self.size - top * size
+                word = Word(part, (self.left - left * size, y), size, Run(plain(part)), True)
+                self._end("formula", [word], (bottom - top) * size + 2.0 * TALL * self.size, 0.0)
+        except FormulaError:
+            self._lines("code", [Run(source, code=True)])
+
+    def _lines(self, kind: str, content: Sequence[Inline], between: float = BETWEEN) -> None:
+        line: list[_Piece] = []
+        words: list[Word] = []
+        top, right = self.bottom, 0.0
+        for piece in self._pieces(content):
+            if line and (right + piece.width > self.width or piece.breaks) and piece.may_begin:
+                words += self._placed(line, self.left, self.bottom + 0.5 * LINE * self.size)
+                self.bottom += LINE * self.size
+                line, right = [], 0.0
+                piece = replace(piece, content=piece.content.lstrip(" "))
+                piece = replace(piece, width=self._width(piece))
+            line.append(piece)
+            right += piece.width
+        words += self._placed(line, self.left, self.bottom + 0.5 * LINE * self.size)
+        self.bottom = self.bottom + LINE * self.size
+        self.blocks.append(BlockLines(kind, tuple(words), top, self.bottom))
+        self.bottom += between * self.size
+
+    def _end(self, kind: str, words: Sequence[Word], height: float, between: float) -> None:
+        self.blocks.append(BlockLines(kind, tuple(words), self.bottom, self.bottom + height))
+        self.bottom += height + between * self.size
+
+    def _pieces(self, content: Sequence[Inline]) -> Iterator["_Piece"]:
+        """Words with the space before them. A part of a word that begins without a space stays with what is before."""
+        first = True
+        for item in content:
+            if isinstance(item, InlineFormula):
+                yield self._formula(item.source, first)
+                first = False
+                continue
+            for k, line in enumerate(item.text.split("\n")):
+                for j, word in enumerate(line.split(" ")):
+                    spaced = j > 0
+                    if not word and not k:
+                        continue
+                    piece = _Piece(f"{' ' if spaced else ''}{word}", 0.0, item, may_begin=spaced or k > 0)
+                    piece = replace(piece, breaks=k > 0 and j == 0)
+                    yield replace(piece, width=self._width(piece))
+                    first = False
+
+    def _formula(self, source: str, first: bool) -> "_Piece":
+        try:
+            left, _, right, _ = typeset(source).box
+        except FormulaError:
+            piece = _Piece(source, 0.0, Run(source, code=True), may_begin=not first)
+            return replace(piece, width=self._width(piece))
+        return _Piece(source, (right - left + 0.3) * self.size, Run(plain(source)), is_formula=True)
+
+    def _width(self, piece: "_Piece") -> float:
+        return text_width(piece.content, self.size) * (BOLD if piece.style.bold else 1.0)
+
+    def _placed(self, line: Sequence["_Piece"], x: float, y: float) -> list[Word]:
+        words: list[Word] = []
+        for piece in line:
+            if piece.is_formula:
+                at = (x + 0.25 * self.size, y + 0.36 * self.size)
+                words.append(Word(piece.content, at, self.size, piece.style, True))
+            elif words and words[-1].style is piece.style and not words[-1].is_formula:
+                words[-1] = replace(words[-1], content=words[-1].content + piece.content)
+            else:
+                words.append(Word(piece.content, (x, y), self.size, piece.style))
+            x += piece.width
+        return [word for word in words if word.content]
+
+
+@dataclass(frozen=True)
+class _Piece:
+    content: str
+    width: float
+    style: Run
+    may_begin: bool = True  # a line may begin with it
+    breaks: bool = False  # a line must begin with it
+    is_formula: bool = False
