@@ -12,17 +12,15 @@ from itertools import count, groupby
 from typing import Any
 
 from viewer.base.pictures import png
-from viewer.base.theme import THEMES, Color, Theme, rgb
+from viewer.base.theme import THEMES, Color, Theme
 from viewer.figures.font import FAMILY
-from viewer.figures.marks import WIDTH, Figure, Formula
+from viewer.figures.marks import WIDTH, Disc, Figure, Formula, Stroke
 from viewer.figures.writers.pptx import new_deck, saved
-from viewer.figures.writers.pptx_shapes import SlideDrawing, emu_box, paint, rgb_color
+from viewer.figures.writers.pptx_shapes import A, SlideDrawing, emu, emu_box, paint, rgb_color
 from viewer.handout.document import Handout, Page
-from viewer.handout.slides import FOOT, FOOT_SIZE, HEAD, MARGIN, TITLE, Placed, Slide, slides_of
-from viewer.handout.text_lines import LINE, BlockLines, Word
+from viewer.handout.slides import FOOT, FOOT_SIZE, HEAD, MARGIN, RING, RINGS, TITLE, Placed, Slide, slides_of
+from viewer.handout.text_lines import LINE, BlockLines
 
-RING = 8.0  # points: radius of the rings around the pixel, which are seen on any image
-RINGS = (("ring", rgb("#000000"), 4.0), ("ring inside", rgb("#FFFFFF"), 1.8))
 TITLE_ONLY = 5  # of the default template's layouts
 MONO = "DejaVu Sans Mono"
 WIDER = 6.0  # points by which a frame is wider than its text, since another font may be wider
@@ -110,24 +108,18 @@ class _Writer:
 
         _align_left(paragraph)
         paragraph.line_spacing = Pt(LINE * size)
+        if block.left:
+            _indent(paragraph, block)
         if following:
             paragraph.space_after = Pt(max(0.0, following.top - block.bottom))
-        before: Word | None = None
+        before = " "
         for word in block.words:
             content = word.style.text if word.is_formula else word.content
-            if before and before.at[1] != word.at[1] and not word.is_formula and not before.content.endswith(" "):
+            if word.is_formula and not before.endswith(" "):
                 content = f" {content}"
-            elif word.is_formula and before:
-                content = f" {content}" if not before.content.endswith(" ") else content
-            self._run(paragraph, content, size, self._color(word), word.style.bold, word.style.italic, word.style.code)
-            before = word
-
-    def _color(self, word: Word) -> Color:
-        page, path = self.slide.page, word.style.ray
-        row = page.tree.find(path) if page and page.tree and path else None
-        if row is not None and page and page.tree:
-            return self.theme.ray(page.tree.kind(row))
-        return self.theme.accent if word.style.link else self.theme.text
+            style, color = word.style, self.slide.color(word, self.theme)
+            self._run(paragraph, content, size, color, style.bold, style.italic, style.code)
+            before = content
 
     def _run(
         self, paragraph: Any, content: str, size: float, color: Color, bold: bool = False, italic: bool = False,
@@ -170,19 +162,9 @@ class _Writer:
         )
         picture.name = "image"
         picture._element.xpath(".//p:cNvPr")[0].set("descr", placed.said)
-        if placed.photo.pixel:
-            from pptx.enum.shapes import MSO_SHAPE
-            from pptx.util import Pt
-
-            scale = (right - left) / placed.photo.pixels.shape[1]
-            r = RING
-            x, y = (left + scale * (placed.photo.pixel[0] + 0.5), top + scale * (placed.photo.pixel[1] + 0.5))
-            for name, color, width in RINGS:
-                ring = self.shapes.add_shape(MSO_SHAPE.OVAL, *emu_box(x - r, y - r, 2 * r, 2 * r))
-                ring.name = name
-                ring.fill.background()
-                ring.line.width = Pt(width)
-                ring.line.color.rgb = rgb_color(color)
+        if placed.ring:
+            marks = tuple(Disc("ring", placed.ring, RING, None, Stroke(*look)) for look in RINGS)
+            SlideDrawing(self.shapes, Figure("", "", "", marks, self.theme.ground)).draw()
 
 
 def _groups(blocks: Sequence[BlockLines]) -> Iterator[list[BlockLines]]:
@@ -205,6 +187,16 @@ def _align_left(paragraph: Any) -> None:
     from pptx.enum.text import PP_ALIGN
 
     paragraph.alignment = PP_ALIGN.LEFT
+
+
+def _indent(paragraph: Any, block: BlockLines) -> None:
+    """Indent a paragraph, with its mark on the left if it is an item of a list."""
+    properties = paragraph._p.get_or_add_pPr()
+    properties.set("marL", str(emu(block.left)))
+    if block.mark:
+        properties.set("indent", str(-emu(block.left)))
+        sign = paragraph._p.makeelement(f"{A}buChar", {"char": block.mark})
+        properties.append(sign)
 
 
 def _namer(kind: str, page: Page | None) -> Callable[[str], str]:

@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from viewer.base.theme import Theme
-from viewer.figures.marks import WIDTH, Handle, Mark, Rectangle
+from viewer.base.theme import Color, Theme, rgb
+from viewer.figures.marks import WIDTH, Handle, Mark, Point, Rectangle
 from viewer.handout.document import Handout, Page, PagePart, Photo, Room, Show
-from viewer.handout.text_lines import TextLines
+from viewer.handout.text_lines import TextLines, Word
 from viewer.lessons.moments import count_presses, shown_at
 from viewer.lessons.text import Items, Paragraph, Run
 
@@ -19,6 +19,8 @@ FOOT = 520.0  # where pictures end; the place in the lesson stands below
 FOOT_SIZE = 12.0
 GAP = 14.0  # between the text and pictures, and between two of these
 SIZES = (17.0, 14.0)  # text of pictures: of one, of two
+RING = 8.0  # radius of the rings around the pixel, which are seen on any image
+RINGS = ((rgb("#000000"), 4.0), (rgb("#FFFFFF"), 1.8))  # colours and widths
 SHARES = {"scene": 1.0, "tree": 1.15, "hit": 1.5, "ray": 1.0}  # of the width, relative to each other
 
 
@@ -32,6 +34,15 @@ class Placed:
     said: str
     marks: tuple[Mark, ...] = ()
     photo: Photo | None = None
+
+    @property
+    def ring(self) -> Point | None:
+        """The place of the pixel on an image; None without one."""
+        if self.photo is None or self.photo.pixel is None:
+            return None
+        left, top, right, _ = self.where
+        scale = (right - left) / self.photo.pixels.shape[1]
+        return (left + scale * (self.photo.pixel[0] + 0.5), top + scale * (self.photo.pixel[1] + 0.5))
 
 
 @dataclass(frozen=True)
@@ -49,6 +60,14 @@ class Slide:
     def text_box(self) -> Rectangle:
         return (MARGIN, HEAD, WIDTH - MARGIN, HEAD + self.text.bottom)
 
+    def color(self, word: Word, theme: Theme) -> Color:
+        """The colour of a word: a link to a ray has that of its kind."""
+        page, path = self.page, word.style.ray
+        row = page.tree.find(path) if page and page.tree and path else None
+        if row is not None and page and page.tree:
+            return theme.ray(page.tree.kind(row))
+        return theme.accent if word.style.link else theme.text
+
 
 def slides_of(handout: Handout, theme: Theme) -> list[Slide]:
     """The cover, and a slide for each moment of the lesson."""
@@ -57,14 +76,14 @@ def slides_of(handout: Handout, theme: Theme) -> list[Slide]:
 
 def _cover(handout: Handout) -> Slide:
     lesson = handout.lesson
-    text = TextLines(0.52 * WIDTH - MARGIN, TEXT)
+    text = TextLines(0.42 * WIDTH - MARGIN, TEXT)
     if lesson.question:
         text.add([Paragraph(0, (Run(lesson.question, bold=True),))])
     if lesson.objectives:
         text.add([Paragraph(0, (Run("After this lesson you can:"),))])
         text.add([Items(0, tuple((Paragraph(0, (Run(one),)),) for one in lesson.objectives))])
     photos = handout.pages[0].show.photos
-    right = (0.56 * WIDTH, HEAD, WIDTH - MARGIN, FOOT)
+    right = (0.45 * WIDTH, HEAD, WIDTH - MARGIN, FOOT)
     pictures = (_placed_photo(photos[-1], right),) if photos else ()
     return Slide(lesson.title, "", text, pictures, lesson.question)
 

@@ -39,6 +39,8 @@ class BlockLines:
     words: tuple[Word, ...]
     top: float
     bottom: float
+    left: float = 0.0
+    mark: str = ""  # of an item of a list, left of its words
 
 
 class TextLines:
@@ -77,14 +79,13 @@ class TextLines:
                 self.bottom += BETWEEN * self.size
 
     def _indented(self, blocks: Sequence[Block], kind: str, mark: str) -> None:
-        by, top = INDENT * self.size, self.bottom
+        by = INDENT * self.size
         self.left, self.width = self.left + by, self.width - by
         first = len(self.blocks)
         self.add(blocks, kind)
         self.left, self.width = self.left - by, self.width + by
         if mark and len(self.blocks) > first:
-            sign = Word(mark, (self.left + 0.3 * self.size, top + 0.5 * LINE * self.size), self.size, Run(mark))
-            self.blocks[first] = replace(self.blocks[first], words=(sign, *self.blocks[first].words))
+            self.blocks[first] = replace(self.blocks[first], mark=mark)
 
     def _table(self, block: Table) -> None:
         cells = [[list(self._pieces(cell)) for cell in row] for row in block.rows]
@@ -115,6 +116,8 @@ class TextLines:
         top, right = self.bottom, 0.0
         for piece in self._pieces(content):
             if line and (right + piece.width > self.width or piece.breaks) and piece.may_begin:
+                if not line[-1].is_formula:  # the text goes on, also when it is copied
+                    line[-1] = replace(line[-1], content=f"{line[-1].content} ")
                 words += self._placed(line, self.left, self.bottom + 0.5 * LINE * self.size)
                 self.bottom += LINE * self.size
                 line, right = [], 0.0
@@ -124,38 +127,37 @@ class TextLines:
             right += piece.width
         words += self._placed(line, self.left, self.bottom + 0.5 * LINE * self.size)
         self.bottom = self.bottom + LINE * self.size
-        self.blocks.append(BlockLines(kind, tuple(words), top, self.bottom))
+        self.blocks.append(BlockLines(kind, tuple(words), top, self.bottom, self.left))
         self.bottom += between * self.size
 
     def _end(self, kind: str, words: Sequence[Word], height: float, between: float) -> None:
-        self.blocks.append(BlockLines(kind, tuple(words), self.bottom, self.bottom + height))
+        self.blocks.append(BlockLines(kind, tuple(words), self.bottom, self.bottom + height, self.left))
         self.bottom += height + between * self.size
 
     def _pieces(self, content: Sequence[Inline]) -> Iterator["_Piece"]:
-        """Words with the space before them. A part of a word that begins without a space stays with what is before."""
-        first = True
+        """Words with the space before them. What begins without a space stays with what is before."""
+        spaced = False
         for item in content:
             if isinstance(item, InlineFormula):
-                yield self._formula(item.source, first)
-                first = False
+                yield self._formula(item.source, spaced)
+                spaced = False
                 continue
             for k, line in enumerate(item.text.split("\n")):
+                breaks = k > 0
                 for j, word in enumerate(line.split(" ")):
-                    spaced = j > 0
-                    if not word and not k:
-                        continue
-                    piece = _Piece(f"{' ' if spaced else ''}{word}", 0.0, item, may_begin=spaced or k > 0)
-                    piece = replace(piece, breaks=k > 0 and j == 0)
-                    yield replace(piece, width=self._width(piece))
-                    first = False
+                    spaced = spaced or j > 0
+                    if word or breaks:
+                        piece = _Piece(f"{' ' * spaced}{word}", 0.0, item, spaced or breaks, breaks)
+                        yield replace(piece, width=self._width(piece))
+                        spaced = breaks = False
 
-    def _formula(self, source: str, first: bool) -> "_Piece":
+    def _formula(self, source: str, spaced: bool) -> "_Piece":
         try:
             left, _, right, _ = typeset(source).box
         except FormulaError:
-            piece = _Piece(source, 0.0, Run(source, code=True), may_begin=not first)
+            piece = _Piece(source, 0.0, Run(source, code=True), may_begin=spaced)
             return replace(piece, width=self._width(piece))
-        return _Piece(source, (right - left + 0.3) * self.size, Run(plain(source)), is_formula=True)
+        return _Piece(source, (right - left + 0.3) * self.size, Run(plain(source)), spaced, is_formula=True)
 
     def _width(self, piece: "_Piece") -> float:
         return text_width(piece.content, self.size) * (BOLD if piece.style.bold else 1.0)
