@@ -40,10 +40,10 @@ class Picture:
 
 @dataclass(frozen=True)
 class Photo:
-    """The rendered image, with a ring around the pixel."""
+    """The rendered image, with a ring around the pixel: `ring` are shares of its width and height."""
 
     pixels: np.ndarray  # linear RGB (height, width, 3)
-    pixel: tuple[int, int] | None
+    ring: tuple[float, float] | None
     title: str
     description: str
 

@@ -13,7 +13,7 @@ from viewer.handout.text_lines import BOLD as WIDER, BlockLines
 
 BOLD = 0.016  # by which bold letters are wider on every side, in text sizes
 KINDS = {"h": "H3", "li": "P", "quote": "P", "tr": "P", "formula": "Formula"}  # structure elements of blocks
-MARK = 0.9  # distance of a list's mark from its text, in text sizes
+MARK = 0.1  # distance of a list's mark from its text, in text sizes
 
 
 def write_slides(handout: Handout, command: str, theme: str) -> bytes:
@@ -58,7 +58,7 @@ class _Writer:
         if block.mark and block.words:
             word = block.words[0]
             at = (left + block.left - MARK * word.size, top + word.at[1])
-            self.page.text(Text("mark", at, f"{block.mark} ", word.size, self.theme.text, "start"))
+            self.page.text(Text("mark", at, f"{block.mark} ", word.size, self.theme.text, "end"))
         for word in block.words:
             at, color = (left + word.at[0], top + word.at[1]), self.slide.color(word, self.theme)
             if word.is_formula:

@@ -110,12 +110,16 @@ class _Writer:
         paragraph.line_spacing = Pt(LINE * size)
         if block.left:
             _indent(paragraph, block)
+        if block.columns[1:]:
+            _tabs(paragraph, block.columns[1:])
         if following:
             paragraph.space_after = Pt(max(0.0, following.top - block.bottom))
         before = " "
         for word in block.words:
             content = word.style.text if word.is_formula else word.content
-            if word.is_formula and not before.endswith(" "):
+            if word.at[0] in block.columns[1:]:
+                content = f"\t{content}"
+            elif word.is_formula and not before.endswith(" "):
                 content = f" {content}"
             style, color = word.style, self.slide.color(word, self.theme)
             self._run(paragraph, content, size, color, style.bold, style.italic, style.code)
@@ -193,10 +197,24 @@ def _indent(paragraph: Any, block: BlockLines) -> None:
     """Indent a paragraph, with its mark on the left if it is an item of a list."""
     properties = paragraph._p.get_or_add_pPr()
     properties.set("marL", str(emu(block.left)))
-    if block.mark:
-        properties.set("indent", str(-emu(block.left)))
+    if not block.mark:
+        return
+    properties.set("indent", str(-emu(block.left)))
+    number = block.mark.removesuffix(".")
+    if number.isdecimal():
+        attributes = {"type": "arabicPeriod", "startAt": number}
+        sign = paragraph._p.makeelement(f"{A}buAutoNum", attributes)
+    else:
         sign = paragraph._p.makeelement(f"{A}buChar", {"char": block.mark})
-        properties.append(sign)
+    properties.append(sign)
+
+
+def _tabs(paragraph: Any, places: Sequence[float]) -> None:
+    """Stops for tabulators, in points from the left."""
+    stops = paragraph._p.makeelement(f"{A}tabLst")
+    for place in places:
+        stops.append(stops.makeelement(f"{A}tab", {"pos": str(emu(place)), "algn": "l"}))
+    paragraph._p.get_or_add_pPr().append(stops)
 
 
 def _namer(kind: str, page: Page | None) -> Callable[[str], str]:

@@ -4,20 +4,23 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 import tracer
 from tracer.formulas.sampler import sample_number
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from viewer.base.files import Unusable
 from viewer.base.orbit import Frame as SceneFrame, initial_orbit
+from viewer.base.wording import format_number
 from viewer.figures import steps as ray_steps
 from viewer.handout.document import Control, Handout, Page, PagePart, Photo, Show
 from viewer.handout.live import live_show
 from viewer.handout.pictures import KINDS, Frame, Frames, Scenery, picture
-from viewer.handout.sentences import of_stage
-from viewer.handout.sweeps import positions
+from viewer.handout.sentences import of_hit, of_stage
+from viewer.handout.sweeps import Position, positions
 from viewer.lessons.lesson import Lesson
-from viewer.lessons.step import COLOUR, DEPTH, RAYS, Step
+from viewer.lessons.step import COLOUR, DEPTH, PIXEL, RAYS, Step
 from viewer.lessons.text import filled
 from viewer.lessons.values import ABSENT, value_text
 
@@ -41,7 +44,7 @@ class _Reader:
     def __init__(self) -> None:
         self._worlds: list[tuple[tuple[Path, Mapping[str, Any]], World]] = []
         self._sceneries: list[tuple[World, Any, Scenery]] = []
-        self._images: dict[tuple[int, int, str], Any] = {}
+        self._images: dict[tuple[int, int, str], tuple[World, np.ndarray]] = {}
         self._seen: tuple | None = None  # the image and the pixel of the step before
 
     def page(self, number: int, step: Step, lesson: Lesson) -> Page:
@@ -55,8 +58,12 @@ class _Reader:
         for part in step.parts:
             shows = {fence.line: live_show(fence, tree, row, world) for fence in part.live}
             parts.append(PagePart(filled(part.blocks, value), {line: show for line, show in shows.items() if show}))
-        show = self._show(step, world, trees, row) if trees else Show((), 1, 0)
-        return Page(number, step, world, tree, row, self._with_photos(show, step, world, trees), tuple(parts))
+        show = self._show(step, world, trees, row) if trees else self._image_only(step, world)
+        return Page(number, step, world, tree, row, show, tuple(parts))
+
+    def _image_only(self, step: Step, world: World) -> Show:
+        """The show of a step without a pixel."""
+        return Show((), 1, 0, photos=self._photos(step, world, (), ()))
 
     def _world(self, step: Step) -> World:
         key = (step.scene, step.state.set)
@@ -96,42 +103,58 @@ class _Reader:
         stages = [stage for k, stage in enumerate(stages) if k == 0 or not _is_same(stage, stages[k - 1])]
         frames = [Frame(stage, scenery, 0, row) for stage in stages]
         controls: tuple[Control, ...] = ()
+        swept: list[Position] = []
         if state.reveal and len(stages) > 1:
             said = tuple(_name(stage, state.reveal) for stage in stages)
             controls = (Control(state.reveal, STAGES[state.reveal], 0, said),)
         elif state.sweep:
-            found = positions(step, state.sweep, world)
-            for k, at in enumerate(found):
+            swept = positions(step, state.sweep, world)
+            for k, at in enumerate(swept):
                 place = scenery if at.world is world else Scenery(at.world, scenery.orbit)
                 stage = ray_steps.of_kinds(ray_steps.whole(at.tree), set(state.show) | {"camera"})
                 frames.append(Frame(stage, place, k + 1, (at.tree.find(state.hit) if state.hit else 0) or 0))
-            title = "Place in the image" if state.sweep.of == "pixel" else state.sweep.of
-            controls = (Control(SWEEP, title, 1, tuple(at.words for at in found)),)
+            title = "Place in the image" if state.sweep.of == PIXEL else state.sweep.of
+            places = (f"{trees[-1].place}, as in the text", *(at.words for at in swept))
+            said = tuple(
+                f"{at}. {of_hit(frame.step.tree, frame.hit)}" for at, frame in zip(places, frames, strict=True)
+            )
+            controls = (Control(SWEEP, title, 0, said),)
         drawn = Frames(tuple(frames), state.hit is not None and not state.reveal, state.reveal in (RAYS, COLOUR))
         names = [name for name in state.panels if name in KINDS] or ["scene"]
         pictures = tuple(picture(name, drawn) for name in names)
-        return Show(pictures, len(frames), 0, controls, tuple(frame.step.tree for frame in frames))
+        photos = self._photos(step, world, trees, swept)
+        if len(photos) > 1 and len(photos) != len(frames):
+            photos = photos[-1:]
+        return Show(pictures, len(frames), 0, controls, tuple(frame.step.tree for frame in frames), photos)
 
-    def _with_photos(self, show: Show, step: Step, world: World, trees: Sequence[RayTree]) -> Show:
-        """The show with the rendered image, if the step asks for it, or it is not that of the step before."""
-        model = step.state.model or world.scene.tracing.model
-        depths = [tree.depth for tree in trees] or [world.scene.tracing.depth]
-        now = (id(world), step.state.pixel, depths, model)
+    def _photos(
+        self, step: Step, world: World, trees: Sequence[RayTree], swept: Sequence[Position]
+    ) -> tuple[Photo, ...]:
+        """The rendered image, if the step asks for it, or it is not that of the step before: one for all frames, or one
+        for each depth and each position of a sweep.
+        """
+        state, tracing = step.state, world.scene.tracing
+        model = state.model or tracing.model
+        depths = [tree.depth for tree in trees] or [tracing.depth if state.depth is None else state.depth]
+        now = (id(world), state.pixel, depths, model)
         is_new, self._seen = now != self._seen, now
-        if not is_new and "image" not in step.state.panels:
-            return show
-        if len(depths) != show.frames:
-            depths = depths[-1:]
-        photos = tuple(self._photo(world, depth, model, step.state.pixel) for depth in depths)
-        return Show(show.pictures, show.frames, show.start, show.controls, show.trees, photos)
+        if not (is_new or swept or "image" in state.panels):
+            return ()
+        found = [self._photo(world, depth, model, state.pixel) for depth in depths]
+        return (*found, *(self._photo(at.world, depths[-1], model, at.pixel) for at in swept))
 
-    def _photo(self, world: World, depth: int, model: str, pixel: tuple[int, int] | None) -> Photo:
+    def _photo(self, world: World, depth: int, model: str, pixel: tuple[float, float] | None) -> Photo:
         key = (id(world), depth, model)
         if key not in self._images:
-            self._images[key] = tracer.render(world, depth=depth, model=model).pixels
-        at = f", with a ring around pixel {pixel[0]},{pixel[1]}" if pixel else ""
-        said = f"The image of the scene, {world.scene.caption}, at depth {depth}{at}."
-        return Photo(self._images[key], pixel, "Image", said)
+            self._images[key] = (world, tracer.render(world, depth=depth, model=model).pixels)
+        pixels = self._images[key][1]
+        height, width = pixels.shape[:2]
+        if pixel is None:
+            return Photo(pixels, None, "The image", f"{world.scene.caption}, rendered at depth {depth}.")
+        ring = ((pixel[0] + 0.5) / width, (pixel[1] + 0.5) / height)
+        place = ", ".join(format_number(x) for x in pixel)
+        said = f"{world.scene.caption}, rendered at depth {depth}, with a ring around pixel {place}."
+        return Photo(pixels, ring, "The image, with a ring around the pixel", said)
 
 
 def _stages(step: Step, trees: Sequence[RayTree]) -> Sequence[ray_steps.Step]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from viewer.base.theme import Color, Theme, rgb
 from viewer.figures.marks import WIDTH, Handle, Mark, Point, Rectangle
-from viewer.handout.document import Handout, Page, PagePart, Photo, Room, Show
+from viewer.handout.document import Handout, Page, PagePart, Photo, Picture, Room, Show
 from viewer.handout.text_lines import TextLines, Word
 from viewer.lessons.moments import count_presses, shown_at
 from viewer.lessons.text import Items, Paragraph, Run
@@ -22,6 +22,7 @@ SIZES = (17.0, 14.0)  # text of pictures: of one, of two
 RING = 8.0  # radius of the rings around the pixel, which are seen on any image
 RINGS = ((rgb("#000000"), 4.0), (rgb("#FFFFFF"), 1.8))  # colours and widths
 SHARES = {"scene": 1.0, "tree": 1.15, "hit": 1.5, "ray": 1.0}  # of the width, relative to each other
+LIVE = 1.5  # the same, of a live piece
 
 
 @dataclass(frozen=True)
@@ -38,11 +39,10 @@ class Placed:
     @property
     def ring(self) -> Point | None:
         """The place of the pixel on an image; None without one."""
-        if self.photo is None or self.photo.pixel is None:
+        if self.photo is None or self.photo.ring is None:
             return None
-        left, top, right, _ = self.where
-        scale = (right - left) / self.photo.pixels.shape[1]
-        return (left + scale * (self.photo.pixel[0] + 0.5), top + scale * (self.photo.pixel[1] + 0.5))
+        (left, top, right, bottom), (x, y) = self.where, self.photo.ring
+        return (left + x * (right - left), top + y * (bottom - top))
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def _of_page(handout: Handout, page: Page, theme: Theme) -> Iterator[Slide]:
         left, right = MARGIN, WIDTH - MARGIN
         where = (left, HEAD + text.bottom + GAP, right, FOOT)
         live = [one for part in parts for one in part.live.values()]
-        pictures = _pictures(live[-1], 0, where, theme) if live else _of_show(page, show, shown.stage, where, theme)
+        pictures = _of_show(page, show, shown.stage, live, where, theme)
         place = f"{handout.lesson.title}   {page.number}/{len(handout.pages)}"
         yield Slide(page.title, place, text, tuple(pictures), page.step.notes, page)
 
@@ -112,38 +112,34 @@ def _text(parts: Sequence[PagePart]) -> TextLines:
     return text
 
 
-def _of_show(page: Page, show: Show, frame: int, where: Rectangle, theme: Theme) -> list[Placed]:
-    """The pictures of a step, and the image if it is one of its panels."""
-    if "image" not in page.step.state.panels or not show.photos:
-        return _pictures(show, frame, where, theme)
-    photo = show.photos[frame if len(show.photos) > 1 else 0]
+def _of_show(page: Page, show: Show, stage: int, live: Sequence[Show], where: Rectangle, theme: Theme) -> list[Placed]:
+    """The pictures of a step, and the image if it is one of its panels; beside a live piece, the first of them."""
+    pictures = [(picture, stage) for picture in show.pictures]
+    if live:
+        pictures = [*pictures[:1], *((picture, 0) for picture in live[-1].pictures)]
+    if live or "image" not in page.step.state.panels or not show.photos:
+        return _pictures(pictures, where, theme)
+    photo = show.photos[stage if len(show.photos) > 1 else 0]
     left, top, right, bottom = where
     middle = 0.5 * (left + right)
     image = _placed_photo(photo, (middle + 0.5 * GAP, top, right, bottom))
-    return [*_pictures(show, frame, (left, top, middle - 0.5 * GAP, bottom), theme), image]
+    return [*_pictures(pictures, (left, top, middle - 0.5 * GAP, bottom), theme), image]
 
 
-def _pictures(show: Show, frame: int, where: Rectangle, theme: Theme) -> list[Placed]:
-    """The pictures of a frame side by side."""
+def _pictures(pictures: Sequence[tuple[Picture, int]], where: Rectangle, theme: Theme) -> list[Placed]:
+    """These frames of pictures side by side."""
     left, top, right, bottom = where
-    shares = [SHARES.get(picture.kind, 1.0) for picture in show.pictures]
+    shares = [SHARES.get(picture.kind, LIVE) for picture, _ in pictures]
     unit = (right - left - GAP * (len(shares) - 1)) / sum(shares)
     size = SIZES[min(len(shares), len(SIZES)) - 1]
     found = []
-    for picture, share in zip(show.pictures, shares, strict=True):
+    for (picture, frame), share in zip(pictures, shares, strict=True):
         place = (left, top, left + share * unit, bottom)
         left += share * unit + GAP
         (marks,) = picture.draw(Room(place, size, theme), [frame])
         if marks:
-            found.append(
-                Placed(
-                    picture.kind,
-                    picture.title,
-                    place,
-                    picture.says(frame),
-                    tuple(mark for mark in marks if not isinstance(mark, Handle)),
-                )
-            )
+            kept = tuple(mark for mark in marks if not isinstance(mark, Handle))
+            found.append(Placed(picture.kind, picture.title, place, picture.says(frame), kept))
     return found
 
 

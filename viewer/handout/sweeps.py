@@ -21,11 +21,14 @@ POSITIONS = 13  # of a sweep, with both ends
 
 @dataclass(frozen=True)
 class Position:
-    """One position of a sweep. `words` say where it is."""
+    """One position of a sweep. `words` say where it is; `pixel` is the place in the image, in pixels from the top left,
+    of its ray.
+    """
 
     world: World
     tree: RayTree
     words: str
+    pixel: tuple[float, float]
 
 
 def positions(step: Step, sweep: Sweep, world: World) -> list[Position]:
@@ -42,11 +45,11 @@ def _position(step: Step, sweep: Sweep, world: World, share: float) -> Position:
         ray = (view.eye, pixel_direction(view, x + 0.5, y + 0.5))
         tree = tracer.trace(world, ray=ray, depth=state.depth, model=state.model)
         whole = x == int(x) and y == int(y)
-        return Position(world, tree, f"pixel {words}" if whole else f"between pixels, at {words}")
+        return Position(world, tree, f"pixel {words}" if whole else f"between pixels, at {words}", (x, y))
     changes = _both(state.set, tomllib.loads(f"{sweep.of} = {value[0]!r}"))
     changed = tracer.prepare(tracer.load(step.scene, changes=changes))
     tree = tracer.trace(changed, state.pixel, depth=state.depth, model=state.model)
-    return Position(changed, tree, f"{sweep.of} = {words}")
+    return Position(changed, tree, f"{sweep.of} = {words}", state.pixel or (0, 0))
 
 
 def _both(first: Mapping[str, Any], second: Mapping[str, Any]) -> dict[str, Any]:

@@ -41,6 +41,7 @@ class BlockLines:
     bottom: float
     left: float = 0.0
     mark: str = ""  # of an item of a list, left of its words
+    columns: tuple[float, ...] = ()  # where the cells of a row of a table begin
 
 
 class TextLines:
@@ -91,12 +92,12 @@ class TextLines:
         cells = [[list(self._pieces(cell)) for cell in row] for row in block.rows]
         count = max(map(len, cells), default=0)
         widths = [max(sum(p.width for p in row[k]) for row in cells if k < len(row)) for k in range(count)]
+        lefts = [self.left + sum(width + COLUMN * self.size for width in widths[:k]) for k in range(count)]
         for row in cells:
-            x, words = self.left, []
-            for width, cell in zip(widths, row, strict=False):
-                words += self._placed(cell, x, self.bottom + 0.5 * LINE * self.size)
-                x += width + COLUMN * self.size
-            self._end("tr", words, LINE * self.size, 0.0)
+            y = self.bottom + 0.5 * LINE * self.size
+            words = [word for x, cell in zip(lefts, row, strict=False) for word in self._placed(cell, x, y)]
+            self._end("tr", words, LINE * self.size)
+            self.blocks[-1] = replace(self.blocks[-1], columns=tuple(lefts[: len(row)]))
         self.bottom += BETWEEN * self.size
 
     def _display(self, source: str) -> None:
@@ -106,7 +107,7 @@ class TextLines:
                 left, top, _, bottom = typeset(part).box
                 y = self.bottom + TALL * self.size - top * size
                 word = Word(part, (self.left - left * size, y), size, Run(plain(part)), True)
-                self._end("formula", [word], (bottom - top) * size + 2.0 * TALL * self.size, 0.0)
+                self._end("formula", [word], (bottom - top) * size + 2.0 * TALL * self.size)
         except FormulaError:
             self._lines("code", [Run(source, code=True)])
 
@@ -130,9 +131,9 @@ class TextLines:
         self.blocks.append(BlockLines(kind, tuple(words), top, self.bottom, self.left))
         self.bottom += between * self.size
 
-    def _end(self, kind: str, words: Sequence[Word], height: float, between: float) -> None:
+    def _end(self, kind: str, words: Sequence[Word], height: float) -> None:
         self.blocks.append(BlockLines(kind, tuple(words), self.bottom, self.bottom + height, self.left))
-        self.bottom += height + between * self.size
+        self.bottom += height
 
     def _pieces(self, content: Sequence[Inline]) -> Iterator["_Piece"]:
         """Words with the space before them. What begins without a space stays with what is before."""

@@ -162,10 +162,11 @@ class PageDrawing:
         from each other.
         """
         outlined = {"text_mode": "FILL_STROKE", "line_width": 2.0 * bold, "draw_color": rgb_bytes(text.color)}
-        outlined["char_spacing"] = apart
         with self.pdf.local_context(fill_opacity=text.color[3], **(outlined if bold else {})):
             self.pdf.set_font(FAMILY, size=text.size)
             self.pdf.set_text_color(*rgb_bytes(text.color))
+            if apart:
+                self.pdf.set_char_spacing(apart)  # until the end of this context
             self.pdf.text(text.box()[0], text.at[1] + BASELINE * text.size, boxed(text.content))
 
     def _formula(self, formula: Formula) -> None:

@@ -5,13 +5,15 @@ import io
 import json
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from tracer.tree.raytree import RayTree
 from tracer.tree.text import heaviest_rows
 from viewer.base.srgb import srgb
 from viewer.base.theme import Theme
 from viewer.explain.ray import ray_details
 from viewer.explain.sections import RayDetails
-from viewer.figures.marks import Box, Disc, Figure, Formula, Handle, Line, Mark, Shape, Text
+from viewer.figures.marks import Box, Disc, Figure, Formula, Handle, Line, Mark, Point, Shape, Text
 from viewer.figures.picking import ray_of
 from viewer.figures.writers.html.frame import text
 from viewer.figures.writers.html.inline_svg import Drawings
@@ -37,6 +39,7 @@ class ShowWriter:
         self.themes, self.numbers, self.drawings, self.colors = themes, numbers, drawings, colors
         self._trees: dict[tuple, str] = {}
         self._details: dict[tuple[int, int], RayDetails] = {}
+        self._images: dict[int, str] = {}
 
     def tree_name(self, page: Page, tree: RayTree) -> str:
         """What the names of a tree's rays begin with. Trees of one pixel have common rays, at any depth."""
@@ -78,7 +81,7 @@ class ShowWriter:
             for one, frames in zip(room, marks, strict=True)
         ]
         trees = [self.tree_name(page, tree) if tree else "" for tree in show.trees]
-        swept = show.controls and show.controls[0].name == SWEEP
+        swept = bool(show.controls) and show.controls[0].name == SWEEP
         named = [
             self._named(page, figure, tree, k == 0 or not swept)
             for k, (figure, tree) in enumerate(zip(drawn[0], show.trees, strict=True))
@@ -119,19 +122,24 @@ class ShowWriter:
         yield f'<svg role="img" {labelled} viewBox="0 0 {width} {height}">'
         for k, photo in enumerate(photos):
             own = frames_attribute([k], start) if len(photos) > 1 else ""
-            yield f"<g{own}>{self.drawings.shared(_image(photo))}</g>"
-        pixel = photos[0].pixel
-        if pixel:
-            yield _ring(pixel, width)
+            image = f'<image width="{width}" height="{height}" href="{self._image(photo)}"/>'
+            ring = _ring((width * photo.ring[0], height * photo.ring[1]), width) if photo.ring else ""
+            yield f"<g{own}>{self.drawings.shared(image)}{ring}</g>"
         yield "</svg>"
-        name = f"The image; the ring is around pixel {pixel[0]},{pixel[1]}" if pixel else "The image"
-        yield f'<figcaption><p id="{place}-name">{name}</p>'
+        yield f'<figcaption><p id="{place}-name">{text(photos[0].title)}</p>'
         yield f'<div id="{place}-said" class="said">'
         said = [photo.description for photo in photos]
         yield from captions(said, start if len(photos) > 1 else 0, text)
         yield "</div>"
         yield "</figcaption>"
         yield "</figure>"
+
+    def _image(self, photo: Photo) -> str:
+        """The address of its data, made once for each image."""
+        key = id(photo.pixels)  # the handout keeps them alive
+        if key not in self._images:
+            self._images[key] = _address(photo.pixels)
+        return self._images[key]
 
 
 def low(mark: Mark) -> float:
@@ -152,24 +160,23 @@ def low(mark: Mark) -> float:
     return 0.0
 
 
-def _image(photo: Photo) -> str:
-    """The pixels as an element of SVG, with the data in it."""
+def _address(pixels: np.ndarray) -> str:
+    """An image as an address that has the data in it."""
     from PIL import Image
 
-    height, width = photo.pixels.shape[:2]
-    picture = Image.fromarray(srgb(photo.pixels))
+    height, width = pixels.shape[:2]
+    picture = Image.fromarray(srgb(pixels))
     if width > WIDEST:
         picture = picture.resize((WIDEST, round(WIDEST * height / width)), Image.Resampling.LANCZOS)
     buffer = io.BytesIO()
     picture.save(buffer, "WEBP", quality=QUALITY, method=6)
-    data = base64.b64encode(buffer.getvalue()).decode("ascii")
-    return f'<image width="{width}" height="{height}" href="data:image/webp;base64,{data}"/>'
+    return f"data:image/webp;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"
 
 
-def _ring(pixel: tuple[int, int], width: int) -> str:
+def _ring(at: Point, width: int) -> str:
     """Two circles, which are seen on any image."""
-    x, y, r = pixel[0] + 0.5, pixel[1] + 0.5, RING * width
-    circle = f'<circle cx="{x:g}" cy="{y:g}" r="{r:.1f}" fill="none"'
+    r = RING * width
+    circle = f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="{r:.1f}" fill="none"'
     lines = (("#000000", 0.5 * r), ("#FFFFFF", 0.22 * r))
     return "".join(f'{circle} stroke="{color}" stroke-width="{wide:.1f}"/>' for color, wide in lines)
 
