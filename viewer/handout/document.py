@@ -6,17 +6,27 @@ nothing is added to the one before.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
-from viewer.base.theme import Theme
+from viewer.base.theme import LIGHT, THEMES, Theme, rgb
 from viewer.figures.marks import Mark, Rectangle
 from viewer.lessons.lesson import Lesson
 from viewer.lessons.step import Step
 from viewer.lessons.text import Block
+
+WHITE = rgb("#FFFFFF")
+
+
+def paper(name: str) -> Theme:
+    """The theme of this name for a handout. The light one is on white: there, text in the colours of rays has the
+    contrast that WCAG 2.1 AA asks for, 4.5.
+    """
+    theme = THEMES[name]
+    return replace(theme, ground=WHITE) if theme is LIGHT else theme
 
 
 @dataclass(frozen=True)
@@ -35,7 +45,7 @@ class Picture:
     kind: str  # scene, tree, hit, ray; or the name of a live piece
     title: str
     draw: Callable[[Room, Sequence[int]], list[list[Mark]]]
-    says: Callable[[int], str]  # the alternative text of a frame
+    says: Callable[[int, Sequence[Mark]], str]  # the alternative text of a frame with these marks
 
 
 @dataclass(frozen=True)

@@ -40,4 +40,4 @@ def _figure(handout: Handout, page: Page, picture: Picture, frame: int, command:
     (marks,) = picture.draw(Room(CANVAS, TEXT, theme), [frame])
     kept = tuple(mark for mark in marks if not isinstance(mark, Handle))
     title = f"{handout.lesson.title}: {page.title}, {picture.title.lower()}"
-    return Figure(title, picture.says(frame), command, kept, theme.ground)
+    return Figure(title, picture.says(frame, kept), command, kept, theme.ground)

@@ -9,13 +9,12 @@ from pkgutil import resolve_name
 
 from viewer.base.files import Unusable
 from viewer.base.options import flag
-from viewer.base.theme import THEMES
 from viewer.figures.catalogue import DATA, FORMATS
 from viewer.figures.export import Made, command_line
 from viewer.figures.export_options import ExportOptions
 from viewer.figures.targets import Target
 from viewer.figures.writers.png import PIXELS
-from viewer.handout.document import Handout
+from viewer.handout.document import Handout, paper
 from viewer.handout.figures import figures_of
 
 # Functions of (Handout, command, name of a theme) that return a document with the text.
@@ -70,7 +69,7 @@ def make_lesson(
                 continue
             files.append((target.file(name, FORMATS[kind].suffix), content))
         else:
-            for stem, figure in figures_of(handout, command, THEMES[options.theme]):
+            for stem, figure in figures_of(handout, command, paper(options.theme)):
                 files.append(
                     (target.file(stem, FORMATS[kind].suffix), FORMATS[kind].write([figure], options.width or PIXELS))
                 )

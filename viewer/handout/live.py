@@ -7,15 +7,15 @@ from collections.abc import Sequence
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import LIGHT
-from viewer.figures.marks import CANVAS, Handle, Mark, Text
-from viewer.handout.document import Control, Picture, Room, Show
+from viewer.figures.marks import Handle, Mark, Rectangle, Text
+from viewer.handout.document import Control, Picture, Room, Show, paper
 from viewer.handout.sentences import of_marks
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
 from viewer.lessons.text import Fence
 
 MOST = 100  # positions of a handle
-TEXT = 18.0  # points, on the canvas on which positions are found
+LIVE_ROOM = Room((0.0, 0.0, 460.0, 590.0), 16.5, paper(LIGHT.name))  # of pieces in a page for a browser
 NICE = (1.0, 2.0, 5.0)  # steps between positions, times a power of ten
 NUMBER = re.compile(r"[0-9]")
 DRAG = "drag to "  # begins the titles of handles
@@ -24,32 +24,35 @@ DRAG = "drag to "  # begins the titles of handles
 def live_show(fence: Fence, tree: RayTree | None, row: int, world: World) -> Show | None:
     """The show of a live piece; None if it cannot show this hit. Frame 0 is the piece as it begins."""
     name, *words = fence.content.split() or [""]
-    try:
-        kind = live_kind(name)
-        context = LiveContext(tree, row, world, LIGHT, TEXT, CANVAS)
-        marks = kind.marks(context, {}, words)
-    except ValueError:
-        return None
+    drawn: dict[tuple[Rectangle, float, str, tuple], list[Mark]] = {}
+
+    def marks(room: Room, parameters: dict[str, float]) -> list[Mark]:
+        key = (room.where, room.size, room.theme.name, tuple(parameters.items()))
+        if key not in drawn:
+            context = LiveContext(tree, row, world, room.theme, room.size, room.where)
+            drawn[key] = kind.marks(context, parameters, words)
+        return drawn[key]
+
     parameters: list[dict[str, float]] = [{}]
     controls = []
-    for handle in (mark for mark in marks if isinstance(mark, Handle)):
-        values = positions(handle)
-        title = handle.title.removeprefix(DRAG)
-        title = title[:1].upper() + title[1:]
-        first = len(parameters)
-        drawn = [kind.marks(context, {handle.name: value}, words) for value in values]
-        said = tuple("; ".join(filter(None, both)) for both in zip(map(_said, values), differences(drawn), strict=True))
-        controls.append(Control(handle.name, title, first, said, values.index(handle.value), True))
-        parameters += [{handle.name: value} for value in values]
+    try:
+        kind = live_kind(name)
+        for handle in (mark for mark in marks(LIVE_ROOM, {}) if isinstance(mark, Handle)):
+            values = positions(handle)
+            title = handle.title.removeprefix(DRAG)
+            title = title[:1].upper() + title[1:]
+            own = [{handle.name: value} for value in values]
+            told = differences([marks(LIVE_ROOM, one) for one in own])
+            said = tuple("; ".join(filter(None, both)) for both in zip(map(_said, values), told, strict=True))
+            controls.append(Control(handle.name, title, len(parameters), said, values.index(handle.value), True))
+            parameters += own
+    except ValueError:
+        return None
 
     def draw(room: Room, asked: Sequence[int]) -> list[list[Mark]]:
-        place = LiveContext(tree, row, world, room.theme, room.size, room.where)
-        return [kind.marks(place, parameters[k], words) for k in asked]
+        return [marks(room, parameters[k]) for k in asked]
 
-    def says(k: int) -> str:
-        return of_marks(kind.title, kind.marks(context, parameters[k], words))
-
-    picture = Picture(name, kind.title, draw, says)
+    picture = Picture(name, kind.title, draw, lambda _, shown: of_marks(kind.title, shown))
     return Show((picture,), len(parameters), 0, tuple(controls), (tree,) * len(parameters))
 
 

@@ -3,11 +3,11 @@
 The elements of the structure are in the order of reading. The place at the foot of a page is not read out.
 """
 
-from viewer.base.theme import THEMES, Theme
+from viewer.base.theme import Theme
 from viewer.figures.font import text_width
 from viewer.figures.marks import HEIGHT, WIDTH, Disc, Figure, Formula, Stroke, Text
 from viewer.figures.writers.pdf import PageDrawing, new_document
-from viewer.handout.document import Handout
+from viewer.handout.document import Handout, paper
 from viewer.handout.slides import FOOT, FOOT_SIZE, HEAD, MARGIN, RING, RINGS, TITLE, Placed, Slide, slides_of
 from viewer.handout.text_lines import BOLD as WIDER, BlockLines
 
@@ -18,7 +18,7 @@ MARK = 0.1  # distance of a list's mark from its text, in text sizes
 
 def write_slides(handout: Handout, command: str, theme: str) -> bytes:
     """The document."""
-    colors, lesson = THEMES[theme], handout.lesson
+    colors, lesson = paper(theme), handout.lesson
     about = Figure(lesson.title, lesson.question, command, (), colors.ground, True)
     pdf = new_document(about)
     titles: list[str] = []

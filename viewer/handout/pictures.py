@@ -148,7 +148,7 @@ def picture(name: str, frames: Frames) -> Picture:
                 found[place] = finished(marks, room.size)
         return found
 
-    return Picture(name, kind.title, draw, lambda k: kind.says(frames.all[k]))
+    return Picture(name, kind.title, draw, lambda k, _: kind.says(frames.all[k]))
 
 
 def finished(marks: Sequence[Mark], size: float) -> list[Mark]:

@@ -12,12 +12,12 @@ from itertools import count, groupby
 from typing import Any
 
 from viewer.base.pictures import png
-from viewer.base.theme import THEMES, Color, Theme
+from viewer.base.theme import Color, Theme
 from viewer.figures.font import FAMILY
 from viewer.figures.marks import WIDTH, Disc, Figure, Formula, Stroke
 from viewer.figures.writers.pptx import new_deck, saved
 from viewer.figures.writers.pptx_shapes import A, SlideDrawing, emu, emu_box, paint, rgb_color
-from viewer.handout.document import Handout, Page
+from viewer.handout.document import Handout, Page, paper
 from viewer.handout.slides import FOOT, FOOT_SIZE, HEAD, MARGIN, RING, RINGS, TITLE, Placed, Slide, slides_of
 from viewer.handout.text_lines import LINE, BlockLines
 
@@ -44,7 +44,7 @@ TRANSITION = """
 
 def write_slides(handout: Handout, command: str, theme: str) -> bytes:
     """The presentation. Unusable without the extra."""
-    colors = THEMES[theme]
+    colors = paper(theme)
     lesson = handout.lesson
     deck = new_deck(Figure(lesson.title, lesson.question, command, (), colors.ground))
     for slide in slides_of(handout, colors):

@@ -139,7 +139,7 @@ def _pictures(pictures: Sequence[tuple[Picture, int]], where: Rectangle, theme: 
         (marks,) = picture.draw(Room(place, size, theme), [frame])
         if marks:
             kept = tuple(mark for mark in marks if not isinstance(mark, Handle))
-            found.append(Placed(picture.kind, picture.title, place, picture.says(frame), kept))
+            found.append(Placed(picture.kind, picture.title, place, picture.says(frame, kept), kept))
     return found
 
 

@@ -9,6 +9,28 @@ from viewer.figures.writers.html.frame import root_colors
 COLOR = re.compile(r'"#[0-9A-F]{6}"')
 
 
+class Partners:
+    """The colours of one figure in two themes: which belong together, as far as it is certain."""
+
+    def __init__(self) -> None:
+        self._found: dict[str, set[str]] = {}
+
+    def learn(self, drawing: Sequence[str], other: Sequence[str]) -> None:
+        """Take the pairs of a drawing in both themes, whose elements differ in colours only."""
+        for first, second in zip(drawing, other, strict=False):
+            if COLOR.sub("", first) == COLOR.sub("", second):
+                for light, dark in zip(COLOR.findall(first), COLOR.findall(second), strict=True):
+                    self._found.setdefault(light, set()).add(dark)
+
+    def know(self, drawing: Sequence[str]) -> bool:
+        """Whether each colour of a drawing has one partner."""
+        return all(len(self._found.get(color, ())) == 1 for element in drawing for color in COLOR.findall(element))
+
+    def of(self, element: str) -> str:
+        """An element in the other theme."""
+        return COLOR.sub(lambda color: next(iter(self._found.get(color[0], {color[0]}))), element)
+
+
 class ColorPairs:
     """The pairs of colours of one page, from the same drawings in both themes. One theme: nothing is paired."""
 

@@ -13,8 +13,9 @@ from viewer.base.theme import rgb_bytes
 from viewer.figures.marks import Figure, Handle, Mark
 from viewer.figures.writers.html.inline_svg import Drawings, Groups, opening, row_of_mark
 from viewer.figures.writers.svg import elements, title_element
-from viewer.handout.html.colors import ColorPairs
+from viewer.handout.html.colors import ColorPairs, Partners
 
+DRAWN = 20  # of so many frames, one is drawn in the other theme in any case
 HANDLE = (10.0, 3.0)  # radius of a handle and width of its line, in points
 
 
@@ -69,7 +70,8 @@ def frames_attribute(frames: Sequence[int], start: int) -> str:
 
 
 def frames_svg(
-    figures: Sequence[Sequence[Figure]],
+    figures: Sequence[Figure],
+    other: Callable[[Sequence[int]], list[Figure]] | None,
     start: int,
     labelled: str,
     numbers: Sequence[Mapping[int, str]],
@@ -77,18 +79,43 @@ def frames_svg(
     drawings: Drawings,
     colors: ColorPairs,
 ) -> list[str]:
-    """The lines of the SVG. `figures` are the frames in each theme, `numbers` and `trees` those of `inline_svg` for
-    each frame.
+    """The lines of the SVG. `figures` are the frames in the first theme, and `other` makes some of them in the other
+    theme, if there is one. `numbers` and `trees` are those of `inline_svg` for each frame.
     """
+    units = [list(_units(figure, numbers[k], trees[k])) for k, figure in enumerate(figures)]
+
+    def drawn(frames: Sequence[int]) -> list[list[str]]:
+        made = other(frames) if other else []
+        return [list(_units(one, numbers[k], trees[k])) for k, one in zip(frames, made, strict=True)]
+
+    if other:
+        units = _in_both(units, drawn, colors)
     found = Frames()
-    for k, forms in enumerate(zip(*figures, strict=True)):
-        units = [list(_units(figure, numbers[k], trees[k])) for figure in forms]
-        if len({len(unit) for unit in units}) > 1:  # the layout depends on the theme
-            units = units[:1]
-        shown = [colors.paired(drawn) for drawn in zip(*units, strict=True)]
+    for k, shown in enumerate(units):
         found.add(k, [drawings.shared(element) for element in shown])
-    first = figures[0][0]
-    return [*opening(first, labelled), *found.lines(len(figures[0]), start), "</svg>"]
+    return [*opening(figures[0], labelled), *found.lines(len(figures), start), "</svg>"]
+
+
+def _in_both(
+    units: list[list[str]], drawn: Callable[[Sequence[int]], list[list[str]]], colors: ColorPairs
+) -> list[list[str]]:
+    """The frames with colours of both themes. Some are drawn in the other theme as well; these show which colours
+    belong together. Frames with a colour of which that is not certain are drawn, too.
+    """
+    partners, made = Partners(), dict[int, list[str]]()
+    last = len(units) - 1
+    sample = sorted({*range(0, last, DRAWN), last})
+    for k, shown in zip(sample, drawn(sample), strict=True):
+        made[k] = shown
+        partners.learn(units[k], shown)
+    unsure = [k for k in range(last + 1) if k not in made and not partners.know(units[k])]
+    made |= dict(zip(unsure, drawn(unsure), strict=True))
+    return [
+        [colors.paired([first, second]) for first, second in zip(shown, made[k], strict=True)]
+        if len(made.get(k, ())) == len(shown)
+        else [colors.paired([first, partners.of(first)]) for first in shown]
+        for k, shown in enumerate(units)
+    ]
 
 
 def _units(figure: Figure, numbers: Mapping[int, str], tree: str) -> Iterator[str]:

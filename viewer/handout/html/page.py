@@ -7,12 +7,12 @@ script, the page has all text, and each show in the frame that shows everything.
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from viewer.base.theme import DARK, LIGHT, THEMES, Theme
+from viewer.base.theme import DARK, LIGHT, Theme
 from viewer.figures.writers.html.formulas import Formulas
 from viewer.figures.writers.html.frame import framed, shipped, text
 from viewer.figures.writers.html.inline_svg import Drawings
 from viewer.figures.writers.html.numbers import Numbers
-from viewer.handout.document import Handout, Page, PagePart
+from viewer.handout.document import Handout, Page, PagePart, paper
 from viewer.handout.html.blocks import BlockWriter, RayLink
 from viewer.handout.html.colors import ColorPairs
 from viewer.handout.html.shows import ShowWriter
@@ -29,7 +29,7 @@ NEXT = "Show what follows"  # after text that asks nothing
 
 def write_page(handout: Handout, command: str, theme: str = LIGHT.name, head: Sequence[str] = ()) -> bytes:
     """The page of a lesson. With the light theme, it is dark where the reader's system asks for that."""
-    themes = (LIGHT, DARK) if theme == LIGHT.name else (THEMES[theme],)
+    themes = [paper(name) for name in ((LIGHT.name, DARK.name) if theme == LIGHT.name else (theme,))]
     return _Writer(handout, command, themes).page(head)
 
 

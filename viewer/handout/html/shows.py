@@ -21,11 +21,11 @@ from viewer.figures.writers.html.numbers import Numbers
 from viewer.handout.document import REVEALED, Control, Page, Photo, Picture, Room, Show
 from viewer.handout.html.colors import ColorPairs
 from viewer.handout.html.frames import HANDLE, captions, frames_attribute, frames_svg
+from viewer.handout.live import LIVE_ROOM
 from viewer.handout.reading import SWEEP
 
-# Width, height and text size of pictures, in points. On a phone, 360 pixels wide, the text has 12 pixels.
-SIZES = {"scene": (480.0, 430.0, 16.0), "tree": (500.0, 450.0, 16.5), "hit": (500.0, 640.0, 16.5)}
-USUAL = (500.0, 620.0, 16.5)
+# The rooms of pictures, in points. On a phone, 390 pixels wide, the text has 12 pixels.
+ROOMS = {"scene": (0.0, 0.0, 460.0, 420.0), "tree": (0.0, 0.0, 460.0, 430.0), "hit": (0.0, 0.0, 460.0, 620.0)}
 EXPLAINED = 40  # rays of a tree whose numbers are on the page: the heaviest
 WIDEST, QUALITY = 720, 85  # of an image: pixels, and WebP's quality
 MARGIN = 0.7  # below a picture, in text sizes
@@ -69,31 +69,35 @@ class ShowWriter:
         yield "</div>"
 
     def _picture(self, page: Page, show: Show, picture: Picture, place: str, start: int, alone: str) -> Iterator[str]:
-        width, height, size = SIZES.get(picture.kind, USUAL)
-        room = [Room((0.0, 0.0, width, height), size, theme) for theme in self.themes]
-        marks = [picture.draw(one, range(show.frames)) for one in room]
-        if not any(marks[0]):
+        (_, _, width, height), size = ROOMS.get(picture.kind, LIVE_ROOM.where), LIVE_ROOM.size
+        rooms = [Room((0.0, 0.0, width, height), size, theme) for theme in self.themes]
+        marks = picture.draw(rooms[0], range(show.frames))
+        if not any(marks):
             return
-        lowest = max(low(mark) for frame in marks[0] for mark in frame)
+        lowest = max(low(mark) for frame in marks for mark in frame)
         height = min(height, lowest + MARGIN * size)
-        drawn = [
-            [Figure(picture.title, "", "", tuple(frame), one.theme.ground, False, width, height) for frame in frames]
-            for one, frames in zip(room, marks, strict=True)
-        ]
+
+        def figures(k: int, frames: Sequence[int]) -> list[Figure]:
+            found = picture.draw(rooms[k], frames) if k else marks
+            ground = rooms[k].theme.ground
+            return [Figure(picture.title, "", "", tuple(one), ground, False, width, height) for one in found]
+
+        drawn = figures(0, ())
         trees = [self.tree_name(page, tree) if tree else "" for tree in show.trees]
         swept = bool(show.controls) and show.controls[0].name == SWEEP
         named = [
             self._named(page, figure, tree, k == 0 or not swept)
-            for k, (figure, tree) in enumerate(zip(drawn[0], show.trees, strict=True))
+            for k, (figure, tree) in enumerate(zip(drawn, show.trees, strict=True))
         ]
         labelled = f'aria-labelledby="{place}-name" aria-describedby="{place}-said"'
         yield f'<figure class="picture {picture.kind}{alone}">'
         yield '<div class="canvas">'
-        yield from frames_svg(drawn, start, labelled, named, trees, self.drawings, self.colors)
+        other = (lambda frames: figures(1, frames)) if len(rooms) > 1 else None
+        yield from frames_svg(drawn, other, start, labelled, named, trees, self.drawings, self.colors)
         yield "</div>"
         yield f'<figcaption><p id="{place}-name">{text(picture.title)}</p>'
         yield f'<div id="{place}-said" class="said">'
-        yield from captions([picture.says(k) for k in range(show.frames)], start, text)
+        yield from captions([picture.says(k, one) for k, one in enumerate(marks)], start, text)
         yield "</div>"
         yield "</figcaption>"
         yield "</figure>"
