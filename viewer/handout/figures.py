@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from viewer.base.theme import Theme
 from viewer.figures.marks import CANVAS, Figure, Handle
-from viewer.handout.document import Handout, Page, Picture, Room, Show
+from viewer.handout.document import Handout, Page, Room, Show
 
 TEXT = 18.0  # points, on a slide
 
@@ -17,27 +17,21 @@ def figures_of(handout: Handout, command: str, theme: Theme) -> Iterator[tuple[s
     """
     digits = len(str(len(handout.pages)))
     for page in handout.pages:
-        for press, show, frame in _moments(page):
-            for picture in show.pictures:
-                figure = _figure(handout, page, picture, frame, command, theme)
-                if figure.marks:
-                    yield f"{handout.lesson.name}_{page.number:0{digits}}.{press}_{picture.kind}", figure
+        for show, moments in _moments(page):
+            drawn = [picture.draw(Room(CANVAS, TEXT, theme), range(len(moments))) for picture in show.pictures]
+            for k, press in enumerate(moments):
+                for picture, frames in zip(show.pictures, drawn, strict=True):
+                    kept = tuple(mark for mark in frames[k] if not isinstance(mark, Handle))
+                    title = f"{handout.lesson.name}: {page.title}, {picture.title.lower()}"
+                    stem = f"{handout.lesson.name}_{page.number:0{digits}}.{press}_{picture.kind}"
+                    if kept:
+                        yield stem, Figure(title, picture.says(k, kept), command, kept, theme.ground)
 
 
-def _moments(page: Page) -> Iterator[tuple[str, Show, int]]:
-    """(presses, show, frame) for the stages of a step and for its live pieces."""
-    stages = page.stages
-    last = stages - 1 + len(page.parts) - 1
-    digits = len(str(last))
-    for stage in range(stages):
-        yield f"{stage:0{digits}}", page.show, stage
+def _moments(page: Page) -> Iterator[tuple[Show, list[str]]]:
+    """The shows of a step and of its live pieces, each with the presses at which its frames appear."""
+    first = page.stages - 1
+    digits = len(str(first + len(page.parts) - 1))
+    yield page.show, [f"{stage:0{digits}}" for stage in range(page.stages)]
     for k, part in enumerate(page.parts):
-        for show in part.live.values():
-            yield f"{stages - 1 + k:0{digits}}", show, 0
-
-
-def _figure(handout: Handout, page: Page, picture: Picture, frame: int, command: str, theme: Theme) -> Figure:
-    (marks,) = picture.draw(Room(CANVAS, TEXT, theme), [frame])
-    kept = tuple(mark for mark in marks if not isinstance(mark, Handle))
-    title = f"{handout.lesson.title}: {page.title}, {picture.title.lower()}"
-    return Figure(title, picture.says(frame, kept), command, kept, theme.ground)
+        yield from ((show, [f"{first + k:0{digits}}"]) for show in part.live.values())

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from viewer.base.theme import Color, Theme, rgb
 from viewer.figures.marks import WIDTH, Handle, Mark, Point, Rectangle
 from viewer.handout.document import Handout, Page, PagePart, Photo, Picture, Room, Show
+from viewer.handout.pictures import KINDS
 from viewer.handout.text_lines import TextLines, Word
 from viewer.lessons.moments import count_presses, shown_at
 from viewer.lessons.text import Items, Paragraph, Run
@@ -90,6 +91,7 @@ def _cover(handout: Handout) -> Slide:
 
 def _of_page(handout: Handout, page: Page, theme: Theme) -> Iterator[Slide]:
     show = page.show
+    drawn = _Drawn(page.stages, theme)
     for press in range(count_presses(page.step, page.stages) + 1):
         shown = shown_at(page.step, page.stages, press)
         parts = page.parts[: shown.parts]
@@ -97,7 +99,7 @@ def _of_page(handout: Handout, page: Page, theme: Theme) -> Iterator[Slide]:
         left, right = MARGIN, WIDTH - MARGIN
         where = (left, HEAD + text.bottom + GAP, right, FOOT)
         live = [one for part in parts for one in part.live.values()]
-        pictures = _of_show(page, show, shown.stage, live, where, theme)
+        pictures = _of_show(page, show, shown.stage, live, where, drawn)
         place = f"{handout.lesson.title}   {page.number}/{len(handout.pages)}"
         yield Slide(page.title, place, text, tuple(pictures), page.step.notes, page)
 
@@ -112,21 +114,35 @@ def _text(parts: Sequence[PagePart]) -> TextLines:
     return text
 
 
-def _of_show(page: Page, show: Show, stage: int, live: Sequence[Show], where: Rectangle, theme: Theme) -> list[Placed]:
+class _Drawn:
+    """Pictures of one step. Stages at one place are drawn together, since each is laid out for the last of them."""
+
+    def __init__(self, stages: int, theme: Theme) -> None:
+        self.stages, self.theme = stages, theme
+        self._made: dict[tuple[int, Rectangle], list[list[Mark]]] = {}
+
+    def marks(self, picture: Picture, where: Rectangle, size: float, frame: int) -> list[Mark]:
+        room, key = Room(where, size, self.theme), (id(picture), where)
+        if frame == 0 and self.stages > 1 and picture.kind in KINDS:
+            self._made[key] = picture.draw(room, range(self.stages))
+        return self._made[key][frame] if key in self._made else picture.draw(room, [frame])[0]
+
+
+def _of_show(page: Page, show: Show, stage: int, live: Sequence[Show], where: Rectangle, drawn: _Drawn) -> list[Placed]:
     """The pictures of a step, and the image if it is one of its panels; beside a live piece, the first of them."""
     pictures = [(picture, stage) for picture in show.pictures]
     if live:
         pictures = [*pictures[:1], *((picture, 0) for picture in live[-1].pictures)]
     if live or "image" not in page.step.state.panels or not show.photos:
-        return _pictures(pictures, where, theme)
+        return _pictures(pictures, where, drawn)
     photo = show.photos[stage if len(show.photos) > 1 else 0]
     left, top, right, bottom = where
     middle = 0.5 * (left + right)
     image = _placed_photo(photo, (middle + 0.5 * GAP, top, right, bottom))
-    return [*_pictures(pictures, (left, top, middle - 0.5 * GAP, bottom), theme), image]
+    return [*_pictures(pictures, (left, top, middle - 0.5 * GAP, bottom), drawn), image]
 
 
-def _pictures(pictures: Sequence[tuple[Picture, int]], where: Rectangle, theme: Theme) -> list[Placed]:
+def _pictures(pictures: Sequence[tuple[Picture, int]], where: Rectangle, drawn: _Drawn) -> list[Placed]:
     """These frames of pictures side by side."""
     left, top, right, bottom = where
     shares = [SHARES.get(picture.kind, LIVE) for picture, _ in pictures]
@@ -136,9 +152,8 @@ def _pictures(pictures: Sequence[tuple[Picture, int]], where: Rectangle, theme: 
     for (picture, frame), share in zip(pictures, shares, strict=True):
         place = (left, top, left + share * unit, bottom)
         left += share * unit + GAP
-        (marks,) = picture.draw(Room(place, size, theme), [frame])
-        if marks:
-            kept = tuple(mark for mark in marks if not isinstance(mark, Handle))
+        kept = tuple(mark for mark in drawn.marks(picture, place, size, frame) if not isinstance(mark, Handle))
+        if kept:
             found.append(Placed(picture.kind, picture.title, place, picture.says(frame, kept), kept))
     return found
 

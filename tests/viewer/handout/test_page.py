@@ -9,15 +9,13 @@ import pytest
 
 from tests.viewer.chromium import Browser, chromium
 from tests.viewer.figures.writers.test_html import ARTICLE, CONTRASTS, TAP, messages
-from tests.viewer.handout.sample import EVIL, write_lesson
+from tests.viewer.handout.sample import EVIL
 from viewer.figures.marks import Text
 from viewer.handout.document import Handout, Room, Show, paper
 from viewer.handout.html.page import write_page
 from viewer.handout.html.shows import ROOMS
 from viewer.handout.live import LIVE_ROOM
-from viewer.handout.reading import read_handout
 from viewer.handout.sweeps import POSITIONS
-from viewer.lessons.lesson import read_file
 
 COMMAND = "raytree export EVIL --lesson"
 # The texts that are seen in the k-th figure of a show, in order.
@@ -36,11 +34,6 @@ SEEN = "[...document.querySelectorAll({})].map(e => e.checkVisibility())"
 def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
     with chromium(tmp_path_factory.mktemp("profile")) as tab:
         yield tab
-
-
-@pytest.fixture(scope="module")
-def handout(tmp_path_factory: pytest.TempPathFactory) -> Handout:
-    return read_handout(read_file(write_lesson(tmp_path_factory.mktemp("lessons") / "glass") / "lesson.md"))
 
 
 @pytest.fixture(scope="module")
