@@ -17,6 +17,7 @@ SMALLEST_ZOOM, LARGEST_ZOOM = 0.01, 1000.0  # of a picture in its panel
 NEAREST, FARTHEST = 1e-9, 1e9  # distance of the 3D view, in radii of the scene
 FAR = 1e6  # limit of the coordinates of a picture's middle
 AT_HELP = "of a lesson: its step, from 1; 3.2 is two presses of a key after the beginning of step 3"
+SWEPT_HELP = "of a lesson's step with a sweep: how far it has gone, 0 to 1"
 UP_HELP = "axis of a mesh file that points upwards, y by default"
 DEPTH_HELP = "recursion depth, the scene's own by default"
 SAMPLE_HELP = "of a pixel with N samples, this one, 0 to N - 1; the first by default"

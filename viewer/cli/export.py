@@ -17,12 +17,13 @@ from viewer.handout.reading import read_handout
 from viewer.reopen.scene_files import scene_files
 from viewer.session.restore.command import embedded
 from viewer.session.restore.figure_scene import FigureScene
+from viewer.session.stepping.trees import ray_between
 
 
 def export(options: ExportOptions) -> int:
     with contextlib.ExitStack() as stack:
         scene, target, _ = collect(
-            lambda: stack.enter_context(found_scene(options.scene, options.at)),
+            lambda: stack.enter_context(found_scene(options.scene, options.at, options.swept)),
             lambda: target_of(options),
             lambda: check_lesson_options(options) if options.lesson else check_options(options),
         )
@@ -31,11 +32,12 @@ def export(options: ExportOptions) -> int:
             return _list(made)
         if scene.state.depth is not None and not options.depth:
             options = replace(options, depth=range(scene.state.depth, scene.state.depth + 1))
-        if not options.pixel and not options.ray:
+        is_between = scene.between and not options.pixel and not options.ray
+        if not options.pixel and not options.ray and not is_between:
             options = replace(options, pixel=scene.state.pixel)
         if options.sample is None and not options.ray:
             options = replace(options, sample=scene.state.sample)
-        if not options.pixel and not options.ray:
+        if not options.pixel and not options.ray and not is_between:
             raise Unusable("raytree export: give a pixel (--pixel X,Y) or a ray (--ray ox,oy,oz,dx,dy,dz)")
         made = make_files(options, scene, target)
     return _list(made)
@@ -68,6 +70,9 @@ def make_files(options: ExportOptions, scene: FigureScene, target: Target) -> Ma
     compile_once()
     with faults():
         world = prepared(scene.path, options.up, changes=scene.changes)
+        if scene.between and not options.pixel and not options.ray:
+            origin, direction = ray_between(world, scene.between)
+            options = replace(options, ray=(*origin, *direction))
         with Progress("export") as progress:
             lesson = scene.lesson
             name, view = (lesson.name, scene.step.state.view) if lesson and scene.step else (scene.path.stem, None)

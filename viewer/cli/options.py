@@ -22,7 +22,9 @@ from viewer.base.values import (
     RAY,
     SAMPLE_HELP,
     SCENE_HELP,
+    SHARE,
     SIZE,
+    SWEPT_HELP,
     TEXT,
     UP_HELP,
     WEIGHT,
@@ -94,6 +96,7 @@ class TraceOptions:
 
     scene: str = argument("SCENE", TEXT, FIGURE_TOO)
     at: tuple[int, int] | None = option(MOMENT, AT_HELP)
+    swept: float | None = option(SHARE, SWEPT_HELP)
     pixel: tuple[int, int] | None = option(PIXEL, "counted from the image's top left", group="where", required=True)
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where", required=True)
     sample: int | None = option(whole(0, metavar="K"), SAMPLE_HELP)

@@ -167,7 +167,7 @@ def without_display(options: ViewOptions, reason: str) -> int:
     compile_once()
     opening = _opening(options)
     with contextlib.ExitStack() as stack, faults():
-        scene = stack.enter_context(found_scene(options.scene or lessons.names()[0], options.at))
+        scene = stack.enter_context(found_scene(options.scene or lessons.names()[0], options.at, options.swept))
         state = merged(scene.state, options.state)
         world = prepared(scene.path, state.up, changes=scene.changes)
         image = world.scene.image

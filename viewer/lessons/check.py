@@ -1,6 +1,5 @@
 """Everything that is wrong with a lesson, each with its line: what can be said without a window."""
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -23,7 +22,7 @@ from viewer.lessons.expectation import failures
 from viewer.lessons.lesson import Lesson, read_file
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
-from viewer.lessons.step import PIXEL, Step
+from viewer.lessons.step import Step
 from viewer.lessons.text import Block, Formula, InlineFormula, Items, Quote, Run, count_words, inlines, names_of_values
 from viewer.lessons.values import ABSENT, NAMES, OF_TREE, split_name, value_text
 
@@ -57,18 +56,20 @@ class _Check:
             yield from faults
             if world:
                 yield from self._rays(step, world)
+                yield from self._sweep(step)
 
-    def _world(self, step: Step) -> tuple[World | None, list[Fault]]:
-        """The step's scene, and its faults if this step is the first that shows it."""
-        key = (step.scene, step.state.set)
+    def _world(self, step: Step, share: float = 0.0) -> tuple[World | None, list[Fault]]:
+        """The step's scene at this share of its sweep, and its faults if this step is the first that shows it."""
+        changes = step.state.swept(share).set
+        key = (step.scene, changes)
         for known, world in self.worlds:
             if known == key:
                 return world, []
         world, faults = None, list[Fault]()
         try:
-            world = tracer.prepare(tracer.load(step.scene, changes=step.state.set))
+            world = tracer.prepare(tracer.load(step.scene, changes=changes))
         except tracer.SceneError as error:
-            line = step.line_of("set" if step.state.set and "set" in step.lines else "scene")
+            line = step.line_of(*["sweep"] * bool(step.state.sweep), *["set"] * bool(changes), "scene")
             faults = [Fault(fault, line) for fault in error.faults]
         self.worlds.append((key, world))
         return world, faults
@@ -92,7 +93,6 @@ class _Check:
     def _rays(self, step: Step, world: World) -> Iterator[Fault]:
         """What is wrong about the pixel and its rays."""
         state, image = step.state, world.scene.image
-        yield from self._sweep(step, world)
         if state.pixel is None:
             yield from (Fault(f"{{{name}}}: the step has no pixel", line) for line, name in _values(step))
             return
@@ -146,26 +146,23 @@ class _Check:
                 if isinstance(item, Run) and item.ray is not None and tree.find(item.ray) is None:
                     yield Fault(f"link #{item.ray}: this pixel has no such ray ({_paths(tree)})", line)
 
-    def _sweep(self, step: Step, world: World) -> Iterator[Fault]:
-        sweep, image = step.state.sweep, world.scene.image
-        if not sweep:
+    def _sweep(self, step: Step) -> Iterator[Fault]:
+        """What is wrong at the end of a sweep: its beginning is the step's own state."""
+        state, line = step.state.swept(1.0), step.line_of("sweep")
+        if not state.sweep:
             return
-        line = step.line_of("sweep")
-        if sweep.of == PIXEL:
-            for x, y in (sweep.start, sweep.end):
-                if not (0 <= x < image.width and 0 <= y < image.height):
-                    yield Fault(f"sweep: pixel must be within 0,0 .. {image.width - 1},{image.height - 1}", line)
+        world, faults = self._world(step, 1.0)
+        yield from (Fault(str(fault), line) for fault in faults)
+        if not world or state.pixel is None:
             return
-        for value in (*sweep.start, *sweep.end):
-            try:
-                changes = tomllib.loads(f"{sweep.of} = {value!r}")
-                tracer.load(step.scene, changes=changes)
-            except tomllib.TOMLDecodeError:
-                yield Fault(f'sweep: of must be "pixel" or a key like material.water.ior, got "{sweep.of}"', line)
-                return
-            except tracer.SceneError as error:
-                yield from (Fault(f"sweep: {fault}", line) for fault in error.faults)
-                return
+        image = world.scene.image
+        x, y = state.pixel
+        if not (x < image.width and y < image.height):
+            yield Fault(f"sweep: pixel must be within 0,0 .. {image.width - 1},{image.height - 1}, got {x},{y}", line)
+            return
+        tree = tracer.trace(world, state.pixel, depth=state.depth, model=state.model)
+        for _, fault in failures(state.sweep.expect, tree, state.hit):
+            yield Fault(f"sweep: expect: {fault}", line)
 
 
 def _values(step: Step) -> Iterator[tuple[int, str]]:

@@ -106,7 +106,7 @@ def read_steps(source: Source, before: State, sections: Sequence[Section]) -> li
                 source.fault("text before the first step: write a heading like ## What is seen above it", section.line)
             continue
         step = _step(source, before, section, pieces)
-        before = step.state
+        before = step.state.swept(1.0)  # the next step goes on from where a sweep ended
         steps.append(step)
     if not steps:
         source.fault("a lesson has at least one step: a heading like ## What is seen", sections[0].line)
@@ -131,12 +131,25 @@ def _step(source: Source, before: State, section: Section, pieces: list[tuple[Bl
         elif block.kind not in FENCES and (near := fields.nearest(block.kind, FENCES)):
             source.fault(f'unknown block "{block.kind}"{near}', block.line)
         seen = seen or block.kind not in ("step", "notes")
+    state = _with_sweep(source, state, lines)
     parts = [
         Part(tuple(block for block in blocks if not _is_data(block)))
         for blocks in pieces
     ]  # fmt: skip
     title, said = section.title or "", "\n\n".join(notes)
     return Step(title, section.line, state, tuple(parts), said, source.folder, lines)
+
+
+def _with_sweep(source: Source, state: State, lines: Mapping[str, int]) -> State:
+    """The state at the beginning of its sweep."""
+    if not state.sweep:
+        return state
+    if state.reveal:
+        source.fault("a step has a reveal or a sweep, not both", lines["sweep"])
+    begun = state.swept(0.0)
+    if "pixel" in lines and state.pixel != begun.pixel:
+        source.fault("pixel is that with which the sweep begins: leave it out", lines["pixel"])
+    return begun
 
 
 def _is_data(block: Block) -> bool:

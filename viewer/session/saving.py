@@ -30,7 +30,9 @@ def export_figure(session: Session, copied: bool = False) -> None:
     options = ExportOptions(
         scene=scene_word(opening.path, lesson, opening.figure),
         at=session.at,
-        pixel=session.pixel,
+        swept=session.swept,
+        pixel=None if session.between else session.pixel,
+        ray=(*ray[0], *ray[1]) if (ray := session.ray) else None,
         sample=tree.sample or None,
         figure=figure,
         view=session.orbit.view(session.frame) if figure in ("both", "scene") else None,

@@ -65,8 +65,3 @@ class OnShow(Looks):
         """The limits of the image's trees."""
         assert self.world
         return image_limits(self.world, self.depth, self.model)
-
-    def inside(self, x: int, y: int) -> tuple[int, int]:
-        """The nearest pixel of the image."""
-        width, height = self.size
-        return (min(max(x, 0), width - 1), min(max(y, 0), height - 1))

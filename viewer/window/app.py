@@ -55,7 +55,7 @@ class App:
             since = time.perf_counter() - drawn
             rest = self._rest(busy, frames_left > 0, took)
             pause = max(0.0, rest - since) if frames_left > 0 or busy else IDLE
-            self.surface.wait(min(pause, self.session.reveal.wait(time.monotonic())))  # the next step of an animation
+            self.surface.wait(min(pause, self.session.wait()))
             news = self.session.update()
             self.each_round()
             if news or self._has_events():
@@ -94,6 +94,7 @@ class App:
         session.image.progress = lambda: progress(session.image.picture.share if session.image.picture else 0.0)
         self.frame()  # compiles the shaders while the scene is loaded
         session.warmup.wait()
+        session.player.sweeping.finish()
         say("load the scene")
         while session.loader.loading:
             with contextlib.suppress(Exception):

@@ -54,7 +54,17 @@ def test_the_skeleton_passes_and_is_never_written_over(
         ("sample = 1", "", "line 9: sample must be within 0 .. 0"),
         ("set = { material.miror.ior = 1 }", "", '(did you mean "mirror"?)'),
         ("set = { material.mirror.ior = -1 }", "", "ior must be > 0, got -1"),
-        ("sweep = { of = 'pixel', from = [1, 1], to = [320, 1] }", "", "line 9: sweep: pixel must be within"),
+        ("sweep = { of = 'pixel', from = [160, 150], to = [320, 1] }", "", "line 9: sweep: pixel must be within"),
+        (
+            "sweep = { of = 'pixel', from = [160, 150], to = [161, 150], expect = { object = 'floor' } }",
+            "",
+            'line 9: sweep: expect: object must be "floor", got "ball"',
+        ),
+        (
+            "sweep = { of = 'material.mirror.ior', from = 1, to = -2 }",
+            "",
+            'material[0] "mirror": ior must be > 0, got -2',
+        ),
         ("sweep = { of = 'material.mirror.iro', from = 1, to = 2 }", "", 'unknown key "iro" (did you mean "ior"?)'),
         ("", "word " * 41, "line 11: 41 words appear at once; at most 40 are allowed"),
         ("", "\n???\n".join(["word " * 31] * 3), "line 6: 93 words in a step; at most 90 are allowed"),

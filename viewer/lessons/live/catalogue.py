@@ -75,6 +75,13 @@ def _speed(word: str, _: World | None) -> float:
     return number
 
 
+def _place(word: str, _: World | None) -> float:
+    number = _number(word)
+    if not math.isfinite(number):
+        raise ValueError("a number of metres along the shore")
+    return number
+
+
 def _count(word: str, _: World | None) -> float:
     if not word.isdecimal():
         raise ValueError("a whole number")
@@ -89,7 +96,7 @@ def _light(word: str, world: World | None) -> float:
 
 
 INDICES = (Argument("n1", _index), Argument("n2", _index))
-SPEEDS = (Argument("v1", _speed), Argument("v2", _speed))
+SPEEDS = (Argument("v1", _speed), Argument("v2", _speed), Argument("x", _place))
 
 LIVE = (
     LiveKind("snell", "Snell's law", "viewer.lessons.live.snell:snell", INDICES),

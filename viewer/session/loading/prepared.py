@@ -4,10 +4,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tracer.kernel.world import World
+from viewer.lessons.sweep import STOPS
 from viewer.session.loading.file_watch import Stamp, stamp
 from viewer.session.loading.opening import Opening
 
-MOST = 6  # scenes kept
+MOST = STOPS + 8  # scenes kept: those of a sweep, and of the neighbouring steps
 
 
 @dataclass(frozen=True)

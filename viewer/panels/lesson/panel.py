@@ -9,9 +9,10 @@ from viewer.gl.canvas import Canvas
 from viewer.lessons.text import Fence, filled
 from viewer.lessons.values import ABSENT, value_text
 from viewer.panels import draw as d
-from viewer.panels.live import draw_piece
+from viewer.panels.lesson.live import draw_piece
+from viewer.panels.lesson.sweep import draw_handle
+from viewer.panels.lesson.text_flow import BETWEEN, Colors, TextFlow
 from viewer.panels.panel import Panel
-from viewer.panels.text_flow import BETWEEN, Colors, TextFlow
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
@@ -27,6 +28,8 @@ def draw(session: Session, canvas: Canvas) -> None:
     flow.fence = lambda fence: _fence(session, canvas, flow, fence, corner.y + height)
     flow.heading(step.title, TITLE, session.appearance.theme.accent)
     flow.y += 0.5 * BETWEEN * flow.em
+    taken = draw_handle(session, canvas, (corner.x, flow.y), width)
+    flow.y += taken + BETWEEN * flow.em if taken else 0.0
     for part in step.parts[: session.player.shown.parts]:
         flow.blocks(filled(part.blocks, lambda name: _value(session, name)))
     imgui.set_cursor_screen_pos(corner)
@@ -37,9 +40,12 @@ def draw(session: Session, canvas: Canvas) -> None:
 
 
 def _fence(session: Session, canvas: Canvas, flow: TextFlow, fence: Fence, bottom: float) -> bool:
-    """Draw a live piece, down to the bottom of the panel."""
+    """Draw a live piece, down to the bottom of the panel, or as small as it may be if more text follows."""
     if fence.kind != "live":
         return False
+    step = session.lesson_step
+    if step and fence is not step.parts[-1].blocks[-1]:
+        bottom = flow.y
     flow.y += draw_piece(session, canvas, fence, (flow.x, flow.y), flow.width, bottom - flow.y)
     return True
 
