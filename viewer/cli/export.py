@@ -14,10 +14,10 @@ from viewer.figures.export_options import ExportOptions
 from viewer.figures.targets import Target, target_of
 from viewer.handout.files import check_lesson_options, lesson_target, make_lesson
 from viewer.handout.reading import read_handout
+from viewer.lessons.image_place import ray_between
 from viewer.reopen.scene_files import scene_files
 from viewer.session.restore.command import embedded
 from viewer.session.restore.figure_scene import FigureScene
-from viewer.session.stepping.trees import ray_between
 
 
 def export(options: ExportOptions) -> int:

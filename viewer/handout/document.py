@@ -71,14 +71,22 @@ class Control:
 
 
 @dataclass(frozen=True)
+class Shown:
+    """The tree that a frame or a text is about, and its scene."""
+
+    tree: RayTree | None
+    world: World
+
+
+@dataclass(frozen=True)
 class Show:
-    """Pictures with common frames. `trees` and `rows` are the tree of each frame and the ray that it is about."""
+    """Pictures with common frames. `shown` says what each frame is about."""
 
     pictures: tuple[Picture, ...]
     frames: int
     start: int  # the frame that is shown at first
     controls: tuple[Control, ...] = ()
-    trees: tuple[RayTree | None, ...] = ()
+    shown: tuple[Shown, ...] = ()
     photos: tuple[Photo, ...] = ()  # one for all frames, or one for each
 
     @property
@@ -96,6 +104,7 @@ class PagePart:
     """The text that appears at one press, with numbers in place of `{names}`, and its live pieces by their lines."""
 
     blocks: tuple[Block, ...]
+    shown: Shown  # what the text is about: after a sweep, its end
     live: dict[int, Show] = field(default_factory=dict)
 
 
@@ -105,9 +114,6 @@ class Page:
 
     number: int  # from 1
     step: Step
-    world: World
-    tree: RayTree | None  # of its pixel; None: it has none
-    row: int  # of the hit that the step is about
     show: Show
     parts: tuple[PagePart, ...]
 
@@ -116,10 +122,12 @@ class Page:
         return self.step.title
 
     @property
-    def stages(self) -> int:
-        """The stages of the step's reveal; 1 if it has none."""
-        controls = self.show.controls
-        return len(controls[0].positions) if self.step.state.reveal and controls else 1
+    def stages(self) -> tuple[int, ...]:
+        """The frames that presses show: those of the step's reveal, or both ends of its sweep."""
+        state, last = self.step.state, self.show.frames - 1
+        if state.sweep and last:
+            return (0, last)
+        return tuple(range(last + 1)) if state.reveal else (0,)
 
 
 @dataclass(frozen=True)

@@ -17,21 +17,24 @@ def figures_of(handout: Handout, command: str, theme: Theme) -> Iterator[tuple[s
     """
     digits = len(str(len(handout.pages)))
     for page in handout.pages:
+        found = []
         for show, moments in _moments(page):
-            drawn = [picture.draw(Room(CANVAS, TEXT, theme), range(len(moments))) for picture in show.pictures]
-            for k, press in enumerate(moments):
-                for picture, frames in zip(show.pictures, drawn, strict=True):
-                    kept = tuple(mark for mark in frames[k] if not isinstance(mark, Handle))
-                    title = f"{handout.lesson.name}: {page.title}, {picture.title.lower()}"
-                    stem = f"{handout.lesson.name}_{page.number:0{digits}}.{press}_{picture.kind}"
-                    if kept:
-                        yield stem, Figure(title, picture.says(k, kept), command, kept, theme.ground)
+            for picture in show.pictures:
+                drawn = picture.draw(Room(CANVAS, TEXT, theme), list(moments.values()))
+                title = f"{handout.lesson.name}: {page.title}, {picture.title.lower()}"
+                for (press, frame), marks in zip(moments.items(), drawn, strict=True):
+                    kept = tuple(mark for mark in marks if not isinstance(mark, Handle))
+                    figure = Figure(title, picture.says(frame, kept), command, kept, theme.ground)
+                    found.append(
+                        (press, f"{handout.lesson.name}_{page.number:0{digits}}.{press}_{picture.kind}", figure)
+                    )
+        yield from ((stem, figure) for _, stem, figure in sorted(found, key=lambda one: one[0]) if figure.marks)
 
 
-def _moments(page: Page) -> Iterator[tuple[Show, list[str]]]:
-    """The shows of a step and of its live pieces, each with the presses at which its frames appear."""
-    first = page.stages - 1
+def _moments(page: Page) -> Iterator[tuple[Show, dict[str, int]]]:
+    """The shows of a step and of its live pieces, each with its frames by the presses at which they appear."""
+    first = len(page.stages) - 1
     digits = len(str(first + len(page.parts) - 1))
-    yield page.show, [f"{stage:0{digits}}" for stage in range(page.stages)]
+    yield page.show, {f"{press:0{digits}}": frame for press, frame in enumerate(page.stages)}
     for k, part in enumerate(page.parts):
-        yield from ((show, [f"{first + k:0{digits}}"]) for show in part.live.values())
+        yield from ((show, {f"{first + k if k else 0:0{digits}}": 0}) for show in part.live.values())

@@ -4,11 +4,9 @@ import math
 import re
 from collections.abc import Sequence
 
-from tracer.kernel.world import World
-from tracer.tree.raytree import RayTree
 from viewer.base.theme import LIGHT
 from viewer.figures.marks import Handle, Mark, Rectangle, Text
-from viewer.handout.document import Control, Picture, Room, Show, paper
+from viewer.handout.document import Control, Picture, Room, Show, Shown, paper
 from viewer.handout.sentences import of_marks
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
@@ -21,15 +19,15 @@ NUMBER = re.compile(r"[0-9]")
 DRAG = "drag to "  # begins the titles of handles
 
 
-def live_show(fence: Fence, tree: RayTree | None, row: int, world: World) -> Show | None:
-    """The show of a live piece; None if it cannot show this hit. Frame 0 is the piece as it begins."""
+def live_show(fence: Fence, shown: Shown, row: int) -> Show | None:
+    """The show of a live piece about the hit of this row; None if it cannot show it. Frame 0 is the piece at first."""
     name, *words = fence.content.split() or [""]
     drawn: dict[tuple[Rectangle, float, str, tuple], list[Mark]] = {}
 
     def marks(room: Room, parameters: dict[str, float]) -> list[Mark]:
         key = (room.where, room.size, room.theme.name, tuple(parameters.items()))
         if key not in drawn:
-            context = LiveContext(tree, row, world, room.theme, room.size, room.where)
+            context = LiveContext(shown.tree, row, shown.world, room.theme, room.size, room.where)
             drawn[key] = kind.marks(context, parameters, words)
         return drawn[key]
 
@@ -52,8 +50,8 @@ def live_show(fence: Fence, tree: RayTree | None, row: int, world: World) -> Sho
     def draw(room: Room, asked: Sequence[int]) -> list[list[Mark]]:
         return [marks(room, parameters[k]) for k in asked]
 
-    picture = Picture(name, kind.title, draw, lambda _, shown: of_marks(kind.title, shown))
-    return Show((picture,), len(parameters), 0, tuple(controls), (tree,) * len(parameters))
+    picture = Picture(name, kind.title, draw, lambda _, made: of_marks(kind.title, made))
+    return Show((picture,), len(parameters), 0, tuple(controls), (shown,) * len(parameters))
 
 
 def differences(drawn: Sequence[Sequence[Mark]]) -> list[str]:

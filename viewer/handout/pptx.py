@@ -11,13 +11,14 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import count, groupby
 from typing import Any
 
+from tracer.tree.raytree import RayTree
 from viewer.base.pictures import png
 from viewer.base.theme import Color, Theme
 from viewer.figures.font import FAMILY
 from viewer.figures.marks import WIDTH, Disc, Figure, Formula, Stroke
 from viewer.figures.writers.pptx import new_deck, saved
 from viewer.figures.writers.pptx_shapes import A, SlideDrawing, emu, emu_box, paint, rgb_color
-from viewer.handout.document import Handout, Page, paper
+from viewer.handout.document import Handout, paper
 from viewer.handout.slides import FOOT, FOOT_SIZE, HEAD, MARGIN, RING, RINGS, TITLE, Placed, Slide, slides_of
 from viewer.handout.text_lines import LINE, BlockLines
 
@@ -154,7 +155,7 @@ class _Writer:
             return
         figure = Figure(placed.title, placed.said, "", placed.marks, self.theme.ground)
         SlideDrawing(self.shapes, figure).draw()
-        name = _namer(placed.kind, self.slide.page)
+        name = _namer(placed.kind, placed.tree)
         for shape in list(self.shapes)[before:]:
             shape.name = name(shape.name)
 
@@ -217,14 +218,14 @@ def _tabs(paragraph: Any, places: Sequence[float]) -> None:
     paragraph._p.get_or_add_pPr().append(stops)
 
 
-def _namer(kind: str, page: Page | None) -> Callable[[str], str]:
+def _namer(kind: str, tree: RayTree | None) -> Callable[[str], str]:
     """Names shapes by the paths of their rays, which stay the same from tree to tree: `ray-3` is `tree ray TR`."""
 
     def name(mark: str) -> str:
         found = ROW.match(mark)
-        if not found or not page or not page.tree or int(found[2]) >= len(page.tree):
+        if not found or tree is None or int(found[2]) >= len(tree):
             return f"{kind} {mark}"
-        return f"{kind} {found[1]} {page.tree.path(int(found[2]))}{mark[found.end() :]}"
+        return f"{kind} {found[1]} {tree.path(int(found[2]))}{mark[found.end() :]}"
 
     return name
 

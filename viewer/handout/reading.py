@@ -1,6 +1,7 @@
 """Makes the pages of a lesson: traces its steps, and finds the frames of their pictures."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +15,13 @@ from viewer.base.files import Unusable
 from viewer.base.orbit import Frame as SceneFrame, initial_orbit
 from viewer.base.wording import format_number
 from viewer.figures import steps as ray_steps
-from viewer.handout.document import Control, Handout, Page, PagePart, Photo, Show
+from viewer.handout.document import Control, Handout, Page, PagePart, Photo, Show, Shown
 from viewer.handout.live import live_show
 from viewer.handout.pictures import KINDS, Frame, Frames, Scenery, picture
 from viewer.handout.sentences import of_hit, of_stage
 from viewer.handout.sweeps import Position, positions
 from viewer.lessons.lesson import Lesson
-from viewer.lessons.step import COLOUR, DEPTH, PIXEL, RAYS, Step
+from viewer.lessons.step import COLOUR, DEPTH, RAYS, State, Step
 from viewer.lessons.text import filled
 from viewer.lessons.values import ABSENT, value_text
 
@@ -48,29 +49,32 @@ class _Reader:
         self._seen: tuple | None = None  # the image and the pixel of the step before
 
     def page(self, number: int, step: Step, lesson: Lesson) -> Page:
-        world = self._world(step)
-        trees = self._trees(step, world, lesson)
-        tree = trees[-1] if trees else None
-        hit = step.state.hit
-        row = (tree.find(hit) if tree and hit else 0) or 0
-        value = _values(tree, hit)
+        state, swept = step.state.swept(0.0), list[Position]()
+        world = self._world(step, state.set)
+        trees = self._trees(step, state, world, lesson)
+        if trees and state.sweep:
+            swept = positions(step, state.sweep, lambda changes: self._world(step, changes))
         parts = []
-        for part in step.parts:
-            shows = {fence.line: live_show(fence, tree, row, world) for fence in part.live}
-            parts.append(PagePart(filled(part.blocks, value), {line: show for line, show in shows.items() if show}))
-        show = self._show(step, world, trees, row) if trees else self._image_only(step, world)
-        return Page(number, step, world, tree, row, show, tuple(parts))
+        for k, part in enumerate(step.parts):
+            shown = Shown(trees[-1] if trees else None, world)
+            if swept and k:
+                shown = Shown(swept[-1].tree, swept[-1].world)
+            shows = {fence.line: live_show(fence, shown, _row(shown.tree, state.hit)) for fence in part.live}
+            live = {line: show for line, show in shows.items() if show}
+            parts.append(PagePart(filled(part.blocks, _values(shown.tree, state.hit)), shown, live))
+        show = self._show(step, world, trees, swept) if trees else self._image_only(step, world)
+        return Page(number, step, show, tuple(parts))
 
     def _image_only(self, step: Step, world: World) -> Show:
         """The show of a step without a pixel."""
         return Show((), 1, 0, photos=self._photos(step, world, (), ()))
 
-    def _world(self, step: Step) -> World:
-        key = (step.scene, step.state.set)
+    def _world(self, step: Step, changes: Mapping[str, Any]) -> World:
+        key = (step.scene, changes)
         for known, world in self._worlds:
             if known == key:
                 return world
-        world = tracer.prepare(tracer.load(step.scene, changes=step.state.set or None))
+        world = tracer.prepare(tracer.load(step.scene, changes=changes or None))
         self._worlds.append((key, world))
         return world
 
@@ -82,9 +86,9 @@ class _Reader:
         self._sceneries.append((world, step.state.view, scenery))
         return scenery
 
-    def _trees(self, step: Step, world: World, lesson: Lesson) -> list[RayTree]:
+    def _trees(self, step: Step, state: State, world: World, lesson: Lesson) -> list[RayTree]:
         """The trees of a step's pixel: of each depth, if the step reveals these; the deepest is the last."""
-        state, image = step.state, world.scene.image
+        image = world.scene.image
         if state.pixel is None:
             return []
         x, y = state.pixel
@@ -96,36 +100,34 @@ class _Reader:
         sample = sample_number(image.samples, state.sample)
         return [tracer.trace(world, state.pixel, sample=sample, depth=d, model=state.model) for d in depths]
 
-    def _show(self, step: Step, world: World, trees: Sequence[RayTree], row: int) -> Show:
+    def _show(self, step: Step, world: World, trees: Sequence[RayTree], swept: Sequence[Position]) -> Show:
         """The pictures of the step's panels, with the stages of its reveal or the positions of its sweep."""
         state, scenery = step.state, self._scenery(step, world)
-        stages = [ray_steps.of_kinds(stage, set(state.show) | {"camera"}) for stage in _stages(step, trees)]
-        stages = [stage for k, stage in enumerate(stages) if k == 0 or not _is_same(stage, stages[k - 1])]
-        frames = [Frame(stage, scenery, 0, row) for stage in stages]
         controls: tuple[Control, ...] = ()
-        swept: list[Position] = []
-        if state.reveal and len(stages) > 1:
-            said = tuple(_name(stage, state.reveal) for stage in stages)
-            controls = (Control(state.reveal, STAGES[state.reveal], 0, said),)
-        elif state.sweep:
-            swept = positions(step, state.sweep, world)
+        if swept and state.sweep:
+            frames = []
             for k, at in enumerate(swept):
                 place = scenery if at.world is world else Scenery(at.world, scenery.orbit)
-                stage = ray_steps.of_kinds(ray_steps.whole(at.tree), set(state.show) | {"camera"})
-                frames.append(Frame(stage, place, k + 1, (at.tree.find(state.hit) if state.hit else 0) or 0))
-            title = "Place in the image" if state.sweep.of == PIXEL else state.sweep.of
-            places = (f"{trees[-1].place}, as in the text", *(at.words for at in swept))
-            said = tuple(
-                f"{at}. {of_hit(frame.step.tree, frame.hit)}" for at, frame in zip(places, frames, strict=True)
-            )
-            controls = (Control(SWEEP, title, 0, said),)
+                frames.append(Frame(_shown(ray_steps.whole(at.tree), state), place, k, _row(at.tree, state.hit)))
+            said = tuple(f"{at.words}. {of_hit(f.step.tree, f.hit)}" for at, f in zip(swept, frames, strict=True))
+            controls = (Control(SWEEP, "Place in the image" if state.sweep.is_pixel else state.sweep.of, 0, said),)
+        else:
+            stages = [_shown(stage, state) for stage in _stages(step, trees)]
+            stages = [stage for k, stage in enumerate(stages) if k == 0 or not _is_same(stage, stages[k - 1])]
+            frames = [Frame(stage, scenery, 0, _row(trees[-1], state.hit)) for stage in stages]
+            if state.reveal and len(stages) > 1:
+                said = tuple(_name(stage, state.reveal) for stage in stages)
+                controls = (Control(state.reveal, STAGES[state.reveal], 0, said),)
         drawn = Frames(tuple(frames), state.hit is not None and not state.reveal, state.reveal in (RAYS, COLOUR))
-        names = [name for name in state.panels if name in KINDS] or ["scene"]
+        names = [name for name in state.panels if name in KINDS]
+        if not names and "image" not in state.panels:
+            names = ["scene"]
         pictures = tuple(picture(name, drawn) for name in names)
         photos = self._photos(step, world, trees, swept)
         if len(photos) > 1 and len(photos) != len(frames):
             photos = photos[-1:]
-        return Show(pictures, len(frames), 0, controls, tuple(frame.step.tree for frame in frames), photos)
+        shown = tuple(Shown(frame.step.tree, frame.scenery.world) for frame in frames)
+        return Show(pictures, len(frames), 0, controls, shown, photos)
 
     def _photos(
         self, step: Step, world: World, trees: Sequence[RayTree], swept: Sequence[Position]
@@ -133,15 +135,16 @@ class _Reader:
         """The rendered image, if the step asks for it, or it is not that of the step before: one for all frames, or one
         for each depth and each position of a sweep.
         """
-        state, tracing = step.state, world.scene.tracing
+        state, tracing = step.state.swept(0.0), world.scene.tracing
         model = state.model or tracing.model
         depths = [tree.depth for tree in trees] or [tracing.depth if state.depth is None else state.depth]
         now = (id(world), state.pixel, depths, model)
         is_new, self._seen = now != self._seen, now
         if not (is_new or swept or "image" in state.panels):
             return ()
-        found = [self._photo(world, depth, model, state.pixel) for depth in depths]
-        return (*found, *(self._photo(at.world, depths[-1], model, at.pixel) for at in swept))
+        if swept:
+            return tuple(self._photo(at.world, depths[-1], model, at.place) for at in swept)
+        return tuple(self._photo(world, depth, model, state.pixel) for depth in depths)
 
     def _photo(self, world: World, depth: int, model: str, pixel: tuple[float, float] | None) -> Photo:
         key = (id(world), depth, model)
@@ -168,6 +171,18 @@ def _stages(step: Step, trees: Sequence[RayTree]) -> Sequence[ray_steps.Step]:
         case "colour":
             return list(ray_steps.by_color(trees[-1]))
     return [ray_steps.whole(trees[-1])]
+
+
+def _shown(stage: ray_steps.Step, state: State) -> ray_steps.Step:
+    """A stage with the kinds of rays that the step shows."""
+    if not state.show:
+        return replace(stage, rows=frozenset(), current=frozenset())
+    return ray_steps.of_kinds(stage, {*state.show, "camera"})
+
+
+def _row(tree: RayTree | None, hit: str | None) -> int:
+    """The row of the hit that a step is about."""
+    return (tree.find(hit) if tree and hit else None) or 0
 
 
 def _is_same(one: ray_steps.Step, other: ray_steps.Step) -> bool:

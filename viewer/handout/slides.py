@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from tracer.tree.raytree import RayTree
 from viewer.base.theme import Color, Theme, rgb
 from viewer.figures.marks import WIDTH, Handle, Mark, Point, Rectangle
 from viewer.handout.document import Handout, Page, PagePart, Photo, Picture, Room, Show
@@ -36,6 +37,7 @@ class Placed:
     said: str
     marks: tuple[Mark, ...] = ()
     photo: Photo | None = None
+    tree: RayTree | None = None  # whose rays the marks show
 
     @property
     def ring(self) -> Point | None:
@@ -56,6 +58,7 @@ class Slide:
     pictures: tuple[Placed, ...]
     notes: str
     page: Page | None = None
+    tree: RayTree | None = None  # that the text is about
 
     @property
     def text_box(self) -> Rectangle:
@@ -63,10 +66,10 @@ class Slide:
 
     def color(self, word: Word, theme: Theme) -> Color:
         """The colour of a word: a link to a ray has that of its kind."""
-        page, path = self.page, word.style.ray
-        row = page.tree.find(path) if page and page.tree and path else None
-        if row is not None and page and page.tree:
-            return theme.ray(page.tree.kind(row))
+        tree, path = self.tree, word.style.ray
+        row = tree.find(path) if tree and path else None
+        if row is not None and tree:
+            return theme.ray(tree.kind(row))
         return theme.accent if word.style.link else theme.text
 
 
@@ -91,17 +94,17 @@ def _cover(handout: Handout) -> Slide:
 
 def _of_page(handout: Handout, page: Page, theme: Theme) -> Iterator[Slide]:
     show = page.show
-    drawn = _Drawn(page.stages, theme)
-    for press in range(count_presses(page.step, page.stages) + 1):
-        shown = shown_at(page.step, page.stages, press)
+    drawn = _Drawn(len(page.stages) if page.step.state.reveal else 1, theme)
+    for press in range(count_presses(page.step, len(page.stages)) + 1):
+        shown = shown_at(page.step, len(page.stages), press)
         parts = page.parts[: shown.parts]
         text = _text(parts)
         left, right = MARGIN, WIDTH - MARGIN
         where = (left, HEAD + text.bottom + GAP, right, FOOT)
         live = [one for part in parts for one in part.live.values()]
-        pictures = _of_show(page, show, shown.stage, live, where, drawn)
+        pictures = _of_show(page, show, page.stages[shown.stage], live, where, drawn)
         place = f"{handout.lesson.title}   {page.number}/{len(handout.pages)}"
-        yield Slide(page.title, place, text, tuple(pictures), page.step.notes, page)
+        yield Slide(page.title, place, text, tuple(pictures), page.step.notes, page, parts[-1].shown.tree)
 
 
 def _text(parts: Sequence[PagePart]) -> TextLines:
@@ -130,31 +133,35 @@ class _Drawn:
 
 def _of_show(page: Page, show: Show, stage: int, live: Sequence[Show], where: Rectangle, drawn: _Drawn) -> list[Placed]:
     """The pictures of a step, and the image if it is one of its panels; beside a live piece, the first of them."""
-    pictures = [(picture, stage) for picture in show.pictures]
+    pictures = [(show, picture, stage) for picture in show.pictures]
     if live:
-        pictures = [*pictures[:1], *((picture, 0) for picture in live[-1].pictures)]
+        pictures = [*pictures[:1], *((live[-1], picture, 0) for picture in live[-1].pictures)]
     if live or "image" not in page.step.state.panels or not show.photos:
         return _pictures(pictures, where, drawn)
     photo = show.photos[stage if len(show.photos) > 1 else 0]
     left, top, right, bottom = where
+    if not pictures:
+        return [_placed_photo(photo, where)]
     middle = 0.5 * (left + right)
     image = _placed_photo(photo, (middle + 0.5 * GAP, top, right, bottom))
     return [*_pictures(pictures, (left, top, middle - 0.5 * GAP, bottom), drawn), image]
 
 
-def _pictures(pictures: Sequence[tuple[Picture, int]], where: Rectangle, drawn: _Drawn) -> list[Placed]:
+def _pictures(pictures: Sequence[tuple[Show, Picture, int]], where: Rectangle, drawn: _Drawn) -> list[Placed]:
     """These frames of pictures side by side."""
     left, top, right, bottom = where
-    shares = [SHARES.get(picture.kind, LIVE) for picture, _ in pictures]
+    shares = [SHARES.get(picture.kind, LIVE) for _, picture, _ in pictures]
     unit = (right - left - GAP * (len(shares) - 1)) / sum(shares)
     size = SIZES[min(len(shares), len(SIZES)) - 1]
     found = []
-    for (picture, frame), share in zip(pictures, shares, strict=True):
+    for (show, picture, frame), share in zip(pictures, shares, strict=True):
         place = (left, top, left + share * unit, bottom)
         left += share * unit + GAP
         kept = tuple(mark for mark in drawn.marks(picture, place, size, frame) if not isinstance(mark, Handle))
         if kept:
-            found.append(Placed(picture.kind, picture.title, place, picture.says(frame, kept), kept))
+            found.append(
+                Placed(picture.kind, picture.title, place, picture.says(frame, kept), kept, tree=show.shown[frame].tree)
+            )
     return found
 
 

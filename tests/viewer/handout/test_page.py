@@ -53,9 +53,9 @@ def desktop(browser: Browser, page: Path) -> Browser:
 def move_to(browser: Browser, place: str, position: int) -> str:
     """Move the slider of a show. Returns what is said of the position."""
     show = f"document.getElementById('{place}')"
-    browser.run(f"""(() => {{ const input = {show}.querySelector(':scope > .control input');
+    browser.run(f"""(() => {{ const input = {show}.querySelector(':scope > .moved > .control input');
       input.value = {position}; input.dispatchEvent(new Event('input')); }})()""")
-    return browser.run(f"{show}.querySelector(':scope > .control output').textContent")
+    return browser.run(f"{show}.querySelector(':scope > .moved > .control output').textContent")
 
 
 def expected_texts(show: Show, k: int, frame: int) -> list[str]:
@@ -99,7 +99,7 @@ def test_positions_of_a_sweep_and_of_handles_have_the_numbers_that_were_computed
     desktop.run("document.querySelectorAll('details.answer').forEach(answer => answer.open = true)")
     ids = desktop.run("[...document.querySelectorAll('#\\\\33  .live')].map(show => show.id)")
     places += zip(ids, (snell, lifeguard), strict=True)
-    assert len(page.show.controls[0].positions) == POSITIONS + 1
+    assert len(page.show.controls[0].positions) == POSITIONS
     for place, show in places:
         control = show.controls[0]
         last = len(control.positions) - 1
@@ -109,10 +109,10 @@ def test_positions_of_a_sweep_and_of_handles_have_the_numbers_that_were_computed
             for k in range(len(show.pictures)):
                 expected = expected_texts(show, k, control.first + position)
                 assert sorted(desktop.run(TEXTS.format(place, k))) == sorted(expected)
-    first = page.show.trees[1]
-    last_tree = page.show.trees[-1]
-    assert first and last_tree and first.nodes["theta1"][0] != last_tree.nodes["theta1"][0]
-    assert abs(first.nodes["theta1"][0] - page.show.trees[0].nodes["theta1"][0]) < 1e-12  # type: ignore[union-attr]
+    trees = [shown.tree for shown in page.show.shown]
+    angles = [float(tree.nodes["theta1"][0]) for tree in trees if tree]
+    assert len(set(angles)) == len(angles) == POSITIONS  # no two positions are alike, also between pixels
+    assert trees[0] and trees[0].pixel == (30, 18) and trees[-1] is page.parts[1].shown.tree
 
 
 def test_a_handle_is_dragged(desktop: Browser, handout: Handout) -> None:
@@ -145,7 +145,7 @@ def test_a_handle_is_dragged(desktop: Browser, handout: Handout) -> None:
 
 
 def test_a_link_in_the_text_lights_its_ray_in_scene_and_tree(desktop: Browser, handout: Handout) -> None:
-    tree = handout.pages[0].tree
+    tree = handout.pages[0].parts[0].shown.tree
     assert tree
     row = tree.find("T")
     move_to(desktop, "step-1-show", handout.pages[0].show.frames - 1)

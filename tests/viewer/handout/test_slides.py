@@ -43,7 +43,7 @@ def words(parent: Any) -> str:
 
 
 def test_there_is_a_slide_for_the_cover_and_each_moment(handout: Handout, slides: list[Slide], deck: Any) -> None:
-    moments = sum(count_presses(page.step, page.stages) + 1 for page in handout.pages)
+    moments = sum(count_presses(page.step, len(page.stages)) + 1 for page in handout.pages)
     assert len(slides) == len(deck.slides) == 1 + moments
     for slide, made in zip(slides, deck.slides, strict=True):
         assert made.shapes.title.text == slide.title != ""
@@ -63,7 +63,7 @@ def test_every_shape_has_a_name_of_its_own_and_a_ray_has_the_same_on_all_slides(
     for names in named:
         assert len(set(names)) == len(names) and all(name.startswith("!!") for name in names)
     page = handout.pages[0]
-    stages = [(k, slide) for k, slide in enumerate(slides) if slide.page is page][: page.stages]
+    stages = [(k, slide) for k, slide in enumerate(slides) if slide.page is page][: len(page.stages)]
     for (k, _), (j, _) in pairwise(stages):
         before = {name for name in named[k] if name.startswith(("!!tree ray", "!!tree hit", "!!scene ray"))}
         assert before < set(named[j])  # the tree grows
@@ -73,10 +73,12 @@ def test_every_shape_has_a_name_of_its_own_and_a_ray_has_the_same_on_all_slides(
         ]
         boxes = {name for name in before & set(places[0]) if name.startswith("!!tree hit") and " " not in name[11:]}
         assert all(places[0][name] == places[1][name] for name in boxes)
-    assert page.tree
-    assert {f"!!tree hit {page.tree.path(i)}" for i in range(len(page.tree)) if page.tree.kind(i) != "shadow"} <= set(
-        named[stages[-1][0]]
-    )
+    assert page.parts[0].shown.tree
+    assert {
+        f"!!tree hit {page.parts[0].shown.tree.path(i)}"
+        for i in range(len(page.parts[0].shown.tree))
+        if page.parts[0].shown.tree.kind(i) != "shadow"
+    } <= set(named[stages[-1][0]])
 
 
 def test_nothing_leaves_a_slide_and_the_text_is_above_the_pictures(slides: list[Slide]) -> None:

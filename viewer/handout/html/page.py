@@ -12,7 +12,7 @@ from viewer.figures.writers.html.formulas import Formulas
 from viewer.figures.writers.html.frame import framed, shipped, text
 from viewer.figures.writers.html.inline_svg import Drawings
 from viewer.figures.writers.html.numbers import Numbers
-from viewer.handout.document import Handout, Page, PagePart, paper
+from viewer.handout.document import Handout, Page, PagePart, Shown, paper
 from viewer.handout.html.blocks import BlockWriter, RayLink
 from viewer.handout.html.colors import ColorPairs
 from viewer.handout.html.shows import ShowWriter
@@ -91,7 +91,7 @@ class _Writer:
         yield f'<section class="step" id="{page.number}" aria-labelledby="{place}-title">'
         yield f'<h2 id="{place}-title"><span class="place">{count}</span>{text(page.title)}</h2>'
         first, *others = page.parts
-        yield from self.shows.lines(page, page.show, f"{place}-show", list(self._part(page, first, place)))
+        yield from self.shows.lines(page.show, f"{place}-show", list(self._part(page, first, place)))
         before = first
         for k, part in enumerate(others):
             yield '<details class="answer">'
@@ -110,16 +110,17 @@ class _Writer:
             show = part.live.get(fence.line)
             if not show:
                 return ["<p>This ray has no such figure.</p>"]
-            return list(self.shows.lines(page, show, f"{place}-live-{fence.line}", kind="live"))
+            return list(self.shows.lines(show, f"{place}-live-{fence.line}", kind="live"))
 
-        writer = BlockWriter(self.formulas, lambda path: self._ray(page, path), fence)
+        writer = BlockWriter(self.formulas, lambda path: self._ray(page, part.shown, path), fence)
         yield from writer.lines(part.blocks)
 
-    def _ray(self, page: Page, path: str) -> RayLink | None:
-        row = page.tree.find(path) if page.tree else None
-        if row is None or page.tree is None:
+    def _ray(self, page: Page, shown: Shown, path: str) -> RayLink | None:
+        tree = shown.tree
+        row = tree.find(path) if tree else None
+        if tree is None or row is None:
             return None
-        return RayLink(f"{self.shows.tree_name(page, page.tree)}{row}", page.tree.kind(row), f"step-{page.number}-show")
+        return RayLink(f"{self.shows.tree_name(shown)}{row}", tree.kind(row), f"step-{page.number}-show")
 
 
 def _asks(part: PagePart) -> bool:

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from tracer.tree.raytree import RayTree
 from tracer.tree.text import heaviest_rows
 from viewer.base.srgb import srgb
 from viewer.base.theme import Theme
@@ -18,7 +17,7 @@ from viewer.figures.picking import ray_of
 from viewer.figures.writers.html.frame import text
 from viewer.figures.writers.html.inline_svg import Drawings
 from viewer.figures.writers.html.numbers import Numbers
-from viewer.handout.document import REVEALED, Control, Page, Photo, Picture, Room, Show
+from viewer.handout.document import REVEALED, Control, Photo, Picture, Room, Show, Shown
 from viewer.handout.html.colors import ColorPairs
 from viewer.handout.html.frames import HANDLE, captions, frames_attribute, frames_svg
 from viewer.handout.live import LIVE_ROOM
@@ -41,12 +40,15 @@ class ShowWriter:
         self._details: dict[tuple[int, int], RayDetails] = {}
         self._images: dict[int, str] = {}
 
-    def tree_name(self, page: Page, tree: RayTree) -> str:
+    def tree_name(self, shown: Shown) -> str:
         """What the names of a tree's rays begin with. Trees of one pixel have common rays, at any depth."""
-        key = (id(page.world), tree.pixel, tree.sample, tree.model) if tree.pixel else (id(tree),)
+        tree = shown.tree
+        if tree is None:
+            return ""
+        key = (id(shown.world), tree.pixel, tree.sample, tree.model) if tree.pixel else (id(tree),)
         return self._trees.setdefault(key, f"t{len(self._trees) + 1}-")
 
-    def lines(self, page: Page, show: Show, place: str, words: Sequence[str] = (), kind: str = "") -> Iterator[str]:
+    def lines(self, show: Show, place: str, words: Sequence[str] = (), kind: str = "") -> Iterator[str]:
         """A show, with the words above it. `place` is its id."""
         start = show.last
         yield f'<div class="show{f" {kind}" if kind else ""}" id="{place}">'
@@ -56,19 +58,21 @@ class ShowWriter:
             yield from words
             yield "</div>"
             if show.photos:
-                yield from self._photos(show.photos, f"{place}-image", start)
+                yield from self._photos(show.photos, f"{place}-image", start, "" if show.pictures else " large")
             yield "</div>"
+        yield '<div class="moved">'
         if show.pictures:
             alone = " alone" if len(show.pictures) == 1 else ""
             yield '<div class="pictures">'
             for k, picture in enumerate(show.pictures):
-                yield from self._picture(page, show, picture, f"{place}-{k + 1}", start, alone)
+                yield from self._picture(show, picture, f"{place}-{k + 1}", start, alone)
             yield "</div>"
         for control in show.controls:
             yield from _control(control, f"{place}-{control.name}")
         yield "</div>"
+        yield "</div>"
 
-    def _picture(self, page: Page, show: Show, picture: Picture, place: str, start: int, alone: str) -> Iterator[str]:
+    def _picture(self, show: Show, picture: Picture, place: str, start: int, alone: str) -> Iterator[str]:
         (_, _, width, height), size = ROOMS.get(picture.kind, LIVE_ROOM.where), LIVE_ROOM.size
         rooms = [Room((0.0, 0.0, width, height), size, theme) for theme in self.themes]
         marks = picture.draw(rooms[0], range(show.frames))
@@ -83,11 +87,11 @@ class ShowWriter:
             return [Figure(picture.title, "", "", tuple(one), ground, False, width, height) for one in found]
 
         drawn = figures(0, ())
-        trees = [self.tree_name(page, tree) if tree else "" for tree in show.trees]
+        trees = [self.tree_name(shown) for shown in show.shown]
         swept = bool(show.controls) and show.controls[0].name == SWEEP
         named = [
-            self._named(page, figure, tree, k == 0 or not swept)
-            for k, (figure, tree) in enumerate(zip(drawn, show.trees, strict=True))
+            self._named(figure, shown, k == 0 or not swept)
+            for k, (figure, shown) in enumerate(zip(drawn, show.shown, strict=True))
         ]
         labelled = f'aria-labelledby="{place}-name" aria-describedby="{place}-said"'
         yield f'<figure class="picture {picture.kind}{alone}">'
@@ -102,8 +106,9 @@ class ShowWriter:
         yield "</figcaption>"
         yield "</figure>"
 
-    def _named(self, page: Page, figure: Figure, tree: RayTree | None, whole: bool) -> dict[int, str]:
+    def _named(self, figure: Figure, shown: Shown, whole: bool) -> dict[int, str]:
         """The articles of the rays in a figure, by row. Without `whole`, they have numbers only, and no formulas."""
+        tree = shown.tree
         if tree is None:
             return {}
         rows = {row for mark in figure.marks if (row := ray_of(mark.name)) is not None}
@@ -113,16 +118,16 @@ class ShowWriter:
         for row in sorted(rows):
             key = (id(tree), row)
             if key not in self._details:
-                details = ray_details(tree, page.world, row)
+                details = ray_details(tree, shown.world, row)
                 parts = details.parts if whole else details.parts[:1]
                 self._details[key] = RayDetails(row, details.name, details.words, parts)
             found[row] = self.numbers.name(self._details[key])
         return found
 
-    def _photos(self, photos: Sequence[Photo], place: str, start: int) -> Iterator[str]:
+    def _photos(self, photos: Sequence[Photo], place: str, start: int, large: str) -> Iterator[str]:
         height, width = photos[0].pixels.shape[:2]
         labelled = f'aria-labelledby="{place}-name" aria-describedby="{place}-said"'
-        yield '<figure class="photo">'
+        yield f'<figure class="photo{large}">'
         yield f'<svg role="img" {labelled} viewBox="0 0 {width} {height}">'
         for k, photo in enumerate(photos):
             own = frames_attribute([k], start) if len(photos) > 1 else ""
