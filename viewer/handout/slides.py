@@ -101,7 +101,9 @@ def _of_page(handout: Handout, page: Page, theme: Theme) -> Iterator[Slide]:
         text = _text(parts)
         left, right = MARGIN, WIDTH - MARGIN
         where = (left, HEAD + text.bottom + GAP, right, FOOT)
-        live = [one for part in parts for one in part.live.values()]
+        # A piece of the first part is about the beginning of a sweep.
+        about = parts[1:] if page.step.state.sweep and shown.stage else parts
+        live = [one for part in about for one in part.live.values()]
         pictures = _of_show(page, show, page.stages[shown.stage], live, where, drawn)
         place = f"{handout.lesson.title}   {page.number}/{len(handout.pages)}"
         yield Slide(page.title, place, text, tuple(pictures), page.step.notes, page, parts[-1].shown.tree)
