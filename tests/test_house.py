@@ -112,6 +112,7 @@ def test_one_place_knows_each_library() -> None:
         "ziamath": {"viewer/figures/formula/ziamath_paths.py"},
         "pptx": {
             "viewer/figures/writers/pptx.py",
+            "viewer/figures/writers/pptx_file.py",
             "viewer/figures/writers/pptx_shapes.py",
             "viewer/handout/pptx.py",
         },

@@ -77,11 +77,12 @@ def sphere_section(tree: RayTree, i: int) -> Section | None:
     ):
         section.add(symbol, format_number(value, DIGITS))
     section.add(Lecture.ROOTS)
+    doubt = float(tree.nodes["error"][i])  # of the point, and so of the distance
     for symbol, root in zip((Lecture.ROOT_1, Lecture.ROOT_2), found.roots, strict=True):
-        section.add(symbol, format_number(0.0 if abs(root) <= error else root, DIGITS))
+        section.add(symbol, format_number(0.0 if abs(root) <= error else root, DIGITS, doubt))
     t = float(tree.nodes["t"][i])
     chosen = found.nearest(t)
-    section.add("t of the ray", f"{format_number(t, DIGITS)} = t{'₁₂'[chosen]}")
+    section.add("t of the ray", f"{format_number(t, DIGITS, doubt)} = t{'₁₂'[chosen]}")
     section.add(root_reason(found, chosen, error))
     return section
 
@@ -153,8 +154,24 @@ def hit_face(tree: RayTree, i: int) -> np.ndarray | None:
         case Triangle(vertices=vertices):
             return np.array(vertices)
         case Mesh() as shape:
-            return _face_at(shape.placed(), row["point"])
+            return _face_at(_near(shape, row["point"], float(row["error"])), row["point"])
     return None
+
+
+def _near(mesh: Mesh, point: np.ndarray, error: float) -> np.ndarray:
+    """The faces (m, 3, 3) of a mesh whose boxes have this point in them, which may be wrong by `error`. Of a million
+    faces only some are left for the tests that take longer.
+    """
+    vertices, faces = mesh.vertices(), mesh.geometry.faces
+    for k in range(3):
+        slack = 4.0 * error + float(np.spacing(np.abs(point[k])))
+        below, above = vertices[:, k] <= point[k] + slack, vertices[:, k] >= point[k] - slack
+        a, b, c = faces.T
+        kept = (below[a] | below[b] | below[c]) & (above[a] | above[b] | above[c])
+        if not kept.any():
+            break
+        faces = faces[kept]
+    return vertices[faces]
 
 
 def _face_at(faces: np.ndarray, point: np.ndarray) -> np.ndarray:
@@ -196,6 +213,11 @@ def inside_section(tree: RayTree, i: int) -> Section | None:
     section.add("sides crossed", str(count))
     section.add(verdict(count))
     return section
+
+
+def intersection_sections(tree: RayTree, i: int) -> list[Section]:
+    """The test that found the hit of ray i, with its numbers; none for shapes without one here."""
+    return [section for section in (sphere_section(tree, i), inside_section(tree, i)) if section is not None]
 
 
 def verdict(count: int) -> str:

@@ -42,7 +42,7 @@ def live_show(fence: Fence, shown: Shown, row: int) -> Show | None:
             own = [{handle.name: value} for value in values]
             told = differences([marks(LIVE_ROOM, one) for one in own])
             said = tuple("; ".join(filter(None, both)) for both in zip(map(_said, values), told, strict=True))
-            controls.append(Control(handle.name, title, len(parameters), said, values.index(handle.value), True))
+            controls.append(Control(handle.name, title, len(parameters), said, values.index(float(handle.value)), True))
             parameters += own
     except ValueError:
         return None
@@ -62,8 +62,12 @@ def differences(drawn: Sequence[Sequence[Mark]]) -> list[str]:
 
 
 def positions(handle: Handle) -> list[float]:
-    """Values of a handle: at most MOST round ones in its range, and the one that it has."""
+    """Values of a handle: at most MOST round ones in its range, and the one that it has; the whole ones, if its range
+    is of these.
+    """
     low, high = handle.range
+    if all(isinstance(number, int) for number in (low, high, handle.value)):
+        return [float(k) for k in range(int(low), int(high) + 1)]
     ideal = (high - low) / MOST
     power = 10.0 ** math.floor(math.log10(ideal))
     step = next(step * power for step in (*NICE, 10.0) if step * power >= ideal)

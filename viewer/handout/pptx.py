@@ -102,11 +102,12 @@ class _Writer:
             frame = _cleared(made.text_frame)
             for k, block in enumerate(group):
                 paragraph = frame.paragraphs[0] if k == 0 else frame.add_paragraph()
-                self._paragraph(paragraph, block, text.size, group[k + 1] if k + 1 < len(group) else None)
+                self._paragraph(paragraph, block, group[k + 1] if k + 1 < len(group) else None)
 
-    def _paragraph(self, paragraph: Any, block: BlockLines, size: float, following: BlockLines | None) -> None:
+    def _paragraph(self, paragraph: Any, block: BlockLines, following: BlockLines | None) -> None:
         from pptx.util import Pt
 
+        size = block.words[0].size if block.words else self.slide.text.size
         _align_left(paragraph)
         paragraph.line_spacing = Pt(LINE * size)
         if block.left:

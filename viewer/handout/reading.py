@@ -1,6 +1,6 @@
 """Makes the pages of a lesson: traces its steps, and finds the frames of their pictures."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,15 +14,17 @@ from tracer.tree.raytree import RayTree
 from viewer.base.files import Unusable
 from viewer.base.orbit import Frame as SceneFrame, initial_orbit
 from viewer.base.wording import format_number
+from viewer.explain.listing import listing
 from viewer.figures import steps as ray_steps
 from viewer.handout.document import Control, Handout, Page, PagePart, Photo, Show, Shown
 from viewer.handout.live import live_show
 from viewer.handout.pictures import KINDS, Frame, Frames, Scenery, picture
 from viewer.handout.sentences import of_hit, of_stage
 from viewer.handout.sweeps import Position, positions
+from viewer.lessons.expectation import conditions
 from viewer.lessons.lesson import Lesson
 from viewer.lessons.step import COLOUR, DEPTH, RAYS, State, Step
-from viewer.lessons.text import filled
+from viewer.lessons.text import Block, Fence, Items, Paragraph, Run, filled
 from viewer.lessons.values import ABSENT, value_text
 
 STAGES = {DEPTH: "Depth", RAYS: "Ray by ray", COLOUR: "Sum by sum"}  # titles of controls
@@ -61,7 +63,8 @@ class _Reader:
                 shown = Shown(swept[-1].tree, swept[-1].world)
             shows = {fence.line: live_show(fence, shown, _row(shown.tree, state.hit)) for fence in part.live}
             live = {line: show for line, show in shows.items() if show}
-            parts.append(PagePart(filled(part.blocks, _values(shown.tree, state.hit)), shown, live))
+            blocks = [*_with_listings(part.blocks), *(() if k else _task(step))]
+            parts.append(PagePart(filled(blocks, _values(shown.tree, state.hit)), shown, live))
         show = self._show(step, world, trees, swept) if trees else self._image_only(step, world)
         return Page(number, step, show, tuple(parts))
 
@@ -171,6 +174,29 @@ def _stages(step: Step, trees: Sequence[RayTree]) -> Sequence[ray_steps.Step]:
         case "colour":
             return list(ray_steps.by_color(trees[-1]))
     return [ray_steps.whole(trees[-1])]
+
+
+def _with_listings(blocks: Sequence[Block]) -> Iterator[Block]:
+    """The blocks with the text of functions in blocks `source`, and the places of these."""
+    for block in blocks:
+        if not isinstance(block, Fence) or block.kind != "source":
+            yield block
+            continue
+        try:
+            found = listing(block.argument)
+        except ValueError as error:
+            yield Paragraph(block.line, (Run(str(error)),))
+            continue
+        yield Fence(block.line, "code", "\n".join(found.lines))
+        yield Paragraph(block.line, (Run(f"{found.name}: {found.place}", italic=True),))
+
+
+def _task(step: Step) -> Iterator[Block]:
+    """What the step asks for: it can be done in the viewer."""
+    asked = [condition.words for condition in conditions(step.state.goal, None, step.state.hit)]
+    if asked:
+        yield Paragraph(step.line, (Run("To reach in the viewer:", bold=True),))
+        yield Items(step.line, tuple((Paragraph(step.line, (Run(words),)),) for words in asked))
 
 
 def _shown(stage: ray_steps.Step, state: State) -> ray_steps.Step:

@@ -15,6 +15,8 @@ INDENT = 1.4  # of lists and quotes
 COLUMN = 1.5  # between columns of a table
 BOLD = 1.09  # width of bold letters, in widths of the others
 DISPLAY = 1.25  # size of a formula in lines of its own
+CODE = 0.8  # size of code
+NO_BREAK = "\u00a0"  # a space that is kept at the beginning of a line
 TALL = 0.35  # space above and below it
 
 
@@ -75,8 +77,11 @@ class TextLines:
             case Formula():
                 self._display(block.source)
             case Fence():
+                whole, self.size = self.size, CODE * self.size
                 for line in block.content.rstrip("\n").split("\n"):
-                    self._lines("code", [Run(line, code=True)], 0.0)
+                    rest = line.lstrip(" ")
+                    self._lines("code", [Run(f"{NO_BREAK * (len(line) - len(rest))}{rest}", code=True)], 0.0)
+                self.size = whole
                 self.bottom += BETWEEN * self.size
 
     def _indented(self, blocks: Sequence[Block], kind: str, mark: str) -> None:

@@ -14,16 +14,28 @@ from tracer.printable import shown_path
 from tracer.tree.raytree import RayTree
 from viewer.base.files import Unusable
 from viewer.base.theme import LIGHT
+from viewer.explain.listing import listing
 from viewer.explain.plain_formula import FormulaError
 from viewer.figures.export_options import TEXT_SIZE
 from viewer.figures.formula.typeset import typeset
 from viewer.figures.marks import HEIGHT, WIDTH
-from viewer.lessons.expectation import failures
+from viewer.lessons.expectation import conditions, failures
 from viewer.lessons.lesson import Lesson, read_file
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
 from viewer.lessons.step import Step
-from viewer.lessons.text import Block, Formula, InlineFormula, Items, Quote, Run, count_words, inlines, names_of_values
+from viewer.lessons.text import (
+    Block,
+    Formula,
+    InlineFormula,
+    Items,
+    Quote,
+    Run,
+    count_words,
+    fences,
+    inlines,
+    names_of_values,
+)
 from viewer.lessons.values import ABSENT, NAMES, OF_TREE, split_name, value_text
 
 MOST_AT_ONCE, MOST_WORDS = 40, 90  # words between two presses, and in a step
@@ -52,6 +64,7 @@ class _Check:
         for step in self.lesson.steps:
             yield from self._words(step)
             yield from self._formulas(step)
+            yield from self._sources(step)
             world, faults = self._world(step)
             yield from faults
             if world:
@@ -90,6 +103,16 @@ class _Check:
             except FormulaError as error:
                 yield Fault(str(error), line)
 
+    def _sources(self, step: Step) -> Iterator[Fault]:
+        """Source text of functions that are not there."""
+        for fence in (fence for part in step.parts for fence in fences(part.blocks) if fence.kind == "source"):
+            try:
+                listing(fence.argument)
+            except ValueError as error:
+                yield Fault(f"source: {error}", fence.line)
+            if fence.content.strip():
+                yield Fault("source: the block must be empty, its text is that of the function", fence.line + 1)
+
     def _rays(self, step: Step, world: World) -> Iterator[Fault]:
         """What is wrong about the pixel and its rays."""
         state, image = step.state, world.scene.image
@@ -115,6 +138,8 @@ class _Check:
         for key, fault in failures(state.goal, tree, state.hit):
             if "unknown name" in fault or "in quotes" in fault:  # a goal is reached elsewhere
                 yield Fault(f"goal: {fault}", step.line_of(key, "goal"))
+        if state.goal and all(condition.holds for condition in conditions(state.goal, tree, state.hit)):
+            yield Fault("goal: it is reached at this pixel already", step.line_of("goal"))
         yield from self._text(step, tree)
         yield from self._live(step, tree, world)
 

@@ -9,7 +9,7 @@ from typing import Any
 from tracer import fields
 from tracer.formats.source import Fault
 from tracer.formats.toml import parsed
-from viewer.lessons.markdown import blocks_of
+from viewer.lessons.markdown import FORMULA, blocks_of
 from viewer.lessons.step import INHERITED, STATE_KEYS, LessonView, Part, State, Step, lines_of
 from viewer.lessons.text import Block, Fence
 
@@ -130,6 +130,8 @@ def _step(source: Source, before: State, section: Section, pieces: list[tuple[Bl
             state = _state(source, base, _toml(source, block.content, begin), block.content, begin)
         elif block.kind not in FENCES and (near := fields.nearest(block.kind, FENCES)):
             source.fault(f'unknown block "{block.kind}"{near}', block.line)
+        elif block.kind == "code" and (near := fields.nearest(block.argument, [FORMULA])):
+            source.fault(f'unknown block "{block.info}"{near}', block.line)
         seen = seen or block.kind not in ("step", "notes")
     state = _with_sweep(source, state, lines)
     parts = [

@@ -6,12 +6,10 @@ Only the window's thread changes it. Panels read it and call its methods. It imp
 import time
 from dataclasses import replace
 
-import numpy as np
-
 from tracer.compile.numba_private import NOTE
 from tracer.kernel.world import World
 from tracer.printable import shown_path
-from viewer.base.orbit import Frame, Orbit, initial_orbit
+from viewer.base.orbit import Frame
 from viewer.figures.steps import Step
 from viewer.lessons.moments import Moment
 from viewer.reopen.view_state import ViewState
@@ -27,6 +25,7 @@ from viewer.session.picked import Picked
 from viewer.session.refinement import Refinement
 from viewer.session.restore.view import restore
 from viewer.session.scene_on_show import image_limits
+from viewer.session.small_images import SmallImages
 from viewer.session.stepping.recursion import Recursion
 from viewer.session.stepping.reveal import Reveal
 from viewer.session.verification import Verification
@@ -45,6 +44,7 @@ class Session(Picked):
         self.warmup = Warmup(lambda note: self.calls.post(lambda: self.notice.say(note)))
         self.loader = SceneLoader(self.calls, self.warmup, self._show, lambda faults: self.show_faults(faults, True))
         self.image = ImageRenderer(self.calls.post)
+        self.small_images = SmallImages(self.calls.post)
         self.refinement = Refinement(self.image)
         self.export = FigureExport(self.calls.post)
         self.verification = Verification(self.calls.post)
@@ -56,8 +56,6 @@ class Session(Picked):
         self.faults_in_files = False  # whether they are of the scene's files
         self.notes: list[str] = []  # on the scene on show, until they are closed
         self._good: tuple[World, Opening] | None = None  # the last scene that was drawn without an exception
-        self.frame = Frame(np.zeros(3), 1.0)
-        self.orbit = Orbit()
         self.history = History()
         self.notice.say(NOTE)
 
@@ -277,23 +275,8 @@ class Session(Picked):
         """Show faults of an action, or those `in_files`, which are read again when they are saved."""
         self.faults, self.faults_in_files = faults, in_files
 
-    # --- how it is looked at ------------------------------------------------------------------------------------------
-
-    def home(self) -> None:
-        """Reset the 3D view, and fit the image and the tree into their panels."""
-        self.image_view.fit()
-        self.tree_view.fit()
-        self.turn_back()
-        self.reset_orbit()
-
-    def reset_orbit(self) -> None:
-        """Look at the scene as at first."""
-        if self.world:
-            self.orbit = initial_orbit(
-                self.world, self.frame, self.opening.step.state.view if self.opening and self.opening.step else None
-            )
-
     def close(self) -> None:
         self.warmup.close()
         self.image.close()
+        self.small_images.close()
         self.loader.close()

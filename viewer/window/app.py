@@ -111,6 +111,7 @@ class App:
         for _ in range(frames):
             self.frame()
         session.recursion.wait()  # it begins when its panel is drawn
+        session.small_images.wait()  # and these with the pieces of a lesson
         if session.calls.run_posted():
             self.frame()
 

@@ -13,7 +13,7 @@ from viewer.lessons import lesson as lessons
 from viewer.panels import PANELS
 from viewer.session.actions import go, look_through_camera, open_lesson
 from viewer.session.figure_export import SHOWN
-from viewer.session.saving import copy_command, export_figure, save_image, save_scene
+from viewer.session.saving import copy_command, copy_step, export_figure, save_image, save_scene
 from viewer.session.session import Session
 from viewer.session.stepping.reveal import GRANULARITIES, ORDER_WORDS
 from viewer.session.view_state import Pointer, Request
@@ -57,6 +57,8 @@ def _file_menu(session: Session) -> None:
         save_scene(session)
     if imgui.menu_item_simple("Copy the command line of this view", "Ctrl+L", False, session.world is not None):
         session.requests.append(Request.COPY_VIEW)
+    if imgui.menu_item_simple("Copy this view as a step of a lesson", "Ctrl+Shift+L", False, session.world is not None):
+        copy_step(session)
     imgui.separator()
     if imgui.menu_item_simple("Quit", "Ctrl+Q"):
         session.requests.append(Request.QUIT)

@@ -12,7 +12,7 @@ from tests.viewer.driver import Driver, viewer
 from viewer.gl.features import FEATURES
 from viewer.gl.surfaces import Surfaces
 from viewer.panels import ray
-from viewer.panels.lesson import panel as lesson
+from viewer.panels.lessons import lesson
 from viewer.session import actions
 
 MATTE = (

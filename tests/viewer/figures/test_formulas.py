@@ -298,7 +298,7 @@ def test_the_window_draws_what_the_outlines_say() -> None:
     from imgui_bundle import imgui
 
     from viewer.figures.writers.imgui import draw_marks
-    from viewer.figures.writers.imgui_formula import _images
+    from viewer.figures.writers.imgui_atlas import images
     from viewer.window.backend import Offscreen
 
     for _ in range(2):  # the second context has an atlas of its own
@@ -316,26 +316,26 @@ def test_the_window_draws_what_the_outlines_say() -> None:
             place = round(60.0 * scale), round(140.0 * scale)
             ours = coverage(typeset(mark.source), 24.0 * scale, *place, 480, 270) / 255.0
             assert np.abs(ink - ours).max() < 0.03
-        assert len(_images.found) == 3
+        assert len(images.found) == 3
         surface.close()
-        assert not _images.found
+        assert not images.found
 
 
 def test_old_images_make_room_for_new_ones() -> None:
     from imgui_bundle import imgui
 
-    from viewer.figures.writers import imgui_formula
+    from viewer.figures.writers import imgui_atlas, imgui_formula
     from viewer.window.backend import Offscreen
 
     surface = Offscreen((480, 270))
     for k in range(2):
         surface.begin()
         pad = imgui.get_background_draw_list()
-        for step in range(imgui_formula.MOST + 40):
+        for step in range(imgui_atlas.MOST + 40):
             mark = Formula("f", Lecture.SNELL, (10.0, 100.0), 6.0 + 0.25 * (step + k), LIGHT.text, "start")
             imgui_formula.draw_formula(pad, mark, (0.0, 0.0), 1.0)
         surface.present()
-        assert len(imgui_formula._images.found) == imgui_formula.MOST
+        assert len(imgui_atlas.images.found) == imgui_atlas.MOST
     surface.close()
 
 

@@ -22,12 +22,12 @@ from viewer.explain.intersection import barycentric, flattened, hit_face, hit_ro
 from viewer.explain.lighting import phong_terms
 from viewer.figures.marks import Handle, Mark, Text
 from viewer.lessons.live.catalogue import LIVE, LIVE_NAMES, live_kind
-from viewer.lessons.live.fresnel import brewster, reflectance
 from viewer.lessons.live.interface import Interface
-from viewer.lessons.live.lifeguard import Lifeguard
 from viewer.lessons.live.piece import LiveContext
-from viewer.lessons.live.samples import sample_points
-from viewer.lessons.live.sum import parts
+from viewer.lessons.live.pieces.fresnel import brewster, reflectance
+from viewer.lessons.live.pieces.lifeguard import Lifeguard
+from viewer.lessons.live.pieces.samples import sample_points
+from viewer.lessons.live.pieces.sum import parts
 
 SIZES = ((300, 200, 11.0), (300, 220, 18.0), (480, 300, 14.0), (400, 480, 13.0), (960, 540, 18.0))
 GLASS = Material("glass", diffuse=0.2, specular=0.4, shininess=20.0, ambient=0.1, transmit=0.8, reflect=0.1, ior=1.52)

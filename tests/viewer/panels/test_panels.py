@@ -13,7 +13,7 @@ from tests.conftest import LESSONS
 from tests.viewer.driver import Driver, are_equal, body, viewer
 from viewer.base.orbit import project
 from viewer.panels import ray
-from viewer.panels.lesson import panel as lesson
+from viewer.panels.lessons import lesson
 from viewer.session import actions
 
 Key = imgui.Key

@@ -12,8 +12,9 @@ from viewer.base.srgb import srgb
 from viewer.base.theme import Color, rgb_bytes
 from viewer.figures.font import BASELINE, FAMILY, FONT, boxed, text_width
 from viewer.figures.formula.typeset import Contour
-from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Rectangle, Shape, Stroke, Text
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Raster, Rectangle, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
+from viewer.figures.writers.raster import raster_png
 from viewer.reopen.places import ATTACHMENT
 
 if TYPE_CHECKING:
@@ -91,6 +92,8 @@ class PageDrawing:
         match mark:
             case Box():
                 self._box(mark)
+            case Raster(center=(x, y), size=(w, h)):
+                self.pdf.image(raster_png(mark), x - 0.5 * w, y - 0.5 * h, w, h)
             case Disc():
                 self._disc(mark)
             case Shape() if mark.holes:

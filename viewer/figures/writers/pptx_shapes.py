@@ -1,12 +1,14 @@
 """Marks as shapes on a slide of a PPTX."""
 
+import io
 from collections.abc import Sequence
 from typing import Any, TypeGuard
 
 from viewer.base.theme import Arrow, Color, rgb_bytes
 from viewer.figures.font import ANCHORS, FAMILY, text_width
 from viewer.figures.formula.typeset import Contour
-from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Rectangle, Shape, Stroke, Text
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Raster, Rectangle, Shape, Stroke, Text
+from viewer.figures.writers.raster import raster_png
 
 EMU = 12_700  # PowerPoint's units per point
 HEADS = {Arrow.FILLED: "triangle", Arrow.OPEN: "arrow", Arrow.DOUBLE: "stealth"}
@@ -92,6 +94,9 @@ class SlideDrawing:
                 made = shapes.add_shape(MSO_SHAPE.OVAL, *emu_box(x - r, y - r, 2 * r, 2 * r))
                 _name(made, mark.name, "")
                 _look(made, mark.fill, mark.stroke)
+            case Raster(center=(x, y), size=(w, h)):
+                place = emu_box(x - 0.5 * w, y - 0.5 * h, w, h)
+                _name(shapes.add_picture(io.BytesIO(raster_png(mark)), *place), mark.name, "")
             case Shape():
                 self._outline(mark, shapes)
             case Line():

@@ -3,14 +3,16 @@
 `groups` and `outline_path` are also what figures and formulas in HTML are made of.
 """
 
+from base64 import b64encode
 from collections.abc import Callable, Iterable
 from xml.sax.saxutils import escape, quoteattr
 
 from viewer.base.theme import Color, rgb_bytes
 from viewer.figures.font import BASELINE, FALLBACK, FAMILY
 from viewer.figures.formula.typeset import Contour
-from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Raster, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
+from viewer.figures.writers.raster import raster_png
 from viewer.reopen.places import as_xml
 
 FONT = f"font-family={quoteattr(', '.join((repr(FAMILY), *FALLBACK)))}"  # the attribute of the root element
@@ -65,6 +67,11 @@ def elements(mark: Mark) -> list[str]:
             (x, y), (w, h) = mark.center, mark.size
             place = f'x="{_n(x - 0.5 * w)}" y="{_n(y - 0.5 * h)}" width="{_n(w)}" height="{_n(h)}"'
             return [f'<rect {place} rx="{_n(mark.radius)}"{_fill(mark.fill)}{_stroke(mark.stroke)}/>']
+        case Raster():
+            (x, y), (w, h) = mark.center, mark.size
+            place = f'x="{_n(x - 0.5 * w)}" y="{_n(y - 0.5 * h)}" width="{_n(w)}" height="{_n(h)}"'
+            look = 'preserveAspectRatio="none" image-rendering="pixelated"'
+            return [f'<image {place} {look} href="data:image/png;base64,{b64encode(raster_png(mark)).decode()}"/>']
         case Disc():
             place = f'cx="{_n(mark.center[0])}" cy="{_n(mark.center[1])}" r="{_n(mark.radius)}"'
             return [f"<circle {place}{_fill(mark.fill)}{_stroke(mark.stroke)}/>"]

@@ -12,7 +12,7 @@ from viewer.base.srgb import srgb
 from viewer.base.theme import Theme
 from viewer.explain.ray import ray_details
 from viewer.explain.sections import RayDetails
-from viewer.figures.marks import Box, Disc, Figure, Formula, Handle, Line, Mark, Point, Shape, Text
+from viewer.figures.marks import Box, Disc, Figure, Formula, Handle, Line, Mark, Point, Raster, Shape, Text
 from viewer.figures.picking import ray_of
 from viewer.figures.writers.html.frame import text
 from viewer.figures.writers.html.inline_svg import Drawings
@@ -154,7 +154,7 @@ class ShowWriter:
 def low(mark: Mark) -> float:
     """The lowest place of a mark, in points."""
     match mark:
-        case Box():
+        case Box() | Raster():
             return mark.center[1] + 0.5 * mark.size[1]
         case Disc():
             return mark.center[1] + mark.radius

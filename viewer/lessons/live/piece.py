@@ -7,11 +7,15 @@ with the new value. A context that cannot serve a piece is a ValueError with one
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import Theme
 from viewer.figures.labels import hit_label
 from viewer.figures.marks import Mark, Rectangle
+
+Images = Callable[[int], np.ndarray | None]  # (height, width, 3) linear light by depth; None: not there yet
 
 
 @dataclass(frozen=True)
@@ -24,6 +28,7 @@ class LiveContext:
     theme: Theme
     size: float  # of text, in points
     where: Rectangle
+    images: Images | None = None  # small images of the scene, where they are traced ahead; None: a piece traces its own
 
     def hit(self, piece: str) -> tuple[RayTree, World, str]:
         """The tree, the world and the name of the object that the ray meets. ValueError where it meets none."""

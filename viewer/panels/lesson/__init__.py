@@ -1,1 +1,0 @@
-"""The panel of a lesson: its text, the handle of a sweep, and live pieces."""
