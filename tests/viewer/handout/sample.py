@@ -107,9 +107,17 @@ lifeguard
 ```step
 hit = "E"
 panels = ["ray"]
+goal = { theta1 = "12" }
 ```
 
 These are its numbers.
+
+```source tracer.optics.critical_angle
+```
+
+```live
+difference
+```
 """
 
 

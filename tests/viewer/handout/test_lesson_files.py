@@ -24,7 +24,7 @@ def test_a_folder_has_a_document_of_each_kind_and_figures_that_sort_as_the_lesso
     rays = [f"glass_1.{k:0{digits}}_{kind}.svg" for k in range(stages) for kind in ("scene", "tree")]
     levels = [f"glass_2.{k}_tree.svg" for k in range(3)]
     swept = ["glass_3.0_hit.svg", "glass_3.0_snell.svg", "glass_3.1_hit.svg", "glass_3.2_lifeguard.svg"]
-    rest = [*swept, "glass_4.0_ray.svg"]
+    rest = [*swept, "glass_4.0_ray.svg", "glass_4.0_difference.svg"]
     assert names == ["glass.pdf", *rays, *levels, *rest]
     assert sorted(names[1:]) == sorted(path.name for path in (tmp_path / "out").glob("*.svg"))
     keys = [name.rsplit("_", 1)[0] for name in names[1:]]
