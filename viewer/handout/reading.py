@@ -19,7 +19,7 @@ from viewer.figures import steps as ray_steps
 from viewer.handout.document import Control, Handout, Page, PagePart, Photo, Show, Shown
 from viewer.handout.live import live_show
 from viewer.handout.pictures import KINDS, Frame, Frames, Scenery, picture
-from viewer.handout.sentences import of_hit, of_stage
+from viewer.handout.sentences import angles, of_stage
 from viewer.handout.sweeps import Position, positions
 from viewer.lessons.expectation import conditions
 from viewer.lessons.lesson import Lesson
@@ -112,7 +112,7 @@ class _Reader:
             for k, at in enumerate(swept):
                 place = scenery if at.world is world else Scenery(at.world, scenery.orbit)
                 frames.append(Frame(_shown(ray_steps.whole(at.tree), state), place, k, _row(at.tree, state.hit)))
-            said = tuple(f"{at.words}. {of_hit(f.step.tree, f.hit)}" for at, f in zip(swept, frames, strict=True))
+            said = tuple(f"{at.words}{angles(f.step.tree, f.hit)}" for at, f in zip(swept, frames, strict=True))
             controls = (Control(SWEEP, "Place in the image" if state.sweep.is_pixel else state.sweep.of, 0, said),)
         else:
             stages = [_shown(stage, state) for stage in _stages(step, trees)]

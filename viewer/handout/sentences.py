@@ -62,6 +62,13 @@ def of_hit(tree: RayTree, row: int) -> str:
     return ". ".join([found, *sent]) + "."
 
 
+def angles(tree: RayTree, row: int) -> str:
+    """The angles at a hit, to follow something else; nothing where a ray meets nothing."""
+    node, turn = tree.nodes[row], direction_error(tree, row)
+    named = (("θ₁", float(node["theta1"])), ("θ₂", float(node["theta2"])))
+    return "".join(f"; {name} = {format_angle(x, turn)}" for name, x in named if x == x)
+
+
 def of_marks(title: str, marks: Sequence[Mark]) -> str:
     """A picture made of marks: the texts in it, without the numbers on the axes."""
     words = []
