@@ -19,6 +19,8 @@ from viewer.reopen.scene_files import scene_files
 from viewer.session.restore.command import embedded
 from viewer.session.restore.figure_scene import FigureScene
 
+READING = 0.3  # the share of the time that an export of a lesson takes to trace it
+
 
 def export(options: ExportOptions) -> int:
     with contextlib.ExitStack() as stack:
@@ -57,8 +59,8 @@ def make_lesson_files(options: ExportOptions, scene: FigureScene, target: Target
     target = lesson_target(options, target)
     compile_once()
     with faults(), Progress("export") as progress:
-        handout = read_handout(scene.lesson)
-        made = make_lesson(options, handout, target, progress)
+        handout = read_handout(scene.lesson, lambda share: progress(READING * share))
+        made = make_lesson(options, handout, target, lambda share: progress(READING + (1.0 - READING) * share))
         made.write()
         for note in made.notes:
             progress.put(f"note: {note}")

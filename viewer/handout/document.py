@@ -5,6 +5,7 @@ them: a stage of the step's reveal, a position of its sweep, or of the handle of
 nothing is added to the one before.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -36,6 +37,7 @@ class Room:
     where: Rectangle
     size: float  # of text, in points
     theme: Theme
+    least: float = math.inf  # of the text of a tree, which becomes smaller before branches are folded
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 The elements of the structure are in the order of reading. The place at the foot of a page is not read out.
 """
 
+from tracer.printable import printable
 from viewer.base.theme import Theme
 from viewer.figures.font import text_width
 from viewer.figures.marks import HEIGHT, WIDTH, Disc, Figure, Formula, Stroke, Text
@@ -25,7 +26,7 @@ def write_slides(handout: Handout, command: str, theme: str) -> bytes:
     for slide in slides_of(handout, colors):
         page = PageDrawing(pdf, about)
         if slide.title not in titles[-1:]:
-            pdf.start_section(slide.title, 1 if slide.page else 0)
+            pdf.start_section(printable(slide.title), 1 if slide.page else 0)
         titles.append(slide.title)
         _Writer(page, slide, colors).write()
     return bytes(pdf.output())
@@ -71,11 +72,11 @@ class _Writer:
 
     def _picture(self, placed: Placed) -> None:
         if placed.photo is None:
-            with self.page.tagged("Figure", placed.said):
+            with self.page.tagged("Figure", printable(placed.said)):
                 for mark in placed.marks:
                     self.page.draw(mark)
             return
-        with self.page.tagged("Figure", placed.said):
+        with self.page.tagged("Figure", printable(placed.said)):
             self.page.image(placed.photo.pixels, placed.where)
             if placed.ring:
                 for color, width in RINGS:

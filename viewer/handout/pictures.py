@@ -1,7 +1,7 @@
 """The pictures of a step: the scene, its ray tree, a hit, the numbers of a ray. Each draws any of its frames."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tracer.kernel.world import World
 from viewer.base.orbit import Orbit
@@ -11,6 +11,7 @@ from viewer.figures.figure import scene as scene_figure, tree as tree_figure
 from viewer.figures.figure.hit import LARGEST, hit_marks
 from viewer.figures.font import BASELINE, fitted, text_width
 from viewer.figures.layout.hit_frame import MARGIN
+from viewer.figures.layout.tree_plan import fitting_size
 from viewer.figures.marks import Formula, Handle, Mark, Rectangle, Text, widened, with_line_width
 from viewer.figures.steps import Step
 from viewer.figures.subject import FigureStyle, Subject, line_share
@@ -77,8 +78,12 @@ def _scene(frames: Frames, room: Room, group: list[Frame]) -> Drawn:
 
 
 def _tree(frames: Frames, room: Room, group: list[Frame]) -> Drawn:
+    steps = [frame.step for frame in group]
     style = FigureStyle(room.theme, room.size, swatches=frames.swatches, selected=frames.selected(group[-1]))
-    return tree_figure.pages(Subject([frame.step for frame in group]), style, room.where)
+    size = fitting_size(tree_figure.planned(steps), tree_figure.tree_style(steps, style, room.where))
+    if size and room.least <= size < room.size:
+        style = replace(style, text_size=size)
+    return tree_figure.pages(Subject(steps), style, room.where)
 
 
 def _hit(frames: Frames, room: Room, group: list[Frame]) -> Drawn:

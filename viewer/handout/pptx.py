@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import count, groupby
 from typing import Any
 
+from tracer.printable import printable
 from tracer.tree.raytree import RayTree
 from viewer.base.pictures import png
 from viewer.base.theme import Color, Theme
@@ -68,7 +69,8 @@ class _Writer:
         if self.slide.place:
             self._place()
         if self.slide.notes:
-            self.made.notes_slide.notes_text_frame.text = self.slide.notes
+            notes = "\n".join(map(printable, self.slide.notes.split("\n")))
+            self.made.notes_slide.notes_text_frame.text = notes
         _make_unique(self.shapes)
         from pptx.oxml import parse_xml
 
@@ -80,7 +82,7 @@ class _Writer:
         title.name = "title"
         frame = title.text_frame
         _cleared(frame)
-        self._run(frame.paragraphs[0], self.slide.title, TITLE, self.theme.text, bold=True)
+        self._run(frame.paragraphs[0], printable(self.slide.title), TITLE, self.theme.text, bold=True)
         _align_left(frame.paragraphs[0])
 
     def _text(self) -> None:
@@ -143,7 +145,7 @@ class _Writer:
         frame = self.shapes.add_textbox(*emu_box(MARGIN, FOOT, WIDTH - 2.0 * MARGIN, 1.5 * FOOT_SIZE))
         frame.name = "place"
         paragraph = _cleared(frame.text_frame).paragraphs[0]
-        self._run(paragraph, self.slide.place, FOOT_SIZE, self.theme.muted)
+        self._run(paragraph, printable(self.slide.place), FOOT_SIZE, self.theme.muted)
         from pptx.enum.text import PP_ALIGN
 
         paragraph.alignment = PP_ALIGN.RIGHT
@@ -167,7 +169,7 @@ class _Writer:
             io.BytesIO(png(placed.photo.pixels)), *emu_box(left, top, right - left, bottom - top)
         )
         picture.name = "image"
-        picture._element.xpath(".//p:cNvPr")[0].set("descr", placed.said)
+        picture._element.xpath(".//p:cNvPr")[0].set("descr", printable(placed.said))
         if placed.ring:
             marks = tuple(Disc("ring", placed.ring, RING, None, Stroke(*look)) for look in RINGS)
             SlideDrawing(self.shapes, Figure("", "", "", marks, self.theme.ground)).draw()

@@ -14,13 +14,13 @@ from viewer.lessons.text import Items, Paragraph, Run
 
 MARGIN = 36.0  # points, around everything
 TITLE = 30.0  # size of a title
-HEAD = 66.0  # where the text below the title begins
+HEAD = 62.0  # where the text below the title begins
 TEXT, SMALL = 20.0, 17.0  # sizes of text; the smaller one if there is much
 MUCH = 150.0  # points: height of much text
 FOOT = 520.0  # where pictures end; the place in the lesson stands below
 FOOT_SIZE = 12.0
-GAP = 14.0  # between the text and pictures, and between two of these
-SIZES = (17.0, 14.0)  # text of pictures: of one, of two
+GAP = 12.0  # between the text and pictures, and between two of these
+SIZES, LEAST = (17.0, 14.0), 10.0  # text of pictures: of one, of two; the smallest of a tree
 RING = 8.0  # radius of the rings around the pixel, which are seen on any image
 RINGS = ((rgb("#000000"), 4.0), (rgb("#FFFFFF"), 1.8))  # colours and widths
 SHARES = {"scene": 1.0, "tree": 1.15, "hit": 1.5, "ray": 1.0}  # of the width, relative to each other
@@ -94,13 +94,14 @@ def _cover(handout: Handout) -> Slide:
 
 def _of_page(handout: Handout, page: Page, theme: Theme) -> Iterator[Slide]:
     show = page.show
+    whole = _text(page.parts)
+    left, right = MARGIN, WIDTH - MARGIN
+    where = (left, HEAD + whole.bottom + GAP, right, FOOT)  # with room for all text: pictures keep their places
     drawn = _Drawn(len(page.stages) if page.step.state.reveal else 1, theme)
     for press in range(count_presses(page.step, len(page.stages)) + 1):
         shown = shown_at(page.step, len(page.stages), press)
         parts = page.parts[: shown.parts]
-        text = _text(parts)
-        left, right = MARGIN, WIDTH - MARGIN
-        where = (left, HEAD + text.bottom + GAP, right, FOOT)
+        text = _text(parts, whole.size)
         # A piece of the first part is about the beginning of a sweep.
         about = parts[1:] if page.step.state.sweep and shown.stage else parts
         live = [one for part in about for one in part.live.values()]
@@ -109,14 +110,12 @@ def _of_page(handout: Handout, page: Page, theme: Theme) -> Iterator[Slide]:
         yield Slide(page.title, place, text, tuple(pictures), page.step.notes, page, parts[-1].shown.tree)
 
 
-def _text(parts: Sequence[PagePart]) -> TextLines:
-    for size in (TEXT, SMALL):
-        text = TextLines(WIDTH - 2.0 * MARGIN, size)
-        for part in parts:
-            text.add(part.blocks)
-        if text.bottom <= MUCH:
-            break
-    return text
+def _text(parts: Sequence[PagePart], size: float | None = None) -> TextLines:
+    """The text of these parts, in this size; by default, it is small if there is much."""
+    text = TextLines(WIDTH - 2.0 * MARGIN, size or TEXT)
+    for part in parts:
+        text.add(part.blocks)
+    return text if size or text.bottom <= MUCH else _text(parts, SMALL)
 
 
 class _Drawn:
@@ -127,7 +126,7 @@ class _Drawn:
         self._made: dict[tuple[int, Rectangle], list[list[Mark]]] = {}
 
     def marks(self, picture: Picture, where: Rectangle, size: float, frame: int) -> list[Mark]:
-        room, key = Room(where, size, self.theme), (id(picture), where)
+        room, key = Room(where, size, self.theme, LEAST), (id(picture), where)
         if frame == 0 and self.stages > 1 and picture.kind in KINDS:
             self._made[key] = picture.draw(room, range(self.stages))
         return self._made[key][frame] if key in self._made else picture.draw(room, [frame])[0]

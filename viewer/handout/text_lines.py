@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from tracer.printable import printable
 from viewer.explain.plain_formula import FormulaError, broken, plain
 from viewer.figures.font import text_width
 from viewer.figures.formula.typeset import typeset
@@ -148,7 +149,7 @@ class TextLines:
                 yield self._formula(item.source, spaced)
                 spaced = False
                 continue
-            for k, line in enumerate(item.text.split("\n")):
+            for k, line in enumerate(map(printable, item.text.split("\n"))):
                 breaks = k > 0
                 for j, word in enumerate(line.split(" ")):
                     spaced = spaced or j > 0
