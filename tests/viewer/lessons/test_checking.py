@@ -70,7 +70,8 @@ def test_the_skeleton_passes_and_is_never_written_over(
         ("", "word " * 41, "line 11: 41 words appear at once; at most 40 are allowed"),
         ("", "\n???\n".join(["word " * 31] * 3), "line 6: 93 words in a step; at most 90 are allowed"),
         ("", "```live\nsnel\n```", "line 12: live: a live piece is one of snell, "),
-        ("", "```live\nsphere 3\n```", 'line 12: live: sphere: no words may follow, got "3"'),
+        ("", "```live\nhit 3\n```", 'line 12: live: hit: no words may follow, got "3"'),
+        ("", "```live\nsphere lamp\n```", "line 12: live: sphere: object must be an object of the scene, ball, floor"),
         ("", "```live\ninside\n```", "line 12: live: inside"),
         (
             "", "```source tracer.optics.transmision\n```",

@@ -174,7 +174,8 @@ class _Writer:
         if shape.fill and shape.closed and shape.holes:
             self._fill_rings((shape.corners, *shape.holes), _ink(shape.fill))
         elif shape.fill and shape.closed:
-            points: list[imgui.ImVec2Like] = [imgui.ImVec2(*self._at(corner)) for corner in shape.corners]
+            corners = shape.corners if _is_clockwise(shape.corners) else shape.corners[::-1]
+            points: list[imgui.ImVec2Like] = [imgui.ImVec2(*self._at(corner)) for corner in corners]
             self.pad.add_concave_poly_filled(points, _ink(shape.fill))
         if not shape.stroke:
             return
@@ -203,6 +204,12 @@ class _Writer:
         for triangle in triangles.tolist():
             a, b, c = (self._at((float(x), float(y))) for x, y in corners[triangle])
             self.pad.add_triangle_filled(a, b, c, ink)
+
+
+def _is_clockwise(outline: Sequence[Point]) -> bool:
+    """Whether the corners go round clockwise on the screen: imgui fills a concave outline in this order only."""
+    around = zip(outline, (*outline[1:], outline[0]), strict=True)
+    return sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in around) >= 0.0
 
 
 def _rounded(box: Box) -> list[Point]:

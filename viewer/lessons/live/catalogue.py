@@ -100,7 +100,15 @@ def _light(word: str, world: World | None) -> float:
     return float(names.index(word))
 
 
+def _object(word: str, world: World | None) -> float:
+    names = [world.scene.object_name(k) for k in range(len(world.scene.objects))] if world else []
+    if word not in names:
+        raise ValueError(f"an object of the scene, {', '.join(names)}" if names else "an object of a scene")
+    return float(names.index(word))
+
+
 INDICES = (Argument("n1", _index), Argument("n2", _index))
+OBJECTS = (Argument("object", _object),)
 SPEEDS = (Argument("v1", _speed), Argument("v2", _speed), Argument("x", _place))
 
 LIVE = (
@@ -111,8 +119,8 @@ LIVE = (
         "media", "Media and the speed of light", "viewer.lessons.live.pieces.media:media", INDICES,
         "viewer.lessons.live.pieces.media:clicked",
     ),
-    LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.pieces.sphere:sphere"),
-    LiveKind("inside", "Inside a polygon or a triangle", "viewer.lessons.live.pieces.inside:inside_piece"),
+    LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.pieces.sphere:sphere", OBJECTS),
+    LiveKind("inside", "Inside a polygon or a triangle", "viewer.lessons.live.pieces.inside:inside_piece", OBJECTS),
     LiveKind("phong", "Phong's terms", "viewer.lessons.live.pieces.phong:phong", (Argument("light", _light),)),
     LiveKind("sum", "The sum of a hit", "viewer.lessons.live.pieces.sum:sum_piece"),
     LiveKind(

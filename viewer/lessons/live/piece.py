@@ -16,6 +16,7 @@ from viewer.figures.labels import hit_label
 from viewer.figures.marks import Mark, Rectangle
 
 Images = Callable[[int], np.ndarray | None]  # (height, width, 3) linear light by depth; None: not there yet
+OBJECT = "object"  # the parameter of pieces about a ray and an object: the object's number
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,18 @@ class LiveContext:
         if self.tree.nodes["object"][self.row] < 0:
             raise ValueError(f"{piece}: {self.tree.label(self.row)} meets nothing; it needs a ray that meets a surface")
         return self.tree, self.world, hit_label(self.tree, self.row)
+
+    def tested(self, piece: str, parameters: "Parameters") -> tuple[RayTree, str, int | None]:
+        """The tree, and the name and number of the object that the ray is tested against: of the parameter `object`,
+        which the ray may miss; or the name of the one that it meets, and None. ValueError where there is none.
+        """
+        if OBJECT not in parameters:
+            tree, _, name = self.hit(piece)
+            return tree, name, None
+        if self.tree is None:
+            raise ValueError(f"{piece}: no pixel is picked; it needs a ray")
+        number = int(parameters[OBJECT])
+        return self.tree, self.tree.scene.object_name(number), number
 
 
 Parameters = Mapping[str, float]  # by the name of a handle; one that is not there has the piece's default

@@ -40,10 +40,11 @@ def draw(session: Session, canvas: Canvas) -> None:
         flow.blocks(filled(part.blocks, lambda name: _value(session, name)))
     draw_goal(session.appearance.theme, goal, (flow.x, flow.y), width)
     flow.y += below + BETWEEN * flow.em if below else 0.0
+    used = flow.y - BETWEEN * flow.em - corner.y
     imgui.set_cursor_screen_pos(corner)
-    imgui.dummy((1.0, max(1.0, flow.y - corner.y)))
+    imgui.dummy((1.0, max(1.0, used)))
     line = imgui.get_text_line_height_with_spacing()
-    session.player.lines_too_many = max(0, math.ceil((flow.y - BETWEEN * flow.em - corner.y - height) / line))
+    session.player.lines_too_many = max(0, math.ceil((used - height) / line))
     _follow(session, canvas, flow.pointed)
 
 

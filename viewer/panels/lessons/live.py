@@ -29,7 +29,7 @@ def draw_piece(session: Session, canvas: Canvas, fence: Fence, corner: Point, wi
     Returns the height that it took.
     """
     scale = min(d.unit(), width / LEAST[0])
-    size = (round(width / scale), round(min(ASPECT * width, max(height, LEAST[1] * scale)) / scale))
+    size = (round(width / scale), int(min(ASPECT * width, max(height, LEAST[1] * scale)) / scale))
     canvas.live_places[fence.line] = (*corner, scale)
     imgui.set_cursor_screen_pos(corner)
     imgui.invisible_button(f"live {fence.line}", (width, max(1.0, size[1] * scale)))
