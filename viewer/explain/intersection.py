@@ -198,25 +198,9 @@ def hit_face(tree: RayTree, i: int, number: int | None = None) -> np.ndarray | N
         case Triangle(vertices=vertices):
             return np.array(vertices)
         case Mesh() as shape if is_hit(tree, i, number):
-            point = tree.nodes["point"][i]
-            return _face_at(_near(shape, point, float(tree.nodes["error"][i])), point)
+            point, error = tree.nodes["point"][i], float(tree.nodes["error"][i])
+            return _face_at(_near(shape, point, error), point)
     return None
-
-
-def plane_point(tree: RayTree, i: int, number: int | None = None) -> tuple[float, np.ndarray] | None:
-    """(t, point (3,)) where ray i meets the plane of its face, which may be outside the face; None if it meets none."""
-    if is_hit(tree, i, number):
-        return float(tree.nodes["t"][i]), tree.nodes["point"][i]
-    corners = hit_face(tree, i, number)
-    if corners is None:
-        return None
-    o, d = exact(tree.nodes["origin"][i]), exact(tree.nodes["direction"][i])
-    p, normal = plane_of([exact(corner) for corner in corners])
-    across = dot(normal, d)
-    t = dot(normal, minus(p, o)) / across if across else Fraction(0)
-    if t <= 0:
-        return None
-    return float(t), np.array([float(x + t * y) for x, y in zip(o, d, strict=True)])
 
 
 def _near(mesh: Mesh, point: np.ndarray, error: float) -> np.ndarray:
@@ -233,6 +217,22 @@ def _near(mesh: Mesh, point: np.ndarray, error: float) -> np.ndarray:
             break
         faces = faces[kept]
     return vertices[faces]
+
+
+def plane_point(tree: RayTree, i: int, number: int | None = None) -> tuple[float, np.ndarray] | None:
+    """(t, point (3,)) where ray i meets the plane of its face, which may be outside the face; None if it meets none."""
+    if is_hit(tree, i, number):
+        return float(tree.nodes["t"][i]), tree.nodes["point"][i]
+    corners = hit_face(tree, i, number)
+    if corners is None:
+        return None
+    o, d = exact(tree.nodes["origin"][i]), exact(tree.nodes["direction"][i])
+    p, normal = plane_of([exact(corner) for corner in corners])
+    across = dot(normal, d)
+    t = dot(normal, minus(p, o)) / across if across else Fraction(0)
+    if t <= 0:
+        return None
+    return float(t), np.array([float(x + t * y) for x, y in zip(o, d, strict=True)])
 
 
 def _face_at(faces: np.ndarray, point: np.ndarray) -> np.ndarray:

@@ -56,10 +56,10 @@ def test_snell_and_the_transmission_direction(water: tuple) -> None:
     assert list(snell) == ["1 · sin 53.13°", "1.3333 · sin 36.87°"]
     assert [value(text) for text in snell.values()] == [0.8, 0.8]
     bent = section(sections, "Transmission direction")
-    assert value(bent["η = n₁/n₂"]) == 0.75
+    assert value(bent["n = n₁/n₂"]) == 0.75
     assert value(bent["c₁ = −v·n"]) == 0.6
-    assert value(bent["1 − η²(1 − c₁²)"]) == 0.64
-    assert value(bent["c₂ = √(1 − η²(1 − c₁²))"]) == 0.8
+    assert value(bent["1 − n²(1 − c₁²)"]) == 0.64
+    assert value(bent["c₂ = √(1 − n²(1 − c₁²))"]) == 0.8
     refracted = next(i for i in range(len(tree)) if tree.kind(i) == "refraction")
     assert values(bent["t"]) == pytest.approx(tree.nodes["direction"][refracted], abs=6e-5)
     mirrored = section(sections, "Reflection")
@@ -123,8 +123,8 @@ def test_total_internal_reflection_shows_the_number_that_decides() -> None:
     assert critical["arcsin(1 / 1.33)"] == "48.75°"
     assert critical["θ₁ = 60.00°"] == "beyond it: total internal reflection"
     decided = section(sections, "Transmission direction")
-    assert value(decided["1 − η²(1 − c₁²)"]) == pytest.approx(1 - (1.33 * math.sin(a)) ** 2, rel=1e-4, abs=0.0)
-    assert decided["η²(1 − c₁²)"].endswith("≥ 1: total internal reflection")
+    assert value(decided["1 − n²(1 − c₁²)"]) == pytest.approx(1 - (1.33 * math.sin(a)) ** 2, rel=1e-4, abs=0.0)
+    assert decided["n²(1 − c₁²)"].endswith("≥ 1: total internal reflection")
     assert section(sections, "Snell's law")["sin θ₂"].endswith("> 1")
     assert headline(tree, 1)[0] == "Total internal reflection TIR1"
 

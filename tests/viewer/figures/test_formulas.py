@@ -55,11 +55,11 @@ def formula(source: str, anchor: str = "start") -> Formula:
     [
         (Lecture.SNELL, "n₁ sin θ₁ = n₂ sin θ₂"),
         (Lecture.CRITICAL, "θc = arcsin(n₂ / n₁)"),
-        (Lecture.TRANSMISSION, "t = η v + (η c₁ − c₂) n"),
+        (Lecture.TRANSMISSION, "t = n v + (n c₁ − c₂) n"),
         (Lecture.REFLECTION, "r = v − 2 (n·v) n"),
         (Lecture.FRESNEL, "R = (rₛ² + rₚ²) / 2"),
         (Lecture.AMPLITUDE_S, "rₛ = (n₁ c₁ − n₂ c₂) / (n₁ c₁ + n₂ c₂)"),
-        (Lecture.COSINE_2, "c₂ = √(1 − η²(1 − c₁²))"),
+        (Lecture.COSINE_2, "c₂ = √(1 − n²(1 − c₁²))"),
         (Lecture.RADIANCE, "I = local + Σ factor × child"),
         (r"x^{10} + x^{ab} - e^{-2}", "x¹⁰ + x^ab − e⁻²"),
         (r"\cos^2\theta + \sin(2\theta)", "cos²θ + sin(2θ)"),

@@ -75,7 +75,7 @@ def test_floor_under_the_table_sees_no_light(worlds: dict[str, tracer.World]) ->
     for x in range(200, 600, 10):
         floor = tracer.trace(worlds["two-lights"], (x, 470), depth=0)
         found.add(tuple((floor.light_name(i), floor.end(i)) for i in floor.children[0]))
-    for pair in ((("lamp", "lit"), ("window", "blocked")), (("lamp", "blocked"), ("window", "lit"))):
+    for pair in ((("lamp", "lit"), ("lantern", "blocked")), (("lamp", "blocked"), ("lantern", "lit"))):
         assert pair in found, "a pixel that sees only one of the lights"
 
 

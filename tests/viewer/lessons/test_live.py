@@ -15,9 +15,10 @@ from tracer.kernel.world import World
 from tracer.scene import Light, Material, Object
 from tracer.shapes.polygon import Polygon
 from tracer.tree.raytree import RayTree
+from viewer.base.srgb import display_color
 from viewer.base.theme import DARK, LIGHT, MONO
 from viewer.explain.lighting import phong_terms
-from viewer.figures.marks import Handle, Mark, Text
+from viewer.figures.marks import Disc, Handle, Mark, Shape, Text
 from viewer.lessons.live.catalogue import LIVE, LIVE_NAMES, live_kind
 from viewer.lessons.live.interface import Interface
 from viewer.lessons.live.piece import LiveContext
@@ -151,6 +152,24 @@ def test_sample_points_are_those_that_images_use() -> None:
     seen = world()
     x, y = tracer.trace(seen, pixel=(3, 4), sample=5).image_point
     assert (x - 3, y - 4) == pytest.approx(points[5], abs=8 * U * 8)
+
+
+@pytest.mark.parametrize("count", (1, 16))
+def test_samples_have_the_colours_that_their_rays_see_and_the_pixel_their_mean(count: int) -> None:
+    seen = world()
+    pixel = next((x, 24) for x in range(64) if len(set(_ends(seen, (x, 24)))) > 1)  # at an edge
+    tree = tracer.trace(seen, pixel=pixel, depth=2)
+    drawn = live_kind("samples").marks(context(seen, tree), {"count": float(count)})
+    marks = {mark.name: mark for mark in drawn if isinstance(mark, Disc | Shape)}
+    colors = [marks[f"sample-{k}"].fill for k in range(count)]
+    numbers = range(16) if count > 1 else [None]
+    assert colors == [display_color(tracer.trace(seen, pixel=pixel, sample=k, depth=2).radiance) for k in numbers]
+    mean = tracer.render(seen, samples=count, depth=2).pixels[pixel[1], pixel[0]]
+    assert marks["pixel"].fill == display_color(mean)
+
+
+def _ends(seen: World, pixel: tuple[int, int]) -> list[str | None]:
+    return [tracer.trace(seen, pixel=pixel, sample=k, depth=0).object_name(0) for k in range(4)]
 
 
 @pytest.mark.parametrize(

@@ -49,8 +49,8 @@ def draw(session: Session, canvas: Canvas) -> None:
 
 
 def _fence(session: Session, canvas: Canvas, flow: TextFlow, fence: Fence, bottom: float) -> bool:
-    """Draw a live piece, or the source text of a function. A piece reaches down to `bottom`, or is as small as it may
-    be if more text follows.
+    """Draw a live piece, or the source text of a function. A piece reaches down to `bottom`, or is small if more text
+    follows.
     """
     match fence.kind:
         case "live":

@@ -1,5 +1,6 @@
 """Gives a lesson: one key leads to the next moment, another to the one before. Each moment is an absolute state."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Protocol
 
@@ -88,14 +89,16 @@ class LessonPlayer:
         return len(self._pages)
 
     @property
-    def _pages(self) -> range:
-        """The pages by ray that are the stages of the reveal."""
+    def _pages(self) -> Sequence[int]:
+        """The pages by ray that are the stages of the reveal. Those that only add rays of hidden kinds are left out."""
         steps = self.session.reveal.steps
         if not steps or not self.step:
             return range(1)
         if self.step.state.reveal == COLOUR:
             return range(steps.count_reveals - 1, len(steps))
-        return range(steps.count_reveals)
+        shown = {*self.step.state.show, "camera"}
+        kinds = [{steps.tree.kind(row) for row in steps[k].current} for k in range(steps.count_reveals)]
+        return [k for k, added in enumerate(kinds) if added & shown]
 
     # --- going on -----------------------------------------------------------------------------------------------------
 
