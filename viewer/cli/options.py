@@ -13,6 +13,7 @@ from viewer.base.values import (
     DEPTH_HELP,
     FIGURE_TOO,
     FILE,
+    LANGUAGE,
     LIGHT,
     MAX_RAYS_HELP,
     MODEL_HELP,
@@ -83,6 +84,11 @@ class ViewOptions(ViewState):
     scene: str | None = argument("SCENE", TEXT, FIGURE_TOO, nargs="?")
     screenshot: Path | None = option(FILE, "draw the viewer into a file, and exit", metavar="FILE.png")
     size: tuple[int, int] | None = _size("of the window or the screenshot")
+    language: str | None = option(
+        LANGUAGE, "show the translation of the lesson into this language; by default that of the system"
+    )
+
+    speaker: bool = switch("open a second window for the speaker: notes, next step, clock")
 
     @property
     def state(self) -> ViewState:

@@ -198,25 +198,9 @@ def hit_face(tree: RayTree, i: int, number: int | None = None) -> np.ndarray | N
         case Triangle(vertices=vertices):
             return np.array(vertices)
         case Mesh() as shape if is_hit(tree, i, number):
-            point, error = tree.nodes["point"][i], float(tree.nodes["error"][i])
-            return _face_at(_near(shape, point, error), point)
+            point = tree.nodes["point"][i]
+            return _face_at(_near(shape, point, float(tree.nodes["error"][i])), point)
     return None
-
-
-def _near(mesh: Mesh, point: np.ndarray, error: float) -> np.ndarray:
-    """The faces (m, 3, 3) of a mesh whose boxes have this point in them, which may be wrong by `error`. Of a million
-    faces only some are left for the tests that take longer.
-    """
-    vertices, faces = mesh.vertices(), mesh.geometry.faces
-    for k in range(3):
-        slack = 4.0 * error + float(np.spacing(np.abs(point[k])))
-        below, above = vertices[:, k] <= point[k] + slack, vertices[:, k] >= point[k] - slack
-        a, b, c = faces.T
-        kept = (below[a] | below[b] | below[c]) & (above[a] | above[b] | above[c])
-        if not kept.any():
-            break
-        faces = faces[kept]
-    return vertices[faces]
 
 
 def plane_point(tree: RayTree, i: int, number: int | None = None) -> tuple[float, np.ndarray] | None:
@@ -233,6 +217,22 @@ def plane_point(tree: RayTree, i: int, number: int | None = None) -> tuple[float
     if t <= 0:
         return None
     return float(t), np.array([float(x + t * y) for x, y in zip(o, d, strict=True)])
+
+
+def _near(mesh: Mesh, point: np.ndarray, error: float) -> np.ndarray:
+    """The faces (m, 3, 3) of a mesh whose boxes have this point in them, which may be wrong by `error`. Of a million
+    faces only some are left for the tests that take longer.
+    """
+    vertices, faces = mesh.vertices(), mesh.geometry.faces
+    for k in range(3):
+        slack = 4.0 * error + float(np.spacing(np.abs(point[k])))
+        below, above = vertices[:, k] <= point[k] + slack, vertices[:, k] >= point[k] - slack
+        a, b, c = faces.T
+        kept = (below[a] | below[b] | below[c]) & (above[a] | above[b] | above[c])
+        if not kept.any():
+            break
+        faces = faces[kept]
+    return vertices[faces]
 
 
 def _face_at(faces: np.ndarray, point: np.ndarray) -> np.ndarray:

@@ -47,6 +47,7 @@ class ExportOptions:
     """`raytree export`."""
 
     scene: str = argument("SCENE", TEXT, FIGURE_TOO)
+    lesson: bool = switch("all steps of a lesson: a page for a browser, slides, a PDF, and figures")
     at: tuple[int, int] | None = option(MOMENT, AT_HELP)
     swept: float | None = option(SHARE, SWEPT_HELP)
     pixel: tuple[int, int] | None = option(PIXEL, "from the image's top left; a lesson's own by default", group="where")

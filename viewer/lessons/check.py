@@ -20,6 +20,7 @@ from viewer.figures.export_options import TEXT_SIZE
 from viewer.figures.formula.typeset import typeset
 from viewer.figures.marks import HEIGHT, WIDTH
 from viewer.lessons.expectation import conditions, failures
+from viewer.lessons.language import translations
 from viewer.lessons.lesson import Lesson, read_file
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
@@ -42,15 +43,26 @@ MOST_AT_ONCE, MOST_WORDS = 40, 90  # words between two presses, and in a step
 
 
 def check(path: Path) -> list[str]:
-    """The faults of a lesson.md, one line each, in the order of the file."""
+    """The faults of a lesson.md and of its translations, one line each, in the order of each file."""
     place = shown_path(path)
     try:
-        lesson = read_file(path)
+        lesson = read_file(path, ())
     except Unusable as unusable:
         return list(unusable.faults)
-    found = list(_Check(lesson).faults())
-    found.sort(key=lambda fault: fault.line or 0)
-    return [fault.within(place) for fault in found]
+    faults = _sorted(_Check(lesson).faults(), place)
+    is_sound = not faults  # otherwise a translation has the same faults
+    for language, file in translations(path).items():
+        try:
+            translated = read_file(path, [language])
+        except Unusable as unusable:
+            faults += unusable.faults
+        else:
+            faults += _sorted(_Check(translated).faults(), shown_path(file)) if is_sound else []
+    return faults
+
+
+def _sorted(found: Iterator[Fault], place: str) -> list[str]:
+    return [fault.within(place) for fault in sorted(found, key=lambda fault: fault.line or 0)]
 
 
 class _Check:

@@ -51,16 +51,24 @@ class Section:
     pieces: tuple[tuple[int, str], ...]
 
 
-def read_head(source: Source, text: str, first_line: int) -> Head:
-    """The data between the marks. The fields of a state are those before the first step."""
+TEXTS = ("title", "question", "objectives")  # the data that a translation has
+
+
+def read_head(source: Source, text: str, first_line: int, of_translation: bool = False) -> Head:
+    """The data between the marks, of a translation the texts. The fields of a state are those before the first step."""
     data = _toml(source, text, first_line)
     own = {item.name for item in fields_of(Head)} - {"state"}
+    lines = lines_of(text, first_line)
+    for key in [key for key in data if of_translation and key not in TEXTS]:
+        said = f"a translation has {', '.join(TEXTS)}; all else is that of lesson.md"
+        source.fault(f'unknown key "{key}": {said}', lines.get(key, first_line))
+        del data[key]
     of_steps = {key: value for key, value in data.items() if key not in own}
     state = _state(source, State(), of_steps, text, first_line, INHERITED, sorted(own))
     found: list[str] = []
     values = fields.read_fields(Head, {key: data[key] for key in own if key in data}, found)
     for fault in found:
-        source.fault(fault, lines_of(text, first_line).get(fault.split()[0], first_line))
+        source.fault(fault, lines.get(fault.split()[0], first_line))
     return Head(**{"title": "", **values}, state=state)
 
 

@@ -5,9 +5,10 @@ from dataclasses import dataclass, field
 from tracer.formulas.vector import Vector
 from tracer.tree.raytree import RayTree
 from viewer.base.cached import Cached
+from viewer.lessons.image_place import ray_between
 from viewer.session.scene_on_show import OnShow
 from viewer.session.stepping.sample import SampleChoice
-from viewer.session.stepping.trees import ray_between, trace_place
+from viewer.session.stepping.trees import trace_place
 
 
 @dataclass(eq=False)

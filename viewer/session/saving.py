@@ -92,7 +92,9 @@ def copy_view(session: Session, size: tuple[int, int]) -> None:
         session.notice.say("nothing to copy yet: no scene is on show")
         return
     try:
-        copy_to_clipboard(view_command(session, scene_word(opening.path, opening.lesson, opening.figure), size))
+        language = opening.lesson.language if opening.lesson else ""
+        word = scene_word(opening.path, opening.lesson, opening.figure)
+        copy_to_clipboard(view_command(session, word, size, language))
         session.notice.say("the command line of this view is copied")
     except Unusable as unusable:
         session.show_faults(list(unusable.faults))

@@ -18,14 +18,16 @@ from viewer.session.figure_export import FigureExport
 from viewer.session.guard import Guard
 from viewer.session.history import History, Place
 from viewer.session.image_renderer import ImageRenderer, Job
+from viewer.session.lecture.clock import LessonClock
+from viewer.session.lecture.lesson_list import LessonList
 from viewer.session.lecture.player import LessonPlayer
+from viewer.session.lecture.small_images import SmallImages
 from viewer.session.loading.opening import Opening
 from viewer.session.loading.scene_loader import SceneLoader
 from viewer.session.picked import Picked
 from viewer.session.refinement import Refinement
 from viewer.session.restore.view import restore
 from viewer.session.scene_on_show import image_limits
-from viewer.session.small_images import SmallImages
 from viewer.session.stepping.recursion import Recursion
 from viewer.session.stepping.reveal import Reveal
 from viewer.session.verification import Verification
@@ -45,12 +47,14 @@ class Session(Picked):
         self.loader = SceneLoader(self.calls, self.warmup, self._show, lambda faults: self.show_faults(faults, True))
         self.image = ImageRenderer(self.calls.post)
         self.small_images = SmallImages(self.calls.post)
+        self.lesson_list = LessonList(self.calls.post)
         self.refinement = Refinement(self.image)
         self.export = FigureExport(self.calls.post)
         self.verification = Verification(self.calls.post)
         self.reveal = Reveal(lambda: self.tree, lambda: "shadow" in self.shown.kinds)
         self.recursion = Recursion(self.reveal, self.calls.post)
         self.player = LessonPlayer(self)
+        self.clock = LessonClock()
         # The scene on show.
         self.faults: list[str] = []  # of the last opened scene or the last action; the last good scene stays on show
         self.faults_in_files = False  # whether they are of the scene's files
@@ -276,7 +280,5 @@ class Session(Picked):
         self.faults, self.faults_in_files = faults, in_files
 
     def close(self) -> None:
-        self.warmup.close()
-        self.image.close()
-        self.small_images.close()
-        self.loader.close()
+        for part in (self.warmup, self.image, self.small_images, self.lesson_list, self.loader):
+            part.close()

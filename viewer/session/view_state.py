@@ -26,6 +26,7 @@ class Request(Enum):
     OPEN_DIALOG = auto()
     COPY_VIEW = auto()  # as a command line with the window's size
     FULL_SCREEN = auto()  # or back
+    SPEAKER = auto()  # the speaker's window; again: close it
     QUIT = auto()
 
 

@@ -222,6 +222,10 @@ BINDINGS = (
         "F11", "full screen, and back (Esc does not leave it)",
         pressed={K.f11: lambda session: session.requests.append(Request.FULL_SCREEN)},
     ),
+    Binding(
+        "W", "the speaker's window: notes, next step, clock; again: close it",
+        {"w": lambda session: session.requests.append(Request.SPEAKER)},
+    ),
     Binding("B or .", "black screen; any key or click brings the window back", {"b": _blank, ".": _blank}),
     Binding(
         "Esc", "close a message or the help; leave the steps; show all panels; unselect the ray",

@@ -14,12 +14,10 @@ from tracer.formulas.rotation import rotation_matrix as turn_of
 from tracer.formulas.vector import Vector, vector
 from tracer.scene import Light, Material, Object, Scene, Shape
 from tracer.shapes.box import Box
-from tracer.shapes.cone import Cone
 from tracer.shapes.mesh import Geometry, Mesh
 from tracer.shapes.plane import Plane
 from tracer.shapes.polygon import Polygon
 from tracer.shapes.sphere import Sphere
-from tracer.shapes.triangle import Triangle
 
 GLASS = Material("glass", diffuse=0.2, specular=0.2, shininess=5, reflect=0.3, transmit=0.7, ior=1.5)
 
@@ -98,11 +96,9 @@ def mirrored(scene: Scene, turn: np.ndarray) -> Scene:
             case Box():
                 low, high = turn * one.min, turn * one.max
                 return Box(vector(np.minimum(low, high).tolist()), vector(np.maximum(low, high).tolist()))
-            case Cone():
-                return replace(one, base=place(one.base), apex=place(one.apex))
-            case Polygon() | Triangle():
+            case Polygon():
                 first, *others = ((turn * corner).tolist() for corner in one.vertices)
-                return replace(one, vertices=tuple(map(vector, (first, *(reversed(others) if flips else others)))))
+                return Polygon(tuple(map(vector, (first, *(reversed(others) if flips else others)))))
             case Mesh():
                 # Keep the first corner of each face, so that the same numbers are computed with.
                 geometry = one.geometry

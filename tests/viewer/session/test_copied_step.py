@@ -14,6 +14,7 @@ from viewer.lessons.moments import Moment
 from viewer.lessons.skeleton import SCENE
 from viewer.lessons.step import LessonView, State
 from viewer.lessons.step_text import step_text
+from viewer.reopen.view_state import INSETS
 from viewer.session.restore.view import state_of
 
 K = imgui.Key
@@ -68,6 +69,7 @@ def test_a_copied_step_leads_back_to_the_view(tmp_path: Path, monkeypatch: pytes
         session.shown.kinds = {"camera", "reflection"}
         session.select(session.tree.find("R") if session.tree else None)
         session.orbit.turn(0.3, 0.1)
+        session.inset = INSETS[1]
         session.layout.teach(("scene", "hit", "tree"))
         driver.press(K.mod_ctrl, K.mod_shift, K.l)
         (block,) = copied

@@ -28,7 +28,7 @@ def step_of_view(session: Session) -> State:
         depth=now.depth,
         model=now.model,
         show=KINDS if now.filter is None else now.filter,
-        view=LessonView(azimuth, elevation, distance, (x, y, z)),
+        view=LessonView(azimuth, elevation, distance, (x, y, z), session.inset),
         panels=tuple(name for name in shown if name != LESSON)[:MOST_PANELS] or ("scene",),
         hit=now.select,
     )

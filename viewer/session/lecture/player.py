@@ -129,14 +129,12 @@ class LessonPlayer:
 
     def _go_to_lesson(self, lesson: Lesson, by: int) -> None:
         """Go to the beginning of the next lesson, or to the end of the one before."""
-        names = lessons.names()
-        is_own = lesson.path.absolute().parent == lessons.folder() / lesson.name
-        k = names.index(lesson.name) + by if is_own else -1
-        if not 0 <= k < len(names):
+        name = lessons.neighbour(lesson, by)
+        if name is None:
             self.session.notice.say(f"the {'first' if by < 0 else 'last'} step of {lesson.title}")
             return
         try:
-            other = lessons.read(names[k])
+            other = lessons.read(name)
         except Unusable as unusable:
             self.session.show_faults(list(unusable.faults))
             return

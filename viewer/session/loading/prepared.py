@@ -27,7 +27,7 @@ class PreparedScenes:
         self.scenes: list[PreparedScene] = []
 
     def add(self, opening: Opening, world: World) -> None:
-        own = [opening.lesson.path] if opening.lesson else []
+        own = opening.lesson.files if opening.lesson else []
         stamps = {path: stamp(path) for path in (*world.scene.files, *own)}
         self.scenes = [scene for scene in self.scenes if not scene.opening.is_of(opening)]
         self.scenes = [*self.scenes, PreparedScene(opening, world, stamps)][-MOST:]

@@ -139,7 +139,7 @@ class SceneLoader:
         """Look at the files of an opening that are known before it is read."""
         self.watch.follow(opening.path)
         if opening.lesson:
-            self.watch.follow_also([opening.lesson.path])
+            self.watch.follow_also(opening.lesson.files)
 
     def _finish(self, loading: "Future[tuple[World, Opening]]", opening: Opening) -> None:
         if loading is not self.loading:

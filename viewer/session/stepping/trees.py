@@ -1,7 +1,6 @@
 """The trees of the picked place: the one on show, and the one for which the panel of the tree has room."""
 
 import tracer
-from tracer.formulas.camera import pixel_direction
 from tracer.formulas.vector import Vector
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
@@ -28,9 +27,3 @@ def trace_place(
         for levels in dict.fromkeys((depth, deeper))
     )
     return tree, others[0] if others else tree
-
-
-def ray_between(world: World, between: tuple[float, float]) -> tuple[Vector, Vector]:
-    """(origin, direction) of the camera ray at a place in the image, in pixels from the centre of pixel (0, 0)."""
-    view = world.view()
-    return view.eye, pixel_direction(view, between[0] + 0.5, between[1] + 0.5)
