@@ -7,8 +7,15 @@ uniform float opacity;
 in vec2 uv;
 out vec4 color;
 
+// The place from which the linear filter takes the colour: magnified pixels are squares, blended only at their borders.
+vec2 squared(vec2 texel) {
+    vec2 border = floor(texel + 0.5);
+    return border + clamp((texel - border) / min(fwidth(texel), 1.0), -0.5, 0.5);
+}
+
 void main() {
     vec2 inside = min(uv, 1.0 - uv) / fwidth(uv);  // pixels to the border, which is smoothed
     if ((gl_FragCoord.z <= texelFetch(front, ivec2(gl_FragCoord.xy), 0).r) != before) discard;
-    color = vec4(texture(picture, uv).rgb, opacity * clamp(min(inside.x, inside.y), 0.0, 1.0));
+    vec2 size = vec2(textureSize(picture, 0));
+    color = vec4(texture(picture, squared(uv * size) / size).rgb, opacity * clamp(min(inside.x, inside.y), 0.0, 1.0));
 }

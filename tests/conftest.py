@@ -11,7 +11,9 @@ import tracer
 from tracer.measure.precision import experiment
 from viewer.lessons import lesson
 
-LESSONS = lesson.names()
+# Lessons whose scenes the tests of everything else use: all kinds of objects, media and rays, few enough to be quick.
+LESSONS = ["mirror-balls", "glass-ball", "underwater", "two-lights", "scale", "drop", "plates", "panes"]
+ALL_LESSONS = lesson.names()
 
 
 @pytest.fixture(autouse=True)

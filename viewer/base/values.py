@@ -16,7 +16,9 @@ PAPER_LEAST, PAPER_MOST = 200, 4000  # points: the sides of a figure's page
 SMALLEST_ZOOM, LARGEST_ZOOM = 0.01, 1000.0  # of a picture in its panel
 NEAREST, FARTHEST = 1e-9, 1e9  # distance of the 3D view, in radii of the scene
 FAR = 1e6  # limit of the coordinates of a picture's middle
+LANGUAGE_CODE = re.compile(r"[a-z]{2,3}(_[A-Z]{2})?")  # perhaps with a country
 AT_HELP = "of a lesson: its step, from 1; 3.2 is two presses of a key after the beginning of step 3"
+SWEPT_HELP = "of a lesson's step with a sweep: how far it has gone, 0 to 1"
 UP_HELP = "axis of a mesh file that points upwards, y by default"
 DEPTH_HELP = "recursion depth, the scene's own by default"
 SAMPLE_HELP = "of a pixel with N samples, this one, 0 to N - 1; the first by default"
@@ -156,10 +158,17 @@ def _show_numbers(numbers: Sequence[float]) -> str:
     return ",".join(map(repr, numbers))
 
 
+def _language(text: str) -> str:
+    if not LANGUAGE_CODE.fullmatch(text):
+        raise Unreadable(f'the code of a language, like de or pt_BR, got "{text}"')
+    return text
+
+
 TEXT = Value(str)
 FILE = Value(Path, metavar="FILE")
 MOMENT = Value(_moment, _show_moment, "STEP")
 PIXEL = Value(lambda text: _two(text, ","), lambda pixel: f"{pixel[0]},{pixel[1]}", "X,Y")
+LANGUAGE = Value(_language, metavar="CODE")
 SIZE = Value(_size, lambda size: f"{size[0]}x{size[1]}", "WxH")
 PAPER = Value(_paper, lambda size: f"{size[0]}x{size[1]}", "WxH")  # of a figure
 RAY = Value(_ray, _show_numbers, "ox,oy,oz,dx,dy,dz")  # origin and direction

@@ -1,4 +1,4 @@
-"""`raytree export`: a pixel's ray tree as figures and as data, page by page, into a file or a folder."""
+"""`raytree export`: a pixel's ray tree as figures and as data, page by page, or a lesson, into a file or a folder."""
 
 import contextlib
 from dataclasses import replace
@@ -12,30 +12,59 @@ from viewer.cli.terminal import compile_once
 from viewer.figures.export import Made, check_options, make
 from viewer.figures.export_options import ExportOptions
 from viewer.figures.targets import Target, target_of
+from viewer.handout.files import check_lesson_options, lesson_target, make_lesson
+from viewer.handout.reading import read_handout
+from viewer.lessons.image_place import ray_between
 from viewer.reopen.scene_files import scene_files
 from viewer.session.restore.command import embedded
 from viewer.session.restore.figure_scene import FigureScene
+
+READING = 0.3  # the share of the time that an export of a lesson takes to trace it
 
 
 def export(options: ExportOptions) -> int:
     with contextlib.ExitStack() as stack:
         scene, target, _ = collect(
-            lambda: stack.enter_context(found_scene(options.scene, options.at)),
+            lambda: stack.enter_context(found_scene(options.scene, options.at, options.swept)),
             lambda: target_of(options),
-            lambda: check_options(options),
+            lambda: check_lesson_options(options) if options.lesson else check_options(options),
         )
+        if options.lesson:
+            made = make_lesson_files(options, scene, target)
+            return _list(made)
         if scene.state.depth is not None and not options.depth:
             options = replace(options, depth=range(scene.state.depth, scene.state.depth + 1))
-        if not options.pixel and not options.ray:
+        is_between = scene.between and not options.pixel and not options.ray
+        if not options.pixel and not options.ray and not is_between:
             options = replace(options, pixel=scene.state.pixel)
         if options.sample is None and not options.ray:
             options = replace(options, sample=scene.state.sample)
-        if not options.pixel and not options.ray:
+        if not options.pixel and not options.ray and not is_between:
             raise Unusable("raytree export: give a pixel (--pixel X,Y) or a ray (--ray ox,oy,oz,dx,dy,dz)")
         made = make_files(options, scene, target)
+    return _list(made)
+
+
+def _list(made: Made) -> int:
+    """Print the names of the files."""
     for file, _ in made.files:
         put(f"{shown_path(file)}\n")
     return 0
+
+
+def make_lesson_files(options: ExportOptions, scene: FigureScene, target: Target) -> Made:
+    """Make the files of a lesson, and write them."""
+    if scene.lesson is None:
+        raise Unusable(f"{shown_path(options.scene)}: --lesson is for a lesson; this is a scene")
+    target = lesson_target(options, target)
+    compile_once()
+    with faults(), Progress("export") as progress:
+        handout = read_handout(scene.lesson, lambda share: progress(READING * share))
+        made = make_lesson(options, handout, target, lambda share: progress(READING + (1.0 - READING) * share))
+        made.write()
+        for note in made.notes:
+            progress.put(f"note: {note}")
+    return made
 
 
 def make_files(options: ExportOptions, scene: FigureScene, target: Target) -> Made:
@@ -43,6 +72,9 @@ def make_files(options: ExportOptions, scene: FigureScene, target: Target) -> Ma
     compile_once()
     with faults():
         world = prepared(scene.path, options.up, changes=scene.changes)
+        if scene.between and not options.pixel and not options.ray:
+            origin, direction = ray_between(world, scene.between)
+            options = replace(options, ray=(*origin, *direction))
         with Progress("export") as progress:
             lesson = scene.lesson
             name, view = (lesson.name, scene.step.state.view) if lesson and scene.step else (scene.path.stem, None)

@@ -56,17 +56,17 @@ def lesson_file(path: Path) -> Path | None:
 
 
 @contextlib.contextmanager
-def found_scene(name: str, at: tuple[int, int] | None = None) -> Iterator[FigureScene]:
-    """The scene of a file, a lesson or a figure, with the state that it opens with. `at` is the place in a lesson. A
-    copy that a figure carries is there until the end. Unusable if there is none.
+def found_scene(name: str, at: tuple[int, int] | None = None, swept: float | None = None) -> Iterator[FigureScene]:
+    """The scene of a file, a lesson or a figure, with the state that it opens with. `at` is the place in a lesson, and
+    `swept` that of its step's sweep. A copy that a figure carries is there until the end. Unusable if there is none.
     """
     path, lesson = find(name, takes_figures=True)
-    if at and lesson is None and not is_figure(path):
-        raise Unusable(f"{name}: --at is for a lesson; this is a scene")
+    if (at or swept is not None) and lesson is None and not is_figure(path):
+        raise Unusable(f"{name}: --{'at' if at else 'swept'} is for a lesson; this is a scene")
     figures = FigureScenes()
     try:
         found = figures.find(path) if is_figure(path) else FigureScene(path, lesson, UNCHANGED, path.parent)
-        state = merged(found.state, ViewState(at=at))
+        state = merged(found.state, ViewState(at=at, swept=swept))
         yield replace(found, state=with_lesson(state, found.lesson)).at_its_step()
     finally:
         figures.close()

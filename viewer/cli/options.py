@@ -13,6 +13,7 @@ from viewer.base.values import (
     DEPTH_HELP,
     FIGURE_TOO,
     FILE,
+    LANGUAGE,
     LIGHT,
     MAX_RAYS_HELP,
     MODEL_HELP,
@@ -22,7 +23,9 @@ from viewer.base.values import (
     RAY,
     SAMPLE_HELP,
     SCENE_HELP,
+    SHARE,
     SIZE,
+    SWEPT_HELP,
     TEXT,
     UP_HELP,
     WEIGHT,
@@ -81,6 +84,11 @@ class ViewOptions(ViewState):
     scene: str | None = argument("SCENE", TEXT, FIGURE_TOO, nargs="?")
     screenshot: Path | None = option(FILE, "draw the viewer into a file, and exit", metavar="FILE.png")
     size: tuple[int, int] | None = _size("of the window or the screenshot")
+    language: str | None = option(
+        LANGUAGE, "show the translation of the lesson into this language; by default that of the system"
+    )
+
+    speaker: bool = switch("open a second window for the speaker: notes, next step, clock")
 
     @property
     def state(self) -> ViewState:
@@ -94,6 +102,7 @@ class TraceOptions:
 
     scene: str = argument("SCENE", TEXT, FIGURE_TOO)
     at: tuple[int, int] | None = option(MOMENT, AT_HELP)
+    swept: float | None = option(SHARE, SWEPT_HELP)
     pixel: tuple[int, int] | None = option(PIXEL, "counted from the image's top left", group="where", required=True)
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where", required=True)
     sample: int | None = option(whole(0, metavar="K"), SAMPLE_HELP)

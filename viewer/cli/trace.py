@@ -18,7 +18,7 @@ def trace(options: TraceOptions) -> int:
         raise Unusable(f"raytree trace: --verify is written as text or json, not as {options.format}")
     if options.sample is not None and options.ray:
         raise Unusable("raytree trace: --sample is for a pixel: a ray has no samples")
-    with found_scene(options.scene, options.at) as scene, faults():
+    with found_scene(options.scene, options.at, options.swept) as scene, faults():
         compile_once()
         world = prepared(scene.path, options.up, changes=scene.changes)
         ray = (options.ray[:3], options.ray[3:]) if options.ray else None

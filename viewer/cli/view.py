@@ -18,11 +18,13 @@ from viewer.cli.loading import faults, find, found_scene, prepared
 from viewer.cli.options import ViewOptions
 from viewer.cli.terminal import compile_once, compiling
 from viewer.lessons import lesson as lessons
+from viewer.lessons.language import ORIGINAL, choose, translations
 from viewer.reopen.view_state import merged
 from viewer.session.loading.opening import Opening
 from viewer.session.restore.last_session import LastSession, SessionKeeper, read_last
 from viewer.session.restore.view import restore_appearance
 from viewer.session.session import Session
+from viewer.session.view_state import Request
 from viewer.window.app import FRAMES_AFTER_EVENT, App
 from viewer.window.backend import NoWindow, Offscreen, Window
 
@@ -33,6 +35,8 @@ CONTENTS = "raytree window"  # the text in a screenshot that names what is shown
 
 
 def view(options: ViewOptions) -> int:
+    if options.language:
+        choose(options.language)
     if options.screenshot:
         if options.screenshot.suffix.lower() != ".png":
             raise Unusable(f"{options.screenshot}: a screenshot must be a .png file")
@@ -62,6 +66,8 @@ def view(options: ViewOptions) -> int:
             keeper.look()
 
     app.each_round = look
+    if options.speaker:
+        session.requests.append(Request.SPEAKER)
     try:
         session.loader.load(opening)
         app.run()
@@ -75,6 +81,9 @@ def view(options: ViewOptions) -> int:
 def _opening(options: ViewOptions) -> Opening:
     """The scene, lesson or figure that was asked for; the first lesson if none was."""
     path, lesson = find(options.scene or lessons.names()[0], takes_figures=True)
+    if lesson and options.language not in (None, ORIGINAL, lesson.language):
+        known = ", ".join((ORIGINAL, *translations(lesson.path)))
+        raise Unusable(f"{shown_path(lesson.path)}: --language must be one of {known}, got {options.language}")
     if not is_there(path):  # a file that cannot be read is shown with its faults: perhaps it is being written
         raise Unusable(f"{shown_path(path)}: file not found")
     is_whole = options.depth is not None or options.page is not None  # as in a copied command line
@@ -167,7 +176,7 @@ def without_display(options: ViewOptions, reason: str) -> int:
     compile_once()
     opening = _opening(options)
     with contextlib.ExitStack() as stack, faults():
-        scene = stack.enter_context(found_scene(options.scene or lessons.names()[0], options.at))
+        scene = stack.enter_context(found_scene(options.scene or lessons.names()[0], options.at, options.swept))
         state = merged(scene.state, options.state)
         world = prepared(scene.path, state.up, changes=scene.changes)
         image = world.scene.image

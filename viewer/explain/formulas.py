@@ -5,7 +5,7 @@ They are shipped typeset: after a change, `make formulas` typesets them again.
 
 from enum import StrEnum
 
-_RADICAND = r"1 - \eta^2(1 - c_1^2)"
+_RADICAND = r"1 - n^2(1 - c_1^2)"
 
 
 class Lecture(StrEnum):
@@ -13,7 +13,7 @@ class Lecture(StrEnum):
 
     SNELL = r"n_1 \sin\theta_1 = n_2 \sin\theta_2"
     CRITICAL = r"\theta_c = \arcsin\frac{n_2}{n_1}"
-    TRANSMISSION = r"\mathbf{t} = \eta \mathbf{v} + (\eta c_1 - c_2)\,\mathbf{n}"
+    TRANSMISSION = r"\mathbf{t} = n\,\mathbf{v} + (n c_1 - c_2)\,\mathbf{n}"
     REFLECTION = r"\mathbf{r} = \mathbf{v} - 2 (\mathbf{n}\cdot\mathbf{v})\,\mathbf{n}"
     FRESNEL = r"R = \frac{r_s^2 + r_p^2}{2}"
     LOCAL = (
@@ -23,11 +23,11 @@ class Lecture(StrEnum):
     ONE_LIGHT = r"S L \left[k_d C (\mathbf{N}\cdot\mathbf{L}) + k_s (\mathbf{R}\cdot\mathbf{V})^p\right]"
     RADIANCE = r"I = \mathrm{local} + \sum \mathrm{factor}\,\times\,\mathrm{child}"
 
-    ETA = r"\eta = n_1/n_2"
+    ETA = r"n = n_1/n_2"
     COSINE_1 = r"c_1 = {-\mathbf{v}}\cdot\mathbf{n}"
     COSINE_2 = rf"c_2 = \sqrt{{{_RADICAND}}}"
     RADICAND = _RADICAND
-    TOO_LARGE = r"\eta^2(1 - c_1^2)"
+    TOO_LARGE = r"n^2(1 - c_1^2)"
     AMPLITUDE_S = r"r_s = \frac{n_1 c_1 - n_2 c_2}{n_1 c_1 + n_2 c_2}"
     AMPLITUDE_P = r"r_p = \frac{n_2 c_1 - n_1 c_2}{n_2 c_1 + n_1 c_2}"
     REFLECTANCE = r"R"

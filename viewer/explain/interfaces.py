@@ -24,7 +24,7 @@ class Interface(NamedTuple):
     theta2: str
     critical: str  # angle; only towards a medium of smaller index
     dot: str  # n·v
-    radicand: str  # 1 − η²(1 − c₁²), at a transparent surface; negative for total internal reflection
+    radicand: str  # 1 − n²(1 − c₁²), at a transparent surface; negative for total internal reflection
 
     @property
     def is_clear(self) -> bool:

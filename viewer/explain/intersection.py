@@ -2,6 +2,8 @@
 
 The numbers are those of the table, computed in exact fractions and rounded once: a textbook's formula in float64 would
 show rounding errors that the tracer does not make.
+
+A test is that of the object that ray i meets, or of the object with a number, which it may miss.
 """
 
 import math
@@ -10,9 +12,10 @@ from fractions import Fraction
 
 import numpy as np
 
-from tracer.formulas.exact import area, dot, exact, minus
+from tracer.formulas.exact import area, dot, exact, minus, plane_of
 from tracer.shapes.mesh import Mesh
 from tracer.shapes.polygon import Polygon
+from tracer.shapes.shape import Shape
 from tracer.shapes.sphere import Sphere
 from tracer.shapes.triangle import Triangle
 from tracer.tree.raytree import RayTree
@@ -33,13 +36,18 @@ class SphereRoots:
     discriminant: float
     roots: tuple[float, float]  # the smaller first
 
+    @property
+    def misses(self) -> bool:
+        """Whether the line of the ray does not meet the sphere, if it is not known to hit it."""
+        return self.discriminant < 0.0
+
     def nearest(self, t: float) -> int:
         """The number, 0 or 1, of the root that a hit at distance t is."""
         return min((0, 1), key=lambda k: abs(self.roots[k] - t))
 
 
 def sphere_roots(origin: tuple, direction: tuple, sphere: Sphere) -> SphereRoots:
-    """The quadratic of a ray and a sphere that it hits. A discriminant below 0 by rounding counts as 0 for the roots.
+    """The quadratic of a ray and a sphere. A discriminant below 0, by rounding or at a miss, counts as 0 for the roots.
 
     The root of larger magnitude is q/a, the other c/q with q = -(b + sign(b) sqrt(D))/2, so that nothing cancels.
     """
@@ -52,22 +60,33 @@ def sphere_roots(origin: tuple, direction: tuple, sphere: Sphere) -> SphereRoots
     return SphereRoots(float(a), float(b), float(c), float(discriminant), (min(found), max(found)))
 
 
-def hit_roots(tree: RayTree, i: int) -> SphereRoots | None:
-    """The quadratic of the hit of ray i; None if it is not on a sphere."""
-    row = tree.nodes[i]
-    shape = tree.scene.objects[int(row["object"])].shape if row["object"] >= 0 else None
+def shape_tested(tree: RayTree, i: int, number: int | None = None) -> Shape | None:
+    """The shape of object `number`, or of the one that ray i meets; None if it meets none."""
+    number = int(tree.nodes["object"][i]) if number is None else number
+    return tree.scene.objects[number].shape if number >= 0 else None
+
+
+def is_hit(tree: RayTree, i: int, number: int | None) -> bool:
+    """Whether ray i meets object `number`, or no object is named."""
+    return number is None or number == int(tree.nodes["object"][i])
+
+
+def hit_roots(tree: RayTree, i: int, number: int | None = None) -> SphereRoots | None:
+    """The quadratic of ray i; None if the object is not a sphere."""
+    row, shape = tree.nodes[i], shape_tested(tree, i, number)
     if not isinstance(shape, Sphere):
         return None
     return sphere_roots(tuple(map(float, row["origin"])), tuple(map(float, row["direction"])), shape)
 
 
-def sphere_section(tree: RayTree, i: int) -> Section | None:
-    """The quadratic at the hit of ray i with its numbers, and which root is its distance; None if it is no sphere's."""
-    found = hit_roots(tree, i)
+def sphere_section(tree: RayTree, i: int, number: int | None = None) -> Section | None:
+    """The quadratic of ray i with its numbers, and which root is its distance; None if it is no sphere's."""
+    found = hit_roots(tree, i, number)
     if found is None:
         return None
     section = Section("Ray and sphere", Lecture.QUADRATIC)
-    error = start_error(tree, i)
+    hits = is_hit(tree, i, number)
+    error = start_error(tree, i) if hits else 0.0
     on_sphere = abs(found.roots[0]) <= error  # then c is rounding error
     for symbol, value in (
         (Lecture.QUADRATIC_A, found.a),
@@ -76,30 +95,50 @@ def sphere_section(tree: RayTree, i: int) -> Section | None:
         (Lecture.DISCRIMINANT, found.discriminant),
     ):
         section.add(symbol, format_number(value, DIGITS))
-    section.add(Lecture.ROOTS)
-    for symbol, root in zip((Lecture.ROOT_1, Lecture.ROOT_2), found.roots, strict=True):
-        section.add(symbol, format_number(0.0 if abs(root) <= error else root, DIGITS))
+    doubt = float(tree.nodes["error"][i]) if hits else 0.0  # of the point, and so of the distance
+    if hits or not found.misses:
+        section.add(Lecture.ROOTS)
+        for symbol, root in zip((Lecture.ROOT_1, Lecture.ROOT_2), found.roots, strict=True):
+            section.add(symbol, format_number(0.0 if abs(root) <= error else root, DIGITS, doubt))
+    if not hits:
+        section.add(miss_reason(found))
+        return section
     t = float(tree.nodes["t"][i])
     chosen = found.nearest(t)
-    section.add("t of the ray", f"{format_number(t, DIGITS)} = t{'₁₂'[chosen]}")
+    section.add("t of the ray", f"{format_number(t, DIGITS, doubt)} = t{'₁₂'[chosen]}")
     section.add(root_reason(found, chosen, error))
     return section
 
 
 def start_error(tree: RayTree, i: int) -> float:
-    """A bound on the distance along ray i at which it meets the sphere that it starts on, which would be 0 exactly."""
+    """A bound on the distance along ray i at which it meets the sphere that it starts on, which would be 0 exactly.
+
+    0 for a ray that starts elsewhere: a ray that grazes a sphere has no bound on its error.
+    """
     row = tree.nodes[i]
-    before = float(tree.nodes["error"][row["parent"]]) if row["parent"] >= 0 else 0.0
+    parent = int(row["parent"])
+    if parent < 0 or tree.nodes["object"][parent] != row["object"]:
+        return 0.0
+    before = float(tree.nodes["error"][parent])
     return 2.0 * (float(row["error"]) + before) / max(math.cos(float(row["theta1"])), float(row["turn"]), 1e-8)
 
 
 def root_reason(found: SphereRoots, chosen: int, error: float) -> str:
     """Why this root is the distance of the hit."""
+    if found.roots[0] == found.roots[1]:
+        return "both roots are one: the ray grazes the sphere"
     if chosen == 0:
         return "the smaller root above 0"
     if abs(found.roots[0]) <= error:
         return "the ray starts on the sphere"
     return "from inside: t₁ < 0" if found.roots[0] < 0.0 else "t₁ is no hit of the ray"
+
+
+def miss_reason(found: SphereRoots) -> str:
+    """Why neither root is the distance of a hit."""
+    if found.misses:
+        return "no root, the ray misses"
+    return "both roots are below 0: behind the ray" if found.roots[1] < 0.0 else "another hit is nearer"
 
 
 @dataclass(frozen=True)
@@ -144,17 +183,56 @@ def barycentric(corners: np.ndarray, point: np.ndarray) -> tuple[float, float, f
     return alpha, beta, gamma
 
 
-def hit_face(tree: RayTree, i: int) -> np.ndarray | None:
-    """The corners (n, 3) of the polygon, the triangle or the face of a mesh that ray i meets; None for other shapes."""
-    row = tree.nodes[i]
-    match tree.scene.objects[int(row["object"])].shape if row["object"] >= 0 else None:
+def format_share(share: float, decimals: int = 3) -> str:
+    """A barycentric coordinate; a dash for NaN."""
+    return format_number(share) if math.isnan(share) else f"{share:z.{decimals}f}".replace("-", "−")
+
+
+def hit_face(tree: RayTree, i: int, number: int | None = None) -> np.ndarray | None:
+    """The corners (n, 3) of the polygon, the triangle or the face of a mesh that ray i meets; None for other shapes,
+    and for a mesh that it does not meet.
+    """
+    match shape_tested(tree, i, number):
         case Polygon() as shape:
             return shape.outline()
         case Triangle(vertices=vertices):
             return np.array(vertices)
-        case Mesh() as shape:
-            return _face_at(shape.placed(), row["point"])
+        case Mesh() as shape if is_hit(tree, i, number):
+            point = tree.nodes["point"][i]
+            return _face_at(_near(shape, point, float(tree.nodes["error"][i])), point)
     return None
+
+
+def plane_point(tree: RayTree, i: int, number: int | None = None) -> tuple[float, np.ndarray] | None:
+    """(t, point (3,)) where ray i meets the plane of its face, which may be outside the face; None if it meets none."""
+    if is_hit(tree, i, number):
+        return float(tree.nodes["t"][i]), tree.nodes["point"][i]
+    corners = hit_face(tree, i, number)
+    if corners is None:
+        return None
+    o, d = exact(tree.nodes["origin"][i]), exact(tree.nodes["direction"][i])
+    p, normal = plane_of([exact(corner) for corner in corners])
+    across = dot(normal, d)
+    t = dot(normal, minus(p, o)) / across if across else Fraction(0)
+    if t <= 0:
+        return None
+    return float(t), np.array([float(x + t * y) for x, y in zip(o, d, strict=True)])
+
+
+def _near(mesh: Mesh, point: np.ndarray, error: float) -> np.ndarray:
+    """The faces (m, 3, 3) of a mesh whose boxes have this point in them, which may be wrong by `error`. Of a million
+    faces only some are left for the tests that take longer.
+    """
+    vertices, faces = mesh.vertices(), mesh.geometry.faces
+    for k in range(3):
+        slack = 4.0 * error + float(np.spacing(np.abs(point[k])))
+        below, above = vertices[:, k] <= point[k] + slack, vertices[:, k] >= point[k] - slack
+        a, b, c = faces.T
+        kept = (below[a] | below[b] | below[c]) & (above[a] | above[b] | above[c])
+        if not kept.any():
+            break
+        faces = faces[kept]
+    return vertices[faces]
 
 
 def _face_at(faces: np.ndarray, point: np.ndarray) -> np.ndarray:
@@ -171,19 +249,19 @@ def _face_at(faces: np.ndarray, point: np.ndarray) -> np.ndarray:
     return faces[int(np.argmin(heights + reach * np.maximum(0.0, -least)))]
 
 
-def inside_section(tree: RayTree, i: int) -> Section | None:
-    """The test of the hit of ray i against its face: barycentric coordinates of a triangle, the number of crossings of
-    a polygon; None for other shapes.
+def inside_section(tree: RayTree, i: int, number: int | None = None) -> Section | None:
+    """The test of ray i against its face: barycentric coordinates of a triangle, the number of crossings of
+    a polygon; None for other shapes, and for a plane that it does not meet.
     """
-    corners = hit_face(tree, i)
-    if corners is None:
+    corners, met = hit_face(tree, i, number), plane_point(tree, i, number)
+    if corners is None or met is None:
         return None
-    point = tree.nodes["point"][i]
+    _, point = met
     if len(corners) == 3:
         section = Section("Point in triangle", Lecture.BARYCENTRIC)
         shares = barycentric(corners, point)
         for symbol, share in zip((Lecture.ALPHA, Lecture.BETA, Lecture.GAMMA), shares, strict=True):
-            section.add(symbol, f"{share:.4f}")
+            section.add(symbol, format_share(share, 4))
         section.add(Lecture.BARYCENTRIC_SUM, format_number(sum(shares), DIGITS))
         section.add("none is below 0: inside" if min(shares) >= 0.0 else "one is below 0: outside")
         return section
@@ -196,6 +274,11 @@ def inside_section(tree: RayTree, i: int) -> Section | None:
     section.add("sides crossed", str(count))
     section.add(verdict(count))
     return section
+
+
+def intersection_sections(tree: RayTree, i: int) -> list[Section]:
+    """The test that found the hit of ray i, with its numbers; none for shapes without one here."""
+    return [section for section in (sphere_section(tree, i), inside_section(tree, i)) if section is not None]
 
 
 def verdict(count: int) -> str:

@@ -23,6 +23,7 @@ from viewer.base.wording import (
 )
 from viewer.explain.fate import ray_fate
 from viewer.explain.formulas import Lecture
+from viewer.explain.intersection import intersection_sections
 from viewer.explain.lighting import local_light, one_light
 from viewer.explain.scattering import (
     brought_error,
@@ -135,8 +136,8 @@ def explain_ray(tree: RayTree, world: World, i: int) -> list[Part]:
         ]
     if not met:
         return [*begun, Part(f"{label} meets nothing", [_sum(tree, i)]), numbers]
-    ended = Part(f"{label} meets {met}", [_sum(tree, i), *scattering_sections(tree, i), local_light(tree, world, i)])
-    return [*begun, ended, numbers]
+    sections = [_sum(tree, i), *intersection_sections(tree, i), *scattering_sections(tree, i)]
+    return [*begun, Part(f"{label} meets {met}", [*sections, local_light(tree, world, i)]), numbers]
 
 
 def ray_details(tree: RayTree, world: World, i: int) -> RayDetails:

@@ -24,6 +24,7 @@ from viewer.base.values import (
     SAMPLE_HELP,
     SHARE,
     SIZE,
+    SWEPT_HELP,
     TEXT,
     UP_HELP,
     WEIGHT,
@@ -46,7 +47,9 @@ class ExportOptions:
     """`raytree export`."""
 
     scene: str = argument("SCENE", TEXT, FIGURE_TOO)
+    lesson: bool = switch("all steps of a lesson: a page for a browser, slides, a PDF, and figures")
     at: tuple[int, int] | None = option(MOMENT, AT_HELP)
+    swept: float | None = option(SHARE, SWEPT_HELP)
     pixel: tuple[int, int] | None = option(PIXEL, "from the image's top left; a lesson's own by default", group="where")
     ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where")
     sample: int | None = option(whole(0, metavar="K"), SAMPLE_HELP)
@@ -103,6 +106,7 @@ class ExportOptions:
         """
         own = ViewState(
             at=self.at,
+            swept=self.swept,
             pixel=self.pixel if self.size in (None, size) else None,
             sample=self.sample,
             depth=self.depth[-1] if self.depth else None,

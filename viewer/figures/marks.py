@@ -20,8 +20,6 @@ WIDTH, HEIGHT = 960.0, 540.0
 
 Point = tuple[float, float]
 Rectangle = tuple[float, float, float, float]  # left, top, right, bottom
-
-
 Piece = tuple[Point, Point]
 
 CANVAS: Rectangle = (0.0, 0.0, WIDTH, HEIGHT)
@@ -222,6 +220,16 @@ class Formula(Mark):
             return tuple(origin[k % 2] + self.size * place for k, place in enumerate(segment))
 
         return [[tuple(map(placed, contour)) for contour in outline] for outline in typeset(self.source).outlines]
+
+
+@dataclass(frozen=True)
+class Raster(Mark):
+    """An image in a rectangle around `center`. Its pixels are rectangles: nothing between them is interpolated."""
+
+    center: Point
+    size: tuple[float, float]
+    shape: tuple[int, int]  # width and height in pixels
+    pixels: bytes = field(repr=False)  # 8-bit sRGB, row by row from the top left
 
 
 @dataclass(frozen=True)

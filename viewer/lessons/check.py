@@ -1,6 +1,5 @@
 """Everything that is wrong with a lesson, each with its line: what can be said without a window."""
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -15,31 +14,55 @@ from tracer.printable import shown_path
 from tracer.tree.raytree import RayTree
 from viewer.base.files import Unusable
 from viewer.base.theme import LIGHT
+from viewer.explain.listing import listing
 from viewer.explain.plain_formula import FormulaError
 from viewer.figures.export_options import TEXT_SIZE
 from viewer.figures.formula.typeset import typeset
 from viewer.figures.marks import HEIGHT, WIDTH
-from viewer.lessons.expectation import failures
+from viewer.lessons.expectation import conditions, failures
+from viewer.lessons.language import translations
 from viewer.lessons.lesson import Lesson, read_file
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
-from viewer.lessons.step import PIXEL, Step
-from viewer.lessons.text import Block, Formula, InlineFormula, Items, Quote, Run, count_words, inlines, names_of_values
+from viewer.lessons.step import Step
+from viewer.lessons.text import (
+    Block,
+    Formula,
+    InlineFormula,
+    Items,
+    Quote,
+    Run,
+    count_words,
+    fences,
+    inlines,
+    names_of_values,
+)
 from viewer.lessons.values import ABSENT, NAMES, OF_TREE, split_name, value_text
 
 MOST_AT_ONCE, MOST_WORDS = 40, 90  # words between two presses, and in a step
 
 
 def check(path: Path) -> list[str]:
-    """The faults of a lesson.md, one line each, in the order of the file."""
+    """The faults of a lesson.md and of its translations, one line each, in the order of each file."""
     place = shown_path(path)
     try:
-        lesson = read_file(path)
+        lesson = read_file(path, ())
     except Unusable as unusable:
         return list(unusable.faults)
-    found = list(_Check(lesson).faults())
-    found.sort(key=lambda fault: fault.line or 0)
-    return [fault.within(place) for fault in found]
+    faults = _sorted(_Check(lesson).faults(), place)
+    is_sound = not faults  # otherwise a translation has the same faults
+    for language, file in translations(path).items():
+        try:
+            translated = read_file(path, [language])
+        except Unusable as unusable:
+            faults += unusable.faults
+        else:
+            faults += _sorted(_Check(translated).faults(), shown_path(file)) if is_sound else []
+    return faults
+
+
+def _sorted(found: Iterator[Fault], place: str) -> list[str]:
+    return [fault.within(place) for fault in sorted(found, key=lambda fault: fault.line or 0)]
 
 
 class _Check:
@@ -53,22 +76,25 @@ class _Check:
         for step in self.lesson.steps:
             yield from self._words(step)
             yield from self._formulas(step)
+            yield from self._sources(step)
             world, faults = self._world(step)
             yield from faults
             if world:
                 yield from self._rays(step, world)
+                yield from self._sweep(step)
 
-    def _world(self, step: Step) -> tuple[World | None, list[Fault]]:
-        """The step's scene, and its faults if this step is the first that shows it."""
-        key = (step.scene, step.state.set)
+    def _world(self, step: Step, share: float = 0.0) -> tuple[World | None, list[Fault]]:
+        """The step's scene at this share of its sweep, and its faults if this step is the first that shows it."""
+        changes = step.state.swept(share).set
+        key = (step.scene, changes)
         for known, world in self.worlds:
             if known == key:
                 return world, []
         world, faults = None, list[Fault]()
         try:
-            world = tracer.prepare(tracer.load(step.scene, changes=step.state.set))
+            world = tracer.prepare(tracer.load(step.scene, changes=changes))
         except tracer.SceneError as error:
-            line = step.line_of("set" if step.state.set and "set" in step.lines else "scene")
+            line = step.line_of(*["sweep"] * bool(step.state.sweep), *["set"] * bool(changes), "scene")
             faults = [Fault(fault, line) for fault in error.faults]
         self.worlds.append((key, world))
         return world, faults
@@ -89,10 +115,19 @@ class _Check:
             except FormulaError as error:
                 yield Fault(str(error), line)
 
+    def _sources(self, step: Step) -> Iterator[Fault]:
+        """Source text of functions that are not there."""
+        for fence in (fence for part in step.parts for fence in fences(part.blocks) if fence.kind == "source"):
+            try:
+                listing(fence.argument)
+            except ValueError as error:
+                yield Fault(f"source: {error}", fence.line)
+            if fence.content.strip():
+                yield Fault("source: the block must be empty, its text is that of the function", fence.line + 1)
+
     def _rays(self, step: Step, world: World) -> Iterator[Fault]:
         """What is wrong about the pixel and its rays."""
         state, image = step.state, world.scene.image
-        yield from self._sweep(step, world)
         if state.pixel is None:
             yield from (Fault(f"{{{name}}}: the step has no pixel", line) for line, name in _values(step))
             return
@@ -115,6 +150,8 @@ class _Check:
         for key, fault in failures(state.goal, tree, state.hit):
             if "unknown name" in fault or "in quotes" in fault:  # a goal is reached elsewhere
                 yield Fault(f"goal: {fault}", step.line_of(key, "goal"))
+        if state.goal and all(condition.holds for condition in conditions(state.goal, tree, state.hit)):
+            yield Fault("goal: it is reached at this pixel already", step.line_of("goal"))
         yield from self._text(step, tree)
         yield from self._live(step, tree, world)
 
@@ -146,26 +183,23 @@ class _Check:
                 if isinstance(item, Run) and item.ray is not None and tree.find(item.ray) is None:
                     yield Fault(f"link #{item.ray}: this pixel has no such ray ({_paths(tree)})", line)
 
-    def _sweep(self, step: Step, world: World) -> Iterator[Fault]:
-        sweep, image = step.state.sweep, world.scene.image
-        if not sweep:
+    def _sweep(self, step: Step) -> Iterator[Fault]:
+        """What is wrong at the end of a sweep: its beginning is the step's own state."""
+        state, line = step.state.swept(1.0), step.line_of("sweep")
+        if not state.sweep:
             return
-        line = step.line_of("sweep")
-        if sweep.of == PIXEL:
-            for x, y in (sweep.start, sweep.end):
-                if not (0 <= x < image.width and 0 <= y < image.height):
-                    yield Fault(f"sweep: pixel must be within 0,0 .. {image.width - 1},{image.height - 1}", line)
+        world, faults = self._world(step, 1.0)
+        yield from (Fault(str(fault), line) for fault in faults)
+        if not world or state.pixel is None:
             return
-        for value in (*sweep.start, *sweep.end):
-            try:
-                changes = tomllib.loads(f"{sweep.of} = {value!r}")
-                tracer.load(step.scene, changes=changes)
-            except tomllib.TOMLDecodeError:
-                yield Fault(f'sweep: of must be "pixel" or a key like material.water.ior, got "{sweep.of}"', line)
-                return
-            except tracer.SceneError as error:
-                yield from (Fault(f"sweep: {fault}", line) for fault in error.faults)
-                return
+        image = world.scene.image
+        x, y = state.pixel
+        if not (x < image.width and y < image.height):
+            yield Fault(f"sweep: pixel must be within 0,0 .. {image.width - 1},{image.height - 1}, got {x},{y}", line)
+            return
+        tree = tracer.trace(world, state.pixel, depth=state.depth, model=state.model)
+        for _, fault in failures(state.sweep.expect, tree, state.hit):
+            yield Fault(f"sweep: expect: {fault}", line)
 
 
 def _values(step: Step) -> Iterator[tuple[int, str]]:

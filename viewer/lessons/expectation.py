@@ -7,6 +7,7 @@ A number is a text: it is right if it is within half a unit of its last digit.
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 from typing import Any
 
@@ -17,6 +18,15 @@ from tracer.tree.raytree import RayTree
 from viewer.lessons.values import QUANTITIES, row_named
 
 CHILDREN, END, OBJECT = "children", "end", "object"
+SYMBOLS = {"theta1": "θ₁", "theta2": "θ₂", "critical": "θc", "n1": "n₁", "n2": "n₂", "eta": "n₁/n₂"}
+ANGLES = ("theta1", "theta2", "critical")
+SENT_ON = {
+    (): "no ray goes on",
+    ("R",): "a reflected ray goes on, and no other",
+    ("T",): "a refracted ray goes on, and no other",
+    ("I",): "total internal reflection",
+    ("R", "T"): "a reflected and a refracted ray go on",
+}
 NAMES = (*QUANTITIES, CHILDREN, END, OBJECT)
 
 
@@ -29,6 +39,37 @@ def failures(expected: Mapping[str, Any], tree: RayTree, hit: str | None) -> lis
         if fault:
             found.append((name, fault))
     return found
+
+
+@dataclass(frozen=True)
+class Condition:
+    """One of several that a goal consists of."""
+
+    words: str
+    holds: bool
+
+
+def conditions(goal: Mapping[str, Any], tree: RayTree | None, hit: str | None) -> list[Condition]:
+    """The conditions of a goal in words, and whether they hold for a tree; `hit` as in `failures`."""
+    found = []
+    for path, name, value in _entries(goal):
+        words = _words(path, name, value)
+        found.append(Condition(words, tree is not None and not _fault(name, path, name, value, tree, hit)))
+    return found
+
+
+def _words(path: str, name: str, value: Any) -> str:
+    """What is to hold, in words."""
+    before = f"{path}: " if path else ""
+    match name:
+        case "children" if isinstance(value, list):
+            kinds = tuple(map(str, value))
+            return before + SENT_ON.get(kinds, f"the rays {', '.join(kinds)} go on")
+        case "end":
+            return f"{path or 'the ray'} ends: {value}"
+        case "object":
+            return f"{path or 'the ray'} meets {value}"
+    return f"{before}{SYMBOLS.get(name, name)} = {value}{'°' if name in ANGLES else ''}"
 
 
 def _entries(expected: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, str, Any]]:

@@ -17,7 +17,8 @@
 docs/lessons.md lists the keys.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from importlib.resources import files
 from pathlib import Path
 
@@ -25,8 +26,10 @@ from tracer import fields
 from tracer.formats.source import MOST_TEXT, Fault, read_bytes, utf8
 from tracer.printable import shown_path
 from viewer.base.files import Unusable, is_there
+from viewer.lessons.language import translation_of, wanted
 from viewer.lessons.reader import MARK, Source, read_head, read_steps, split
 from viewer.lessons.step import Step
+from viewer.lessons.translation import translated_steps
 
 FIRST_LINE = 2  # of a lesson's data
 
@@ -40,6 +43,13 @@ class Lesson:
     minutes: int | None
     objectives: tuple[str, ...]
     steps: tuple[Step, ...]
+    language: str = ""  # of a translation
+    translation: Path | None = None  # the file of its texts
+
+    @property
+    def files(self) -> list[Path]:
+        """The files of its text."""
+        return [self.path, *([self.translation] if self.translation else [])]
 
     @property
     def first(self) -> Step:
@@ -72,6 +82,14 @@ def course() -> list[str]:
     return [name for name in names() if name in ordered]
 
 
+def neighbour(lesson: Lesson, by: int) -> str | None:
+    """The name of the lesson after one of the program's (1), or before (-1); None if there is none."""
+    known = names()
+    is_own = lesson.path.absolute().parent == folder() / lesson.name
+    k = known.index(lesson.name) + by if is_own else -1
+    return known[k] if 0 <= k < len(known) else None
+
+
 def _order() -> list[str]:
     return (folder() / "ORDER").read_text("utf-8").split()
 
@@ -91,23 +109,42 @@ def _path(name: str) -> Path:
 
 def read_title(name: str) -> str:
     """The title of a lesson, without reading its steps. Raises Unusable as `read`."""
-    place, head, _ = _split_file(_path(name))
+    path = _path(name)
+    found = translation_of(path, wanted())
+    place, head, _ = _split_file(found[1] if found else path)
     source = Source(Path())
     data = read_head(source, head, FIRST_LINE)
     _check(source, place)
     return data.title
 
 
-def read_file(path: Path) -> Lesson:
-    """Read a lesson from any file. Raises Unusable with all its faults, each with its line."""
+def read_file(path: Path, languages: Sequence[str] | None = None) -> Lesson:
+    """Read one lesson from any file, in the first of these languages that it has; None: those that the environment asks
+    for. Raises Unusable with all its faults, each with its line.
+    """
     place, head, body = _split_file(path)
     source = Source(path.parent)
     data = read_head(source, head, FIRST_LINE)
     steps = read_steps(source, data.state, split(body, head.count("\n") + FIRST_LINE + 1))
     _check(source, place)
-    return Lesson(
+    lesson = Lesson(
         path.absolute().parent.name, data.title, path, data.question, data.minutes, data.objectives, tuple(steps)
     )
+    found = translation_of(path, wanted() if languages is None else languages)
+    return _translated(lesson, *found) if found else lesson
+
+
+def _translated(lesson: Lesson, language: str, path: Path) -> Lesson:
+    """The lesson with the texts of a translation. Raises Unusable with all faults of its file."""
+    place, head, body = _split_file(path)
+    source = Source(path.parent)
+    data = read_head(source, head, FIRST_LINE, of_translation=True)
+    steps = translated_steps(source, lesson.steps, body, head.count("\n") + FIRST_LINE + 1)
+    _check(source, place)
+    return replace(
+        lesson, title=data.title, question=data.question or lesson.question,
+        objectives=data.objectives or lesson.objectives, steps=tuple(steps), language=language, translation=path,
+    )  # fmt: skip
 
 
 def _check(source: Source, place: str) -> None:

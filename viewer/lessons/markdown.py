@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from markdown_it import MarkdownIt
     from markdown_it.token import Token
 
+FORMULA = "formula"  # after the word `code` of a fence: its lines are formulas
+
 
 def blocks_of(markdown: str, first_line: int) -> tuple[Block, ...]:
     """The blocks of a text that begins on this line of its file."""
@@ -54,6 +56,9 @@ class _Reader:
                     yield Quote(line, tuple(self.blocks("blockquote_close")))
                 case "table_open":
                     yield Table(line, tuple(self._rows()))
+                case "fence" if token.info.split() == ["code", FORMULA]:
+                    sources = ((k, one.strip()) for k, one in enumerate(token.content.split("\n"), line + 1))
+                    yield from (Formula(k, one) for k, one in sources if one)
                 case "fence" | "code_block":
                     yield Fence(line, token.info.strip(), token.content)
                 case "math_block":

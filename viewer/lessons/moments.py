@@ -1,6 +1,6 @@
 """The moments of a lesson: each press of a key leads to the next one.
 
-In a step, the stages of its reveal come first, then its hidden parts, one by one.
+In a step, the stages of its reveal come first, or its sweep; then its hidden parts, one by one.
 """
 
 from dataclasses import dataclass
@@ -20,14 +20,23 @@ class Moment:
 
 @dataclass(frozen=True)
 class Shown:
-    """What is shown of a step: how many of its parts, and the stage of its reveal."""
+    """What is shown of a step: how many of its parts, and the stage of its reveal or of its sweep."""
 
     parts: int = 1
     stage: int = 0
 
 
+def sweep_share(step: Step | None, view: ViewState) -> float:
+    """How far the sweep of a step has gone: as the view says, or all of the way from the first press on."""
+    if step is None or step.state.sweep is None:
+        return 0.0
+    if view.swept is not None:
+        return step.state.sweep.stop(view.swept)
+    return float(view.at is not None and view.at[1] > 0)
+
+
 def count_presses(step: Step, stages: int) -> int:
-    """The presses inside a step whose reveal has so many stages (1: it has none)."""
+    """The presses inside a step whose reveal or sweep has so many stages (1: it has none)."""
     return stages - 1 + len(step.parts) - 1
 
 
@@ -37,9 +46,11 @@ def shown_at(step: Step, stages: int, press: int) -> Shown:
     return Shown(min(1 + press - stage, len(step.parts)), stage)
 
 
-def view_of(step: Step) -> ViewState:
-    """The view that a step begins with. The first stage of its reveal is shown when there is a tree."""
-    state, view = step.state, step.state.view
+def view_of(step: Step, share: float = 0.0) -> ViewState:
+    """The view that a step begins with, or that it has at this share of its sweep. The first stage of its reveal is
+    shown when there is a tree.
+    """
+    state, view = step.state.swept(share), step.state.view
     by_ray = state.reveal not in (None, DEPTH)
     return ViewState(
         pixel=state.pixel,
@@ -53,4 +64,5 @@ def view_of(step: Step) -> ViewState:
         filter=state.show,
         hide=(),
         beside=state.panels or None,
+        inset=view.inset,
     )

@@ -9,7 +9,7 @@ from typing import Any
 from tracer import fields
 from tracer.formats.source import Fault
 from tracer.formats.toml import parsed
-from viewer.lessons.markdown import blocks_of
+from viewer.lessons.markdown import FORMULA, blocks_of
 from viewer.lessons.step import INHERITED, STATE_KEYS, LessonView, Part, State, Step, lines_of
 from viewer.lessons.text import Block, Fence
 
@@ -51,16 +51,24 @@ class Section:
     pieces: tuple[tuple[int, str], ...]
 
 
-def read_head(source: Source, text: str, first_line: int) -> Head:
-    """The data between the marks. The fields of a state are those before the first step."""
+TEXTS = ("title", "question", "objectives")  # the data that a translation has
+
+
+def read_head(source: Source, text: str, first_line: int, of_translation: bool = False) -> Head:
+    """The data between the marks, of a translation the texts. The fields of a state are those before the first step."""
     data = _toml(source, text, first_line)
     own = {item.name for item in fields_of(Head)} - {"state"}
+    lines = lines_of(text, first_line)
+    for key in [key for key in data if of_translation and key not in TEXTS]:
+        said = f"a translation has {', '.join(TEXTS)}; all else is that of lesson.md"
+        source.fault(f'unknown key "{key}": {said}', lines.get(key, first_line))
+        del data[key]
     of_steps = {key: value for key, value in data.items() if key not in own}
     state = _state(source, State(), of_steps, text, first_line, INHERITED, sorted(own))
     found: list[str] = []
     values = fields.read_fields(Head, {key: data[key] for key in own if key in data}, found)
     for fault in found:
-        source.fault(fault, lines_of(text, first_line).get(fault.split()[0], first_line))
+        source.fault(fault, lines.get(fault.split()[0], first_line))
     return Head(**{"title": "", **values}, state=state)
 
 
@@ -106,7 +114,7 @@ def read_steps(source: Source, before: State, sections: Sequence[Section]) -> li
                 source.fault("text before the first step: write a heading like ## What is seen above it", section.line)
             continue
         step = _step(source, before, section, pieces)
-        before = step.state
+        before = step.state.swept(1.0)  # the next step goes on from where a sweep ended
         steps.append(step)
     if not steps:
         source.fault("a lesson has at least one step: a heading like ## What is seen", sections[0].line)
@@ -130,13 +138,28 @@ def _step(source: Source, before: State, section: Section, pieces: list[tuple[Bl
             state = _state(source, base, _toml(source, block.content, begin), block.content, begin)
         elif block.kind not in FENCES and (near := fields.nearest(block.kind, FENCES)):
             source.fault(f'unknown block "{block.kind}"{near}', block.line)
+        elif block.kind == "code" and (near := fields.nearest(block.argument, [FORMULA])):
+            source.fault(f'unknown block "{block.info}"{near}', block.line)
         seen = seen or block.kind not in ("step", "notes")
+    state = _with_sweep(source, state, lines)
     parts = [
         Part(tuple(block for block in blocks if not _is_data(block)))
         for blocks in pieces
     ]  # fmt: skip
     title, said = section.title or "", "\n\n".join(notes)
     return Step(title, section.line, state, tuple(parts), said, source.folder, lines)
+
+
+def _with_sweep(source: Source, state: State, lines: Mapping[str, int]) -> State:
+    """The state at the beginning of its sweep."""
+    if not state.sweep:
+        return state
+    if state.reveal:
+        source.fault("a step has a reveal or a sweep, not both", lines["sweep"])
+    begun = state.swept(0.0)
+    if "pixel" in lines and state.pixel != begun.pixel:
+        source.fault("pixel is that with which the sweep begins: leave it out", lines["pixel"])
+    return begun
 
 
 def _is_data(block: Block) -> bool:

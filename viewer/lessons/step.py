@@ -6,22 +6,22 @@ lesson is read, so that a step is an absolute state: it is the same from whichev
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields as fields_of
+from dataclasses import dataclass, field, fields as fields_of, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from tracer import fields
 from tracer.choices import MODELS
 from viewer.base.orbit import AZIMUTH, DISTANCE, ELEVATION
 from viewer.base.values import RAY_PATH, Unreadable
+from viewer.lessons.sweep import Sweep, read_sweep, with_changes
 from viewer.lessons.text import Block, Fence, fences
-from viewer.reopen.view_state import KINDS, PANEL_NAMES
+from viewer.reopen.view_state import INSETS, KINDS, LEFT, PANEL_NAMES
 
 MOST_PANELS = 3
 DEPTH, RAYS, COLOUR = REVEALS = ("depth", "rays", "colour")
 NOT_INHERITED = ("reveal", "sweep", "hit", "expect", "goal")
 KEY = re.compile(r"([A-Za-z_][\w-]*)[\"']?\s*[=\]]")  # of TOML, or the end of one
-PIXEL = "pixel"  # what a sweep may change, beside the numbers of a scene
 
 
 @dataclass(frozen=True)
@@ -32,19 +32,7 @@ class LessonView:
     elevation: float = field(default=ELEVATION, metadata=fields.number(above=-90, below=90))  # degrees
     distance: float = field(default=DISTANCE, metadata=fields.number(above=0))  # in radii of the scene
     target: tuple[float, float, float] | None = field(default=None, metadata=fields.point())  # None: its centre
-
-
-@dataclass(frozen=True)
-class Sweep:
-    """A number that goes from one value to another: a coordinate of the scene, or the place in the image."""
-
-    of: str  # "pixel", or a key of the scene such as `material."water".ior`
-    start: tuple[float, ...]  # two numbers of a pixel, one of the scene
-    end: tuple[float, ...]
-
-    def at(self, share: float) -> tuple[float, ...]:
-        """The value at this share of the way."""
-        return tuple(a + share * (b - a) for a, b in zip(self.start, self.end, strict=True))
+    inset: str = field(default=LEFT, metadata=fields.choice(*INSETS))  # the lower corner with the image
 
 
 def _names(allowed: tuple[str, ...], most: int) -> Mapping[str, Any]:
@@ -93,24 +81,6 @@ def _table() -> Mapping[str, Any]:
     return fields.rule(read)
 
 
-def _sweep() -> Mapping[str, Any]:
-    said = "a table { of = 'pixel', from = [x, y], to = [x, y] } or { of = 'material.water.ior', from = 1, to = 1.5 }"
-
-    def read(value: Any) -> Sweep:
-        if not isinstance(value, dict) or set(value) != {"of", "from", "to"} or not isinstance(value["of"], str):
-            raise fields.Refused(said)
-        is_pixel = value["of"] == PIXEL
-        ends = []
-        for end in (value["from"], value["to"]):
-            numbers = end if isinstance(end, list) else [end]
-            if len(numbers) != (2 if is_pixel else 1) or not all(type(n) in (int, float) for n in numbers):
-                raise fields.Refused(said)
-            ends.append(tuple(map(float, numbers)))
-        return Sweep(value["of"], *ends)
-
-    return fields.rule(read)
-
-
 @dataclass(frozen=True)
 class State:
     """The fields of a block `step`."""
@@ -126,9 +96,16 @@ class State:
     panels: tuple[str, ...] = field(default=("scene", "tree"), metadata=_names(PANEL_NAMES, MOST_PANELS))
     hit: str | None = field(default=None, metadata=_path())  # the ray whose hit is looked at
     reveal: str | None = field(default=None, metadata=fields.choice(*REVEALS))
-    sweep: Sweep | None = field(default=None, metadata=_sweep())
+    sweep: Sweep | None = field(default=None, metadata=fields.rule(read_sweep))
     expect: Mapping[str, Any] = field(default_factory=dict, metadata=_table())
     goal: Mapping[str, Any] = field(default_factory=dict, metadata=_table())
+
+    def swept(self, share: float) -> Self:
+        """The same with pixel and scene as they are at this share of its sweep."""
+        if not self.sweep:
+            return self
+        pixel = self.sweep.pixel(share) if self.sweep.is_pixel else self.pixel
+        return replace(self, pixel=pixel, set=with_changes(self.set, self.sweep.changes(share)))
 
 
 STATE_KEYS = tuple(item.name for item in fields_of(State))

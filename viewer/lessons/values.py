@@ -12,6 +12,7 @@ from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.wording import format_angle, format_color, format_number, format_weight
 from viewer.explain.fate import ray_fate
+from viewer.explain.intersection import barycentric, flattened, format_share, hit_face
 from viewer.explain.scattering import direction_error, local_error
 
 ABSENT = format_number(math.nan)
@@ -60,6 +61,24 @@ def _critical(tree: RayTree, i: int) -> float:
     return math.nan if found is None else math.degrees(found)
 
 
+def _share(k: int) -> Quantity:
+    """A barycentric coordinate of a hit on a triangle; NaN on other shapes."""
+
+    def value(tree: RayTree, i: int) -> float:
+        corners = hit_face(tree, i)
+        return (
+            barycentric(corners, tree.nodes["point"][i])[k] if corners is not None and len(corners) == 3 else math.nan
+        )
+
+    return Quantity(value, lambda tree, i: format_share(value(tree, i)))
+
+
+def _crossings(tree: RayTree, i: int) -> float:
+    """How many sides a ray to the side crosses from a hit on a polygon; NaN on other shapes."""
+    corners = hit_face(tree, i)
+    return math.nan if corners is None else float(len(flattened(corners, tree.nodes["point"][i]).crossings()))
+
+
 def _channel(name: str, k: int) -> Quantity:
     return Quantity(
         lambda tree, i: float(tree.nodes[name][i][k]), lambda tree, i: format_number(float(tree.nodes[name][i][k]), 4)
@@ -85,6 +104,10 @@ QUANTITIES: dict[str, Quantity] = {
         lambda tree, i: format_weight(tree.nodes["factor"][i], float(tree.nodes["factor_error"][i])),
     ),
     "t": _field("t"),
+    "alpha": _share(0),
+    "beta": _share(1),
+    "gamma": _share(2),
+    "crossings": _computed(_crossings),
     "red": _channel("radiance", 0),
     "green": _channel("radiance", 1),
     "blue": _channel("radiance", 2),

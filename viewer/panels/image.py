@@ -93,10 +93,11 @@ def _handle_mouse(session: Session, place: tuple[float, float, float], dot: int 
 
 
 def _mark_pixel(session: Session, draw: imgui.ImDrawList, place: tuple[float, float, float]) -> None:
-    """A frame around the picked pixel, with four arms that leave the pixel itself free."""
+    """A frame around the picked pixel, or the place between pixels, with four arms that leave it free."""
     left, top, scale = place
     assert session.pixel
-    x0, y0 = left + session.pixel[0] * scale, top + session.pixel[1] * scale
+    pixel = session.between or session.pixel
+    x0, y0 = left + pixel[0] * scale, top + pixel[1] * scale
     x, y = x0 + 0.5 * scale, y0 + 0.5 * scale
     unit = d.unit()
     inner = max(5.0 * unit, 0.5 * scale + 2.0 * unit)

@@ -4,6 +4,7 @@ from imgui_bundle import imgui
 
 from viewer.gl.canvas import Canvas
 from viewer.panels import draw as d, image
+from viewer.reopen.view_state import LEFT, NO_INSET
 from viewer.session.session import Session
 
 SHARE = 0.42  # of the scene's width, at most
@@ -12,19 +13,24 @@ MARGIN = 10.0  # logical pixels
 
 
 def place(session: Session, room: imgui.ImVec2) -> tuple[float, float, float, float] | None:
-    """(left, top, right, bottom) of the inset in a scene of this size; None if the image is on show elsewhere."""
+    """(left, top, right, bottom) of the inset in a scene of this size; None if there is none, or if the image has a
+    panel of its own on show.
+    """
     layout, is_lecture = session.layout, session.appearance.is_lecture_size
-    if not (is_lecture or layout.taught) or layout.place_in("image", is_lecture) in layout.on_show or not session.world:
+    if session.inset == NO_INSET or not (is_lecture or layout.taught):
+        return None
+    if layout.place_in("image", is_lecture) in layout.on_show or not session.world:
         return None
     width, height = session.size
     scale = min(SHARE * room.x / width, HEIGHT * room.y / height)
     margin = MARGIN * d.unit()
+    left = margin if session.inset == LEFT else room.x - margin - scale * width
     bottom = room.y - margin
-    return (margin, bottom - scale * height, margin + scale * width, bottom)
+    return (left, bottom - scale * height, left + scale * width, bottom)
 
 
 def draw(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
-    """Draw the image into the lower left corner of a scene of this size, if it is not on show elsewhere."""
+    """Draw the image into a lower corner of a scene of this size, if it is not on show elsewhere."""
     where = place(session, room)
     if where is None:
         return

@@ -9,6 +9,7 @@ from imgui_bundle import imgui
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import faded
 from viewer.base.wording import format_number, format_rgb
+from viewer.explain.listing import wrapped_code
 from viewer.explain.recursion import Recording, Statement, Values, source
 from viewer.figures.catalogue import RECURSION
 from viewer.gl.canvas import Canvas
@@ -19,7 +20,7 @@ from viewer.session.actions import step_line
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
-HANG = 4  # characters by which the rest of a long line is indented
+NARROWEST = 12  # characters of a line
 FEWEST = 3  # lines of source text that are in view at least
 ROOMY = 18  # lines of text: in a panel of this height there is room for the controls of the steps
 COLUMNS = ("ray", "depth", "n1", "kr", "kt", "color")  # the variables have their names in the source text
@@ -89,7 +90,7 @@ def _source(session: Session, recording: Recording | None, moment: int | None, r
     runs, waiting = _marked(recording, moment)
     wide = imgui.calc_text_size("0").x
     gutter = (len(str(text.numbers[-1])) + 1) * wide
-    most = max(HANG + 8, int((imgui.get_content_region_avail().x - gutter) / wide))
+    most = max(NARROWEST, int((imgui.get_content_region_avail().x - gutter) / wide))
     pad = imgui.get_window_draw_list()
     imgui.push_style_var(imgui.StyleVar_.item_spacing, (0.0, 0.0))
     for number, line in zip(text.numbers, text.lines, strict=True):
@@ -120,21 +121,6 @@ def _marked(recording: Recording | None, moment: int | None) -> tuple[Statement 
     callers = [recording.moments[call.moment].line for call, _ in recording.stack(moment)[1:]]
     waiting = {line for first in callers for line in range(first, text.statement(first).last + 1)}
     return text.statement(recording.moments[moment].line), waiting
-
-
-def wrapped_code(line: str, most: int) -> list[str]:
-    """A line of source text in parts of at most `most` characters, broken at blanks, or before a dot. The rest is
-    indented further.
-    """
-    indent = len(line) - len(line.lstrip())
-    parts, left = [], line
-    while len(left) > most:
-        inner = len(left) - len(left.lstrip())
-        cuts = (left.rfind(sign, inner + 1, most + 1) for sign in " .")
-        cut = next((cut for cut in cuts if cut > 0), most)
-        parts.append(left[:cut].rstrip())
-        left = " " * min(indent + HANG, most // 2) + left[cut:].lstrip()
-    return [*parts, left]
 
 
 # --- the calls --------------------------------------------------------------------------------------------------------

@@ -24,7 +24,9 @@ from viewer.base.values import (
     PIXEL,
     RAY_PATH,
     SAMPLE_HELP,
+    SHARE,
     SHARES,
+    SWEPT_HELP,
     UP_HELP,
     Unreadable,
     Value,
@@ -40,6 +42,7 @@ GRANULARITIES = ("levels", "rays")
 ORDERS = ("breadth", "recursion")
 THEMES = (DARK.name, LIGHT.name)  # of the window
 TYPE_SIZES = ("normal", "lecture")
+INSETS = LEFT, RIGHT, NO_INSET = ("left", "right", "none")  # where the image lies over the scene
 PANEL_NAMES = ("scene", "image", "tree", "ray", "hit", "lesson", "error", "recursion")
 
 
@@ -48,6 +51,7 @@ class ViewState:
     """The choices in a window. None: the scene's or the lesson's own, or those that the window has already."""
 
     at: tuple[int, int] | None = option(MOMENT, AT_HELP)
+    swept: float | None = option(SHARE, SWEPT_HELP)
     pixel: tuple[int, int] | None = option(PIXEL, "pick this pixel, counted from the top left")
     sample: int | None = option(whole(0, metavar="K"), SAMPLE_HELP)
     depth: int | None = option(whole(0, metavar="D"), DEPTH_HELP)
@@ -78,6 +82,10 @@ class ViewState:
     )
     beside: tuple[str, ...] | None = option(
         some_of(PANEL_NAMES, "PANELS"), "show the text of the lesson, and beside it these panels, at most three"
+    )
+    inset: str | None = option(
+        one_of(INSETS),
+        f"the lower corner of the scene with the image, in lecture type; {LEFT} by default",
     )
     borders: tuple[float, float, float] | None = option(
         SHARES, "shares of the left column, and of the upper panel in the left and in the right column"

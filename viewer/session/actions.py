@@ -61,8 +61,8 @@ def go(session: Session, by: int) -> None:
 def _return_to(session: Session, place: Place) -> None:
     """Pick the pixel and select the ray of a place in the scene on show."""
     pixel = place.opening.state.pixel
-    session.pixel = session.inside(*pixel) if pixel else None
-    session.selection, session.tree, session.full_tree = place.opening.state.select, None, None
+    session.put(session.inside(*pixel) if pixel else None, place.opening.between)
+    session.selection = place.opening.state.select
     session.sample.chosen = place.opening.state.sample or 0
     session.turn_back()
     session.update()

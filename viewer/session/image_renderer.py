@@ -70,7 +70,7 @@ class ImageRenderer:
         self.picture: Picture | None = None
         self.kept: OrderedDict[Job, Picture] = OrderedDict()
         self.threads = processors()
-        self.pool = ThreadPoolExecutor(self.threads, initializer=_lower_priority)
+        self.pool = ThreadPoolExecutor(self.threads, initializer=lower_priority)
         self.runner = ThreadPoolExecutor(1)
         self.running: Future[None] | None = None
         self.ahead: deque[Job] = deque()  # images to render while no other is
@@ -237,7 +237,7 @@ def _show(picture: Picture, tile: Tile, linear: np.ndarray) -> None:
     picture.shown[tile.part][..., :3] = traced.repeat(tile.step, 0).repeat(tile.step, 1)[:height, :width]
 
 
-def _lower_priority() -> None:
+def lower_priority() -> None:
     """Lower the priority of this thread, on systems where threads have one.
 
     Relative to the process, since a process that was started with a low priority may not raise it.

@@ -79,7 +79,7 @@ def in_a_lecture() -> Arrangement:
 
 
 def while_taught() -> Arrangement:
-    return Arrangement(columns=0.66)
+    return Arrangement(columns=0.6)
 
 
 @dataclass

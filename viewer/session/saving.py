@@ -10,8 +10,10 @@ from viewer.base.pictures import write_picture
 from viewer.base.theme import PANEL_TEXT
 from viewer.figures.catalogue import ORDERS, STEPS
 from viewer.figures.export_options import ExportOptions
+from viewer.lessons.step_text import step_text
 from viewer.reopen.view_state import UNCHANGED, differing
 from viewer.session.figure_export import Shown
+from viewer.session.lecture.copied import step_of_view
 from viewer.session.restore.command import scene_word, view_command
 from viewer.session.restore.figure_scene import save_copy
 from viewer.session.restore.view import restore_camera, state_of
@@ -30,7 +32,9 @@ def export_figure(session: Session, copied: bool = False) -> None:
     options = ExportOptions(
         scene=scene_word(opening.path, lesson, opening.figure),
         at=session.at,
-        pixel=session.pixel,
+        swept=session.swept,
+        pixel=None if session.between else session.pixel,
+        ray=(*ray[0], *ray[1]) if (ray := session.ray) else None,
         sample=tree.sample or None,
         figure=figure,
         view=session.orbit.view(session.frame) if figure in ("both", "scene") else None,
@@ -88,8 +92,22 @@ def copy_view(session: Session, size: tuple[int, int]) -> None:
         session.notice.say("nothing to copy yet: no scene is on show")
         return
     try:
-        copy_to_clipboard(view_command(session, scene_word(opening.path, opening.lesson, opening.figure), size))
+        language = opening.lesson.language if opening.lesson else ""
+        word = scene_word(opening.path, opening.lesson, opening.figure)
+        copy_to_clipboard(view_command(session, word, size, language))
         session.notice.say("the command line of this view is copied")
+    except Unusable as unusable:
+        session.show_faults(list(unusable.faults))
+
+
+def copy_step(session: Session) -> None:
+    """Copy the view on show as a step of a lesson."""
+    if not session.opening:
+        session.notice.say("nothing to copy yet: no scene is on show")
+        return
+    try:
+        copy_to_clipboard(step_text(step_of_view(session)))
+        session.notice.say("the view is copied as a step of a lesson: paste it below a heading")
     except Unusable as unusable:
         session.show_faults(list(unusable.faults))
 

@@ -1,12 +1,15 @@
-"""The scene on show and what follows from it: the part of a session that only reads the scene."""
+"""The scene on show, what follows from it, and how it is looked at."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+
+import numpy as np
 
 from tracer.choices import MODELS
 from tracer.formats import UP_AXES
 from tracer.kernel.limits import Limits, image_max_nodes, make_limits
 from tracer.kernel.world import World
+from viewer.base.orbit import Frame, Orbit, initial_orbit
 from viewer.lessons.lesson import Lesson
 from viewer.lessons.step import Step
 from viewer.session.loading.opening import Opening
@@ -22,12 +25,14 @@ def image_limits(world: World, depth: int, model: str) -> Limits:
 
 @dataclass(eq=False)
 class OnShow(Looks):
-    """The scene on show, and how deep it is traced."""
+    """The scene on show, how deep it is traced, and the 3D view of it."""
 
     opening: Opening | None = None
     world: World | None = None
     depth: int = 3
     model: str = MODELS[0]
+    frame: Frame = field(default_factory=lambda: Frame(np.zeros(3), 1.0))
+    orbit: Orbit = field(default_factory=Orbit)
 
     @property
     def path(self) -> Path | None:
@@ -66,7 +71,16 @@ class OnShow(Looks):
         assert self.world
         return image_limits(self.world, self.depth, self.model)
 
-    def inside(self, x: int, y: int) -> tuple[int, int]:
-        """The nearest pixel of the image."""
-        width, height = self.size
-        return (min(max(x, 0), width - 1), min(max(y, 0), height - 1))
+    def home(self) -> None:
+        """Reset the 3D view, and fit the image and the tree into their panels."""
+        self.image_view.fit()
+        self.tree_view.fit()
+        self.turn_back()
+        self.reset_orbit()
+
+    def reset_orbit(self) -> None:
+        """Look at the scene as at first."""
+        if self.world:
+            self.orbit = initial_orbit(
+                self.world, self.frame, self.opening.step.state.view if self.opening and self.opening.step else None
+            )

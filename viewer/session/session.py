@@ -6,14 +6,10 @@ Only the window's thread changes it. Panels read it and call its methods. It imp
 import time
 from dataclasses import replace
 
-import numpy as np
-
 from tracer.compile.numba_private import NOTE
 from tracer.kernel.world import World
 from tracer.printable import shown_path
-from tracer.tree.raytree import RayTree
-from viewer.base.cached import Cached
-from viewer.base.orbit import Frame, Orbit, initial_orbit
+from viewer.base.orbit import Frame
 from viewer.figures.steps import Step
 from viewer.lessons.moments import Moment
 from viewer.reopen.view_state import ViewState
@@ -22,22 +18,24 @@ from viewer.session.figure_export import FigureExport
 from viewer.session.guard import Guard
 from viewer.session.history import History, Place
 from viewer.session.image_renderer import ImageRenderer, Job
+from viewer.session.lecture.clock import LessonClock
+from viewer.session.lecture.lesson_list import LessonList
 from viewer.session.lecture.player import LessonPlayer
+from viewer.session.lecture.small_images import SmallImages
 from viewer.session.loading.opening import Opening
 from viewer.session.loading.scene_loader import SceneLoader
+from viewer.session.picked import Picked
 from viewer.session.refinement import Refinement
 from viewer.session.restore.view import restore
-from viewer.session.scene_on_show import OnShow, image_limits
+from viewer.session.scene_on_show import image_limits
 from viewer.session.stepping.recursion import Recursion
 from viewer.session.stepping.reveal import Reveal
-from viewer.session.stepping.sample import SampleChoice
-from viewer.session.stepping.trees import trace_pixel
 from viewer.session.verification import Verification
 from viewer.session.view_state import Request
 from viewer.session.warmup import Warmup
 
 
-class Session(OnShow):
+class Session(Picked):
     """One scene, one picked pixel, one selected ray."""
 
     def __init__(self) -> None:
@@ -48,37 +46,34 @@ class Session(OnShow):
         self.warmup = Warmup(lambda note: self.calls.post(lambda: self.notice.say(note)))
         self.loader = SceneLoader(self.calls, self.warmup, self._show, lambda faults: self.show_faults(faults, True))
         self.image = ImageRenderer(self.calls.post)
+        self.small_images = SmallImages(self.calls.post)
+        self.lesson_list = LessonList(self.calls.post)
         self.refinement = Refinement(self.image)
         self.export = FigureExport(self.calls.post)
         self.verification = Verification(self.calls.post)
         self.reveal = Reveal(lambda: self.tree, lambda: "shadow" in self.shown.kinds)
         self.recursion = Recursion(self.reveal, self.calls.post)
         self.player = LessonPlayer(self)
+        self.clock = LessonClock()
         # The scene on show.
         self.faults: list[str] = []  # of the last opened scene or the last action; the last good scene stays on show
         self.faults_in_files = False  # whether they are of the scene's files
         self.notes: list[str] = []  # on the scene on show, until they are closed
         self._good: tuple[World, Opening] | None = None  # the last scene that was drawn without an exception
-        self.frame = Frame(np.zeros(3), 1.0)
-        self.orbit = Orbit()
-        self.pixel: tuple[int, int] | None = None
-        self.sample = SampleChoice()
-        self.tree: RayTree | None = None  # of the picked pixel, or of its chosen sample
-        self.full_tree: RayTree | None = None  # the same, perhaps deeper; `tree` is its first rows
-        self.selection: str | None = None  # the path of the selected ray, if the tree has it
         self.history = History()
-        self._selected: Cached[int | None] = Cached()
         self.notice.say(NOTE)
 
     # --- the scene ----------------------------------------------------------------------------------------------------
 
     def _show(self, world: World, opening: Opening) -> None:
         """Show a scene. If it was on show already, pixel, depth and view stay."""
-        again = bool(self.world and self.opening and opening.is_of(self.opening)) and not opening.sets_view
+        is_same = bool(self.world and self.opening and opening.is_of(self.opening))
+        again = (is_same or opening.keeps_view) and not opening.sets_view
         self.faults = []
         if world is not self.world:
             self.guard.open_all()
-            self.image.forget([scene.world for scene in self.loader.prepared.scenes])
+            if not opening.keeps_view:  # otherwise the image stays until the next one has its first tiles
+                self.image.forget([scene.world for scene in self.loader.prepared.scenes])
             self.refinement.forget()
         if opening.lesson and not again:
             self.requests.append(Request.SHOW_LESSON)
@@ -90,12 +85,15 @@ class Session(OnShow):
         self.model = state.model or tracing.model
         if not again:
             self.depth = tracing.depth if state.depth is None else state.depth
-            self.pixel, self.selection = state.pixel, state.select
+            self.put(state.pixel, opening.between)
+            self.selection = state.select
             self.player.is_due = opening.shows_stage
             self.home()
             restore(self, state, opening.note)
         self._check_pixel(again or opening.instead is not None)
         self.notes = world.notes
+        if opening.keeps_view:
+            self.render()
         if not again and not opening.is_return:
             self.history.add(Place(self._now()))
 
@@ -111,9 +109,9 @@ class Session(OnShow):
                 f"{shown_path(self.lesson.path)}: " if self.lesson and step and step.state.pixel == self.pixel else ""
             )
             self.show_faults([f"{said}pixel must be within 0,0 .. {width - 1},{height - 1}, got {x},{y}"])
-            self.pixel = None
-        else:
-            self.pixel = inside
+            self.put(None)
+        elif inside != self.pixel:
+            self.put(inside)
 
     def show_moment(self, opening: Opening) -> None:
         """Show a moment of a lesson: at once if its scene is on show, otherwise when it is loaded."""
@@ -121,6 +119,14 @@ class Session(OnShow):
             self._show(self.world, replace(opening, files=self.opening.files, figure=self.opening.figure))
             self.render()
             self.update()
+        else:
+            self.loader.load(opening)
+
+    def show_swept(self, opening: Opening) -> None:
+        """Show another place of the step's sweep."""
+        if opening.step and opening.step.state.sweep and opening.step.state.sweep.is_pixel:
+            self.opening = opening
+            self.put(opening.state.pixel, opening.between)
         else:
             self.loader.load(opening)
 
@@ -139,7 +145,9 @@ class Session(OnShow):
 
     def update(self) -> bool:
         """Process the results of background threads since the last frame. Returns whether a redraw is needed."""
-        news = self.notice.expires() | self.calls.run_posted() | self.reveal.advance(time.monotonic())
+        now = time.monotonic()
+        news = self.notice.expires() | self.calls.run_posted() | self.reveal.advance(now)
+        news |= self.player.sweeping.advance(now)
         self.loader.look()
         if self.world and self.warmup.ready:
             before = (self.tree, self.image.picture)
@@ -151,7 +159,7 @@ class Session(OnShow):
     def _update_rays(self) -> None:
         def trace() -> None:
             if self.pixel and not self.tree:
-                self._trace()
+                self.trace()
                 self.reveal.go_to_asked()
                 self.player.show_stage()
             if self.tree:
@@ -159,7 +167,7 @@ class Session(OnShow):
 
         def unpick() -> None:
             if not self.reject():
-                self.pixel = self.tree = self.full_tree = None
+                self.put(None)
 
         self.guard.run("the rays of this pixel", trace, unpick, closes=False)
 
@@ -169,6 +177,10 @@ class Session(OnShow):
             self.render()
         if not self.refinement.proceed(self.world, self.limits, self.size, self.model):
             self.render()
+
+    def wait(self) -> float:
+        """Seconds until an animation goes on; inf if there is none."""
+        return min(self.reveal.wait(time.monotonic()), self.player.sweeping.wait())
 
     def take_requests(self) -> list[Request]:
         """The requests to the window since the last call."""
@@ -182,18 +194,11 @@ class Session(OnShow):
         has such a ray. The history keeps only the last pixel of one `series`, such as a drag of the mouse.
         """
         pixel = self.inside(x, y) if self.world else None
-        if pixel and pixel != self.pixel:
-            self.pixel = pixel
-            self.tree = None
+        if pixel and (pixel != self.pixel or self.between):
+            self.put(pixel)
             self.turn_back()
             self.history.add(Place(self._now(), series))
             self.update()
-
-    @property
-    def selected(self) -> int | None:
-        """The row of the selected ray; None if no ray is selected, or if the tree does not have it."""
-        tree, path = self.tree, self.selection
-        return self._selected.get((tree, path), lambda: tree.find(path) if tree and path else None)
 
     def select(self, row: int | None) -> None:
         """Select one ray of the tree, or none."""
@@ -219,7 +224,13 @@ class Session(OnShow):
     def at(self) -> tuple[int, int] | None:
         """The place in the lesson on show: the step, from 1, and the presses after its beginning. None at its first."""
         moment = self.player.moment
-        return None if moment == Moment() else (moment.step + 1, moment.press)
+        return None if moment == Moment() and self.swept is None else (moment.step + 1, moment.press)
+
+    @property
+    def swept(self) -> float | None:
+        """How far the sweep of the lesson's step has gone; None: as the presses say, or as the pixel says."""
+        sweep = self.player.sweeping.sweep
+        return self.opening.state.swept if self.opening and sweep and (self.between or not sweep.is_pixel) else None
 
     def _now(self) -> Opening:
         """An opening that leads back to the place on show."""
@@ -230,7 +241,7 @@ class Session(OnShow):
             "up": self.up,
             "sample": self.sample.number(self.world.scene),
         }
-        now = ViewState(at=self.at, pixel=self.pixel, select=self.selection, **tracing)
+        now = ViewState(at=self.at, swept=self.swept, pixel=self.pixel, select=self.selection, **tracing)
         return replace(self.opening, state=now, is_return=True, sets_view=False, note="", instead=None)
 
     def set_depth(self, depth: int) -> None:
@@ -251,11 +262,6 @@ class Session(OnShow):
         self._update_rays()
         self.render()
 
-    def _trace(self) -> None:
-        assert self.world and self.pixel
-        sample, most = self.sample.number(self.world.scene), self.limits.max_nodes
-        self.tree, self.full_tree = trace_pixel(self.world, self.pixel, sample, self.depth, self.model, most)
-
     # --- the image ----------------------------------------------------------------------------------------------------
 
     def render(self) -> None:
@@ -273,23 +279,6 @@ class Session(OnShow):
         """Show faults of an action, or those `in_files`, which are read again when they are saved."""
         self.faults, self.faults_in_files = faults, in_files
 
-    # --- how it is looked at ------------------------------------------------------------------------------------------
-
-    def home(self) -> None:
-        """Reset the 3D view, and fit the image and the tree into their panels."""
-        self.image_view.fit()
-        self.tree_view.fit()
-        self.turn_back()
-        self.reset_orbit()
-
-    def reset_orbit(self) -> None:
-        """Look at the scene as at first."""
-        if self.world:
-            self.orbit = initial_orbit(
-                self.world, self.frame, self.opening.step.state.view if self.opening and self.opening.step else None
-            )
-
     def close(self) -> None:
-        self.warmup.close()
-        self.image.close()
-        self.loader.close()
+        for part in (self.warmup, self.image, self.small_images, self.lesson_list, self.loader):
+            part.close()

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from tracer.printable import printable
 from viewer.base.theme import DARK, LECTURE_ZOOM, LIGHT, STYLES, Theme
+from viewer.reopen.view_state import LEFT
 from viewer.session.layout import Layout
 
 NOTICE_SECONDS = 6.0
@@ -25,6 +26,7 @@ class Request(Enum):
     OPEN_DIALOG = auto()
     COPY_VIEW = auto()  # as a command line with the window's size
     FULL_SCREEN = auto()  # or back
+    SPEAKER = auto()  # the speaker's window; again: close it
     QUIT = auto()
 
 
@@ -152,6 +154,7 @@ class Looks:
     turn: float | None = None  # the angle of incidence at which the selected hit is shown, in degrees; None: its own
     pointer: Pointer = Pointer.NONE
     shows_help: bool = False
+    inset: str = LEFT  # the corner of the scene with the image, if it lies there; or none
     is_blank: bool = False  # the window is black
     scroll: int = 0  # lines by which the texts are to be scrolled
     hovered: int | None = None  # the row of the tree under the mouse, in any view

@@ -16,9 +16,10 @@ from viewer.session.layout import Corner
 from viewer.session.saving import copy_view
 from viewer.session.session import Session
 from viewer.session.view_state import Request
-from viewer.window import bar, bindings, keys, menu, style
+from viewer.window import bar, bindings, keys, menu, speaker, style
 from viewer.window.backend import Offscreen, Window
 from viewer.window.overlays import blank, help, messages, notice, open_dialog, pointer
+from viewer.window.second import SecondWindow
 from viewer.window.tiles import Tiles
 
 IDLE = 0.3  # seconds of sleep between polls of the scene's file
@@ -40,6 +41,8 @@ class App:
         self.canvas = Canvas(surface.ctx, session)
         self.tiles = Tiles(session, self.canvas, self._part, self._fulfil)
         self.drawn_state: object = None  # of the surface when it was drawn last
+        self.speaker: SecondWindow | None = None
+        self.speaker_changed = Changed()
         self.each_round: Callable[[], None] = lambda: None  # called by `run`, some times a second
         self.style_changed = Changed()
         self.title_changed = Changed()
@@ -55,9 +58,10 @@ class App:
             since = time.perf_counter() - drawn
             rest = self._rest(busy, frames_left > 0, took)
             pause = max(0.0, rest - since) if frames_left > 0 or busy else IDLE
-            self.surface.wait(min(pause, self.session.reveal.wait(time.monotonic())))  # the next step of an animation
+            self.surface.wait(min(pause, self.session.wait()))
             news = self.session.update()
             self.each_round()
+            self.tell_speaker()
             if news or self._has_events():
                 frames_left = FRAMES_AFTER_EVENT
                 rest = self._rest(busy, True, took)
@@ -94,6 +98,7 @@ class App:
         session.image.progress = lambda: progress(session.image.picture.share if session.image.picture else 0.0)
         self.frame()  # compiles the shaders while the scene is loaded
         session.warmup.wait()
+        session.player.sweeping.finish()
         say("load the scene")
         while session.loader.loading:
             with contextlib.suppress(Exception):
@@ -110,6 +115,7 @@ class App:
         for _ in range(frames):
             self.frame()
         session.recursion.wait()  # it begins when its panel is drawn
+        session.small_images.wait()  # and these with the pieces of a lesson
         if session.calls.run_posted():
             self.frame()
 
@@ -123,6 +129,7 @@ class App:
         self._draw()
         self.surface.present()
         guard.run("the title", self._set_title)
+        self.session.clock.look(self.session.lesson, self.session.player.moment)
         self.drawn_state = self.surface.state
         if len(guard.caught) == caught:
             self.session.approve()
@@ -138,7 +145,31 @@ class App:
             "rays": [tree.label(i) for i in range(len(tree))] if tree else [],
         }
 
+    def tell_speaker(self) -> None:
+        """Draw the speaker's window if its content has changed: with each second, and with each press."""
+        session = self.session
+        if self.speaker and self.speaker.closing:
+            self._toggle_speaker()
+        if not self.speaker:
+            return
+        shown = (session.lesson_step, session.player.moment, session.player.stages, session.appearance.theme)
+        if self.speaker_changed((shown, session.clock.seconds, self.speaker.state)):
+            window = self.speaker
+            session.guard.run("the speaker's window", lambda: window.frame(lambda scale: speaker.draw(session, scale)))
+
+    def _toggle_speaker(self) -> None:
+        """Open the speaker's window, or close it."""
+        if self.speaker:
+            self.speaker.close()
+            self.speaker = None
+        elif isinstance(self.surface, Window):
+            self.speaker, self.speaker_changed = SecondWindow(speaker.TITLE), Changed()
+        else:
+            self.session.notice.say("there is no screen for a second window")
+
     def close(self) -> None:
+        if self.speaker:
+            self._toggle_speaker()
         self.session.close()
         self.canvas.release()
         self.surface.close()
@@ -236,6 +267,8 @@ class App:
             copy_view(self.session, self.surface.size)
         elif request is Request.FULL_SCREEN:
             self.surface.toggle_full_screen()
+        elif request is Request.SPEAKER:
+            self._toggle_speaker()
         elif request is Request.NEXT_PANEL:
             self.tiles.show_next()
         elif request is Request.MAXIMISE:

@@ -21,7 +21,7 @@ from imgui_bundle import imgui, implot
 from imgui_bundle.imgui import backends
 
 from viewer.base.files import Unusable, write_atomically
-from viewer.figures.writers.imgui_formula import forget_images
+from viewer.figures.writers.imgui_atlas import forget_images
 from viewer.session.restore.last_session import WindowPlace
 from viewer.window.fonts import load_fonts
 from viewer.window.screens import is_reachable, screen_of

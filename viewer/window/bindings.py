@@ -20,7 +20,7 @@ from viewer.session.actions import (
     toggle_order,
     toggle_refinement,
 )
-from viewer.session.saving import copy_command, export_figure
+from viewer.session.saving import copy_command, copy_step, export_figure
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
@@ -73,6 +73,13 @@ def _copy(session: Session) -> None:
         copy_command(session)
     else:
         export_figure(session, copied=True)
+
+
+def _copy_view(session: Session) -> None:
+    if _has_shift():
+        copy_step(session)
+    else:
+        session.requests.append(Request.COPY_VIEW)
 
 
 def _escape(session: Session) -> None:
@@ -215,6 +222,10 @@ BINDINGS = (
         "F11", "full screen, and back (Esc does not leave it)",
         pressed={K.f11: lambda session: session.requests.append(Request.FULL_SCREEN)},
     ),
+    Binding(
+        "W", "the speaker's window: notes, next step, clock; again: close it",
+        {"w": lambda session: session.requests.append(Request.SPEAKER)},
+    ),
     Binding("B or .", "black screen; any key or click brings the window back", {"b": _blank, ".": _blank}),
     Binding(
         "Esc", "close a message or the help; leave the steps; show all panels; unselect the ray",
@@ -228,8 +239,8 @@ BINDINGS = (
         "Ctrl+C", "copy that figure: a picture to paste onto a slide; with Shift its command line", ctrl={K.c: _copy}
     ),
     Binding(
-        "Ctrl+L", "copy the command line that opens this view again (L: like a location in a browser)",
-        ctrl={K.l: lambda session: session.requests.append(Request.COPY_VIEW)},
+        "Ctrl+L", "copy the command line that opens this view again (L: location); with Shift as a step of a lesson",
+        ctrl={K.l: _copy_view},
     ),
     Binding(
         "Ctrl+O, R, Q", "open a scene or a lesson; reload it (automatic when it is saved); quit",

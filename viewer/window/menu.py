@@ -5,18 +5,16 @@ from collections.abc import Callable
 from imgui_bundle import imgui
 from imgui_bundle.imgui import internal
 
-from tracer.printable import printable
-from viewer.base.files import Unusable
 from viewer.base.theme import THEMES
 from viewer.figures.catalogue import FIGURES, FORMATS, ORDERS, PICTURES
-from viewer.lessons import lesson as lessons
 from viewer.panels import PANELS
-from viewer.session.actions import go, look_through_camera, open_lesson
+from viewer.session.actions import go, look_through_camera
 from viewer.session.figure_export import SHOWN
-from viewer.session.saving import copy_command, export_figure, save_image, save_scene
+from viewer.session.saving import copy_command, copy_step, export_figure, save_image, save_scene
 from viewer.session.session import Session
 from viewer.session.stepping.reveal import GRANULARITIES, ORDER_WORDS
 from viewer.session.view_state import Pointer, Request
+from viewer.window import lesson_menu
 from viewer.window.bindings import PANEL_KEYS
 
 
@@ -38,7 +36,7 @@ def _is_called() -> bool:
     """Whether the mouse is at the top of the window, or a menu is open. Otherwise there is no menu in lecture mode."""
     room, mouse = imgui.get_main_viewport(), imgui.get_mouse_pos()
     bar = internal.find_window_by_name("##MainMenuBar")
-    is_on_show = bar is not None and bar.active
+    is_on_show = bar is not None and bar.was_active  # in the frame before
     reach = imgui.get_frame_height() if is_on_show else EDGE
     at_top = imgui.is_mouse_pos_valid() and 0.0 <= mouse.y - room.pos.y < reach
     return at_top or imgui.is_popup_open("", imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level)
@@ -57,6 +55,8 @@ def _file_menu(session: Session) -> None:
         save_scene(session)
     if imgui.menu_item_simple("Copy the command line of this view", "Ctrl+L", False, session.world is not None):
         session.requests.append(Request.COPY_VIEW)
+    if imgui.menu_item_simple("Copy this view as a step of a lesson", "Ctrl+Shift+L", False, session.world is not None):
+        copy_step(session)
     imgui.separator()
     if imgui.menu_item_simple("Quit", "Ctrl+Q"):
         session.requests.append(Request.QUIT)
@@ -85,21 +85,6 @@ def _figure_menu(session: Session) -> None:
     for name, label in {"": "The window's theme", **{name: f"{name.capitalize()} theme" for name in THEMES}}.items():
         if imgui.menu_item_simple(label, "", export.theme == name):
             export.theme = name
-
-
-def _lessons_menu(session: Session) -> None:
-    for name in lessons.names():
-        _lesson_item(session, name)
-
-
-def _lesson_item(session: Session, name: str) -> None:
-    try:
-        title = printable(lessons.read_title(name))
-    except Unusable:
-        title = name
-    on = session.lesson is not None and session.lesson.name == name
-    if imgui.menu_item_simple(title, "", on):
-        open_lesson(session, name)
 
 
 def _view_menu(session: Session) -> None:
@@ -137,6 +122,8 @@ def _view_menu(session: Session) -> None:
         session.appearance.toggle_lecture_size()
     if imgui.menu_item_simple("Full screen", "F11"):
         session.requests.append(Request.FULL_SCREEN)
+    if imgui.menu_item_simple("Speaker's window", "W"):
+        session.requests.append(Request.SPEAKER)
     if imgui.menu_item_simple("Black screen", "B"):
         session.is_blank = True
     if imgui.menu_item_simple("Pointer, spotlight", "X", session.pointer is not Pointer.NONE):
@@ -175,7 +162,7 @@ def _help_menu(session: Session) -> None:
 MENUS: dict[str, Callable[[Session], None]] = {
     "File": _file_menu,
     "Figure": _figure_menu,
-    "Lessons": _lessons_menu,
+    "Lessons": lesson_menu.draw,
     "View": _view_menu,
     "Help": _help_menu,
 }

@@ -34,6 +34,7 @@ STRATEGIES: dict[Value, st.SearchStrategy] = {
     values.INCIDENCE: st.floats(0, 89),
     values.RAY_PATH: st.sampled_from(("E", "TRI", "T[3]R", "E.L(key)", "TR.L(a 'b' $c)[5]")),
     values.PAPER: st.tuples(st.integers(200, 4000), st.integers(200, 4000)),
+    values.LANGUAGE: st.sampled_from(("de", "pt_BR", "gsw")),
     values.SHARES: st.tuples(*[st.floats(0.15, 0.85)] * 3),
     values.PAN_ZOOM: st.tuples(st.floats(0.01, 1000), st.floats(-1e6, 1e6), st.floats(-1e6, 1e6)),
     view_state.VIEW_WORDS: st.deferred(lambda: options(view_state.ViewState)).filter(

@@ -11,7 +11,8 @@ from imgui_bundle.imgui import internal
 from tests.viewer.driver import Driver, viewer
 from viewer.gl.features import FEATURES
 from viewer.gl.surfaces import Surfaces
-from viewer.panels import lesson, ray
+from viewer.panels import ray
+from viewer.panels.lessons import lesson
 from viewer.session import actions
 
 MATTE = (

@@ -2,17 +2,22 @@
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import tracer
-from tests.scenes import ball, plane, world_of
-from tracer.scene import Light, Material
+from tests.scenes import MATTE, ball, plane, world_of
+from tracer.kernel.nodes import SHADOW
+from tracer.scene import Light, Material, Object
+from tracer.shapes.mesh import Mesh
 from viewer.base.wording import format_number
 from viewer.explain.interfaces import interfaces
+from viewer.explain.intersection import intersection_sections
 from viewer.explain.ray import explain_ray, headline
 from viewer.explain.sections import Part
+from viewer.lessons import lesson
 
 LAMPS = [
     Light("lamp", position=(0.0, 5.0, 2.0), color=(0.5, 0.25, 1.0)),
@@ -51,10 +56,10 @@ def test_snell_and_the_transmission_direction(water: tuple) -> None:
     assert list(snell) == ["1 · sin 53.13°", "1.3333 · sin 36.87°"]
     assert [value(text) for text in snell.values()] == [0.8, 0.8]
     bent = section(sections, "Transmission direction")
-    assert value(bent["η = n₁/n₂"]) == 0.75
+    assert value(bent["n = n₁/n₂"]) == 0.75
     assert value(bent["c₁ = −v·n"]) == 0.6
-    assert value(bent["1 − η²(1 − c₁²)"]) == 0.64
-    assert value(bent["c₂ = √(1 − η²(1 − c₁²))"]) == 0.8
+    assert value(bent["1 − n²(1 − c₁²)"]) == 0.64
+    assert value(bent["c₂ = √(1 − n²(1 − c₁²))"]) == 0.8
     refracted = next(i for i in range(len(tree)) if tree.kind(i) == "refraction")
     assert values(bent["t"]) == pytest.approx(tree.nodes["direction"][refracted], abs=6e-5)
     mirrored = section(sections, "Reflection")
@@ -118,8 +123,8 @@ def test_total_internal_reflection_shows_the_number_that_decides() -> None:
     assert critical["arcsin(1 / 1.33)"] == "48.75°"
     assert critical["θ₁ = 60.00°"] == "beyond it: total internal reflection"
     decided = section(sections, "Transmission direction")
-    assert value(decided["1 − η²(1 − c₁²)"]) == pytest.approx(1 - (1.33 * math.sin(a)) ** 2, rel=1e-4, abs=0.0)
-    assert decided["η²(1 − c₁²)"].endswith("≥ 1: total internal reflection")
+    assert value(decided["1 − n²(1 − c₁²)"]) == pytest.approx(1 - (1.33 * math.sin(a)) ** 2, rel=1e-4, abs=0.0)
+    assert decided["n²(1 − c₁²)"].endswith("≥ 1: total internal reflection")
     assert section(sections, "Snell's law")["sin θ₂"].endswith("> 1")
     assert headline(tree, 1)[0] == "Total internal reflection TIR1"
 
@@ -167,6 +172,35 @@ def test_first_the_origin_of_a_ray_then_its_end() -> None:
     origin = [section.title for section in explain_ray(deep, world, whole)[0].sections]
     assert origin == ["Snell's law", "Critical angle", "Transmission direction", "Reflection"]
     assert interfaces(deep, whole)[0].radicand.startswith("−")
+
+
+def test_the_root_of_a_sphere_is_the_distance_digit_by_digit(worlds: dict[str, tracer.World]) -> None:
+    """Of each ray of the lessons that meets a sphere: as the ray's numbers have it."""
+    seen = 0
+    for name, world in worlds.items():
+        tree = tracer.trace(world, lesson.read(name).first.state.pixel, depth=3)
+        for i in np.flatnonzero(tree.nodes["kind"] != SHADOW).tolist():
+            sections = {section.title: section for part in explain_ray(tree, world, i) for section in part.sections}
+            if "Ray and sphere" not in sections:
+                continue
+            values = {line.name: line.value for line in sections["Ray and sphere"].lines}
+            (t,) = (line.value for line in sections["Numbers"].lines if line.name == "distance t")
+            told, root = values["t of the ray"].split(" = ")
+            assert told == t == values[root]
+            seen += 1
+    assert seen >= 10
+
+
+def test_the_face_of_a_mesh_is_shown_with_its_coordinates() -> None:
+    """Every face of a mesh: the one that is hit, and no neighbour, also at a hit far from the origin."""
+    mesh = replace(Mesh.example(), translate=(1e4, -2e4, 3e4))
+    world = world_of(Object(mesh, MATTE, "tetrahedron"))
+    for corners in mesh.placed():
+        out = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+        goal = corners.T @ (0.2, 0.3, 0.5)
+        tree = tracer.trace(world, ray=((goal + out).tolist(), (-out).tolist()))
+        (inside,) = intersection_sections(tree, 0)
+        assert [line.value for line in inside.lines[:4]] == ["0.2000", "0.3000", "0.5000", "1"]
 
 
 def test_every_ray_of_every_lesson_can_be_explained(world: tracer.World) -> None:

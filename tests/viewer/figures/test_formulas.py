@@ -55,11 +55,11 @@ def formula(source: str, anchor: str = "start") -> Formula:
     [
         (Lecture.SNELL, "n₁ sin θ₁ = n₂ sin θ₂"),
         (Lecture.CRITICAL, "θc = arcsin(n₂ / n₁)"),
-        (Lecture.TRANSMISSION, "t = η v + (η c₁ − c₂) n"),
+        (Lecture.TRANSMISSION, "t = n v + (n c₁ − c₂) n"),
         (Lecture.REFLECTION, "r = v − 2 (n·v) n"),
         (Lecture.FRESNEL, "R = (rₛ² + rₚ²) / 2"),
         (Lecture.AMPLITUDE_S, "rₛ = (n₁ c₁ − n₂ c₂) / (n₁ c₁ + n₂ c₂)"),
-        (Lecture.COSINE_2, "c₂ = √(1 − η²(1 − c₁²))"),
+        (Lecture.COSINE_2, "c₂ = √(1 − n²(1 − c₁²))"),
         (Lecture.RADIANCE, "I = local + Σ factor × child"),
         (r"x^{10} + x^{ab} - e^{-2}", "x¹⁰ + x^ab − e⁻²"),
         (r"\cos^2\theta + \sin(2\theta)", "cos²θ + sin(2θ)"),
@@ -298,7 +298,7 @@ def test_the_window_draws_what_the_outlines_say() -> None:
     from imgui_bundle import imgui
 
     from viewer.figures.writers.imgui import draw_marks
-    from viewer.figures.writers.imgui_formula import _images
+    from viewer.figures.writers.imgui_atlas import images
     from viewer.window.backend import Offscreen
 
     for _ in range(2):  # the second context has an atlas of its own
@@ -316,26 +316,26 @@ def test_the_window_draws_what_the_outlines_say() -> None:
             place = round(60.0 * scale), round(140.0 * scale)
             ours = coverage(typeset(mark.source), 24.0 * scale, *place, 480, 270) / 255.0
             assert np.abs(ink - ours).max() < 0.03
-        assert len(_images.found) == 3
+        assert len(images.found) == 3
         surface.close()
-        assert not _images.found
+        assert not images.found
 
 
 def test_old_images_make_room_for_new_ones() -> None:
     from imgui_bundle import imgui
 
-    from viewer.figures.writers import imgui_formula
+    from viewer.figures.writers import imgui_atlas, imgui_formula
     from viewer.window.backend import Offscreen
 
     surface = Offscreen((480, 270))
     for k in range(2):
         surface.begin()
         pad = imgui.get_background_draw_list()
-        for step in range(imgui_formula.MOST + 40):
+        for step in range(imgui_atlas.MOST + 40):
             mark = Formula("f", Lecture.SNELL, (10.0, 100.0), 6.0 + 0.25 * (step + k), LIGHT.text, "start")
             imgui_formula.draw_formula(pad, mark, (0.0, 0.0), 1.0)
         surface.present()
-        assert len(imgui_formula._images.found) == imgui_formula.MOST
+        assert len(imgui_atlas.images.found) == imgui_atlas.MOST
     surface.close()
 
 

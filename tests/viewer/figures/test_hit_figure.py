@@ -204,7 +204,7 @@ def test_the_formulas_stand_on_the_right_of_a_wide_picture_and_below_another(wor
             assert all(mark.box()[0] > upper.corners[1][0] for mark in formulas)
         else:
             assert all(mark.box()[1] > lower.corners[2][1] for mark in formulas)
-    assert {"n₁ sin θ₁ = n₂ sin θ₂", "t = η v + (η c₁ − c₂) n"} <= shown[960.0, 540.0] & shown[640.0, 600.0]
+    assert {"n₁ sin θ₁ = n₂ sin θ₂", "t = n v + (n c₁ − c₂) n"} <= shown[960.0, 540.0] & shown[640.0, 600.0]
     assert shown[460.0, 250.0] == set()  # the picture needs all of it
 
 

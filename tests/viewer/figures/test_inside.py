@@ -19,7 +19,7 @@ from viewer.figures.figure import both, scene, tree
 from viewer.figures.figure.hit import LARGEST
 from viewer.figures.layout.hit_frame import hit_frame
 from viewer.figures.layout.placing import EYES
-from viewer.figures.marks import HEIGHT, WIDTH, Box, Disc, Formula, Line, Mark, Rectangle, Shape, Text
+from viewer.figures.marks import HEIGHT, WIDTH, Box, Disc, Formula, Line, Mark, Raster, Rectangle, Shape, Text
 from viewer.figures.pages import pages
 from viewer.figures.steps import by_depth, by_ray
 from viewer.figures.subject import FigureStyle, Subject
@@ -39,7 +39,7 @@ def extent(mark: Mark) -> Rectangle:
     match mark:
         case Text() | Formula():
             return mark.box()
-        case Box(center=(x, y), size=(w, h)):
+        case Box(center=(x, y), size=(w, h)) | Raster(center=(x, y), size=(w, h)):
             points = [(x - 0.5 * w - half, y - 0.5 * h - half), (x + 0.5 * w + half, y + 0.5 * h + half)]
         case Disc(center=(x, y), radius=r):
             points = [(x - r - half, y - r - half), (x + r + half, y + r + half)]

@@ -105,6 +105,15 @@ def test_outlines_with_holes_are_filled_around_them(surface: Offscreen) -> None:
     assert (window & ~grown(file)).sum() == 0 and (file & ~grown(window)).sum() == 0
 
 
+@pytest.mark.parametrize("order", [1, -1])
+def test_concave_outlines_are_filled_inside_only(surface: Offscreen, order: int) -> None:
+    corners = ((100.0, 100.0), (300.0, 300.0), (500.0, 100.0), (300.0, 500.0))
+    figure = Figure("", "", "", (Shape("s", corners[::order], DARK.accent, None),), DARK.ground, ground=True)
+    window, file = ink(in_window(surface, figure)), ink(in_file(figure))
+    assert window[400, 300] and not window[200, 300]
+    assert (window & ~grown(file)).sum() == 0 and (file & ~grown(window)).sum() == 0
+
+
 @pytest.mark.parametrize("size", [115.0, 250.0, 300.0])
 def test_a_formula_that_is_wider_than_the_atlas_is_drawn_all_the_same(surface: Offscreen, size: float) -> None:
     """The atlas is at most 2048 pixels wide here. The ink ends where that of a file does, also at the border."""

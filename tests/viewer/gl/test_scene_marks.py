@@ -63,7 +63,7 @@ def test_no_label_lies_over_another_or_outside(name: str) -> None:
 def test_labels_of_rays_come_before_names_of_lights_and_of_the_eye() -> None:
     with viewer((900, 600)) as driver:
         driver.open("glass-ball")
-        names = {"sun", "window", "eye"}
+        names = {"sun", "lamp", "eye"}
         for view in VIEWS:
             turn(driver.session.orbit, view)
             driver.frames(1)

@@ -2,10 +2,15 @@
 
 from collections.abc import Callable, Iterator
 
+import numpy as np
 import pytest
 
 from tests.viewer.driver import Driver, viewer
+from viewer.base.orbit import Orbit
+from viewer.base.theme import DARK
+from viewer.gl.stage import ImagePlane, Stage
 from viewer.gl.surfaces import Surfaces
+from viewer.window.backend import Offscreen
 
 KINDS = ("shadow", "reflection")
 
@@ -97,3 +102,20 @@ def test_a_new_depth_shows_the_image_before_until_it_has_tiles() -> None:
             while not picture.finished:
                 assert (picture.shown[..., :3] == 0).all(axis=2).mean() < 0.01
                 driver.frames(1)
+
+
+def test_magnified_pixels_of_the_image_plane_are_squares() -> None:
+    """A black and a white pixel, each hundreds of pixels wide on the screen: at most two columns are between them."""
+    surface = Offscreen((400, 300))
+    stage = Stage(surface.ctx)
+    try:
+        texture = surface.ctx.texture((2, 1), 4, bytes([0, 0, 0, 255, 255, 255, 255, 255]))
+        corners = np.array([(x, y, 0.0) for x in (-1.0, 1.0) for y in (1.0, -1.0)])
+        stage.draw(Orbit(), DARK, (400, 300), 1.0, ImagePlane(corners, texture, None))
+        row = stage.target.pixels()[150, 60:340].astype(int).mean(axis=1)
+        dark, bright = row[20], row[-20]
+        assert bright > dark + 100
+        assert ((row > dark + 10) & (row < bright - 10)).sum() <= 2
+    finally:
+        stage.release()
+        surface.close()

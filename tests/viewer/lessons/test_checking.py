@@ -50,21 +50,41 @@ def test_the_skeleton_passes_and_is_never_written_over(
         ("expect = { t = 1.5 }", "", "line 9: expect: t must be a number in quotes"),
         ('expect = { thata1 = "1" }', "", 'line 9: expect: unknown name "thata1" (did you mean "theta1"?)'),
         ('goal = { endd = "x" }', "", 'line 9: goal: unknown name "endd"'),
+        ('goal = { object = "ball", R.object = "floor" }', "", "line 9: goal: it is reached at this pixel already"),
         ("pixel = [320, 1]", "", "line 9: pixel must be within 0,0 .. 319,239, got 320,1"),
         ("sample = 1", "", "line 9: sample must be within 0 .. 0"),
         ("set = { material.miror.ior = 1 }", "", '(did you mean "mirror"?)'),
         ("set = { material.mirror.ior = -1 }", "", "ior must be > 0, got -1"),
-        ("sweep = { of = 'pixel', from = [1, 1], to = [320, 1] }", "", "line 9: sweep: pixel must be within"),
+        ("sweep = { of = 'pixel', from = [160, 150], to = [320, 1] }", "", "line 9: sweep: pixel must be within"),
+        (
+            "sweep = { of = 'pixel', from = [160, 150], to = [161, 150], expect = { object = 'floor' } }",
+            "",
+            'line 9: sweep: expect: object must be "floor", got "ball"',
+        ),
+        (
+            "sweep = { of = 'material.mirror.ior', from = 1, to = -2 }",
+            "",
+            'material[0] "mirror": ior must be > 0, got -2',
+        ),
         ("sweep = { of = 'material.mirror.iro', from = 1, to = 2 }", "", 'unknown key "iro" (did you mean "ior"?)'),
         ("", "word " * 41, "line 11: 41 words appear at once; at most 40 are allowed"),
         ("", "\n???\n".join(["word " * 31] * 3), "line 6: 93 words in a step; at most 90 are allowed"),
         ("", "```live\nsnel\n```", "line 12: live: a live piece is one of snell, "),
-        ("", "```live\nsphere 3\n```", 'line 12: live: sphere: no words may follow, got "3"'),
+        ("", "```live\nhit 3\n```", 'line 12: live: hit: no words may follow, got "3"'),
+        ("", "```live\nsphere lamp\n```", "line 12: live: sphere: object must be an object of the scene, ball, floor"),
         ("", "```live\ninside\n```", "line 12: live: inside"),
+        (
+            "", "```source tracer.optics.transmision\n```",
+            'line 11: source: tracer.optics has no function "transmision" (did you mean "transmission"?)',
+        ),
+        ("", "```source os.system\n```", 'line 11: source: a function of the tracer, like tracer.optics.transmission,'),
+        ("", "```source tracer.optics.refract\nx = 1\n```", "line 12: source: the block must be empty"),
+        ("", "```code formla\nx\n```", 'line 11: unknown block "code formla" (did you mean "formula"?)'),
+        ("", "```code formula\nx\n\n\\foo\n```", r"line 14: formula '\\foo': \foo is not known"),
         ("", r"$\foo$", r"line 11: formula '\\foo': \foo is not known"),
         ('scene = "other.toml"', "", "other.toml: file not found"),
     ],
-)
+)  # fmt: skip
 def test_a_planted_fault_is_found_with_its_line(tmp_path: Path, step: str, text: str, said: str) -> None:
     assert checked(tmp_path, "", "Right: {theta1}, {R.object}, [it](#R).") == []
     faults = checked(tmp_path, step, text)

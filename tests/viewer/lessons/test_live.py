@@ -13,22 +13,19 @@ from tracer.formulas.double_double import U
 from tracer.kernel.nodes import SHADOW
 from tracer.kernel.world import World
 from tracer.scene import Light, Material, Object
-from tracer.shapes.mesh import Mesh
 from tracer.shapes.polygon import Polygon
-from tracer.shapes.sphere import Sphere
 from tracer.tree.raytree import RayTree
 from viewer.base.srgb import display_color
 from viewer.base.theme import DARK, LIGHT, MONO
-from viewer.explain.intersection import barycentric, flattened, hit_face, hit_roots, sphere_roots, sphere_section
 from viewer.explain.lighting import phong_terms
 from viewer.figures.marks import Disc, Handle, Mark, Shape, Text
 from viewer.lessons.live.catalogue import LIVE, LIVE_NAMES, live_kind
-from viewer.lessons.live.fresnel import brewster, reflectance
 from viewer.lessons.live.interface import Interface
-from viewer.lessons.live.lifeguard import Lifeguard
 from viewer.lessons.live.piece import LiveContext
-from viewer.lessons.live.samples import sample_points
-from viewer.lessons.live.sum import parts
+from viewer.lessons.live.pieces.fresnel import brewster, reflectance
+from viewer.lessons.live.pieces.lifeguard import Lifeguard
+from viewer.lessons.live.pieces.samples import sample_points
+from viewer.lessons.live.pieces.sum import parts
 
 SIZES = ((300, 200, 11.0), (300, 220, 18.0), (480, 300, 14.0), (400, 480, 13.0), (960, 540, 18.0))
 GLASS = Material("glass", diffuse=0.2, specular=0.4, shininess=20.0, ambient=0.1, transmit=0.8, reflect=0.1, ior=1.52)
@@ -66,6 +63,7 @@ def test_pieces_lie_inside_their_room_and_no_texts_overlap() -> None:
     rows = [row_of(tree, path) for path in ("E", "T", "TT")]  # on glass, from inside it, on the polygon
     drawn = dict.fromkeys(LIVE_NAMES, 0)
     given = {"snell": ("1.33", "1"), "fresnel": ("glass", "air"), "lifeguard": ("1", "6"), "media": ("water", "1.7")}
+    given |= {"sphere": ("ball",), "inside": ("comb",)}  # the ray from the eye does not reach the polygon
     for kind, (k, size), row in itertools.product(LIVE, enumerate(SIZES), rows):
         if row and (k % 2 or kind.name in ("lifeguard", "samples", "media")):
             continue  # the same picture, or enough of them
@@ -125,60 +123,6 @@ def test_the_lifeguards_least_time_is_that_of_the_3_4_5_triangles() -> None:
         assert sine1 / speeds[0] == pytest.approx(sine2 / speeds[1], rel=1e3 * U)
 
 
-def test_the_quadratic_of_a_sphere() -> None:
-    unit = Sphere((0.0, 0.0, 0.0), 1.0)
-    found = sphere_roots((0.0, 0.0, 5.0), (0.0, 0.0, -1.0), unit)
-    assert (found.a, found.b, found.c, found.discriminant, found.roots) == (1.0, -10.0, 24.0, 4.0, (4.0, 6.0))
-    larger = sphere_roots((1.0, 0.0, 5.0), (0.0, 0.0, -1.0), Sphere((1.0, 0.0, 0.0), 2.0))
-    assert (larger.c, larger.discriminant, larger.roots) == (21.0, 16.0, (3.0, 7.0))
-    tangent = sphere_roots((1.0, 0.0, 5.0), (0.0, 0.0, -1.0), unit)
-    assert tangent.discriminant == 0.0 and tangent.roots == (5.0, 5.0)
-    inside = sphere_roots((0.0, 0.0, 0.5), (0.0, 0.0, -1.0), unit)
-    assert inside.roots == (-0.5, 1.5)
-
-
-def test_the_roots_of_a_sphere_agree_with_the_tree() -> None:
-    """From outside the hit is the smaller root, from the sphere itself the larger one."""
-    tree = tracer.trace(world(), ray=RAY, depth=3)
-    for path, chosen in (("E", 0), ("T", 1), ("TR", 1)):
-        row = row_of(tree, path)
-        found, told, t = hit_roots(tree, row), sphere_section(tree, row), float(tree.nodes["t"][row])
-        assert found is not None and told is not None
-        assert found.nearest(t) == chosen
-        assert found.roots[chosen] == pytest.approx(t, rel=64 * U, abs=4 * float(tree.nodes["error"][row]))
-        assert [line.value for line in told.lines if line.name in ("t₁", "t₂")][chosen] == f"{t:.5g}"
-
-
-def test_barycentric_coordinates() -> None:
-    random = np.random.default_rng(1)
-    for _ in range(50):
-        corners, shares = random.normal(size=(3, 3)), random.dirichlet(np.ones(3))
-        found = barycentric(corners, shares @ corners)
-        assert sum(found) == pytest.approx(1.0, abs=4 * U)
-        assert found == pytest.approx(shares, abs=1e-9)
-    mesh = Mesh.example()
-    seen = world_of(Object(mesh, MATTE, "tetrahedron"))
-    tree = tracer.trace(seen, ray=((0.1, 0.2, 5.0), (0.0, 0.0, -1.0)))
-    face = hit_face(tree, 0)
-    assert face is not None and any((face == other).all() for other in mesh.placed())
-    assert min(barycentric(face, tree.nodes["point"][0])) > 0.0
-    assert np.cross(face[1] - face[0], face[2] - face[0]) @ tree.nodes["normal"][0] > 0.0
-
-
-def test_crossings_are_odd_inside_a_polygon_only() -> None:
-    """Against the winding number, from the angles at which the sides are seen, for random star-shaped outlines."""
-    random = np.random.default_rng(2)
-    for _ in range(200):
-        count = int(random.integers(3, 12))
-        turns = np.sort(random.uniform(0.0, 2.0 * math.pi, count))
-        outline = random.uniform(0.3, 1.0, count)[:, None] * np.stack([np.cos(turns), np.sin(turns)], axis=1)
-        point = random.uniform(-1.0, 1.0, 2)
-        arms = (outline - point) @ np.array([1.0, 1.0j])
-        winding = round(float(np.angle(np.roll(arms, -1) / arms).sum()) / (2.0 * math.pi))
-        flat = flattened(np.column_stack([outline, np.zeros(count)]), np.array([*point, 0.0]))
-        assert len(flat.crossings()) % 2 == abs(winding) % 2
-
-
 def test_the_parts_of_a_sum_add_up_to_the_radiance_to_the_last_bit() -> None:
     for model in ("whitted", "fresnel"):
         tree = tracer.trace(world(), ray=RAY, depth=5, model=model)
@@ -236,6 +180,9 @@ def _ends(seen: World, pixel: tuple[int, int]) -> list[str | None]:
         ("snell", ("-1",), "snell: n1 must be a number above 0 or one of vacuum, air"),
         ("samples", ("x",), 'samples: count must be a whole number, got "x"'),
         ("phong", ("moon",), 'phong: light must be a light of the scene, key, fill, got "moon"'),
+        ("sphere", ("moon",), 'sphere: object must be an object of the scene, ball, comb, got "moon"'),
+        ("sphere", ("comb",), "sphere: comb is a polygon; it needs a hit on a sphere"),
+        ("inside", ("ball",), "inside: ball is a sphere; it needs a hit on a polygon"),
         ("hit", ("x",), 'hit: no words may follow, got "x"'),
         ("lifeguard", ("0",), 'lifeguard: v1 must be a speed above 0, got "0"'),
     ],

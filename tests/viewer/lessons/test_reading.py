@@ -134,6 +134,15 @@ def test_markdown_has_its_blocks_and_lines() -> None:
         ("## One\n```step\nhit = 'X'\n```\n", "line 8: hit must be the path of a ray"),
         ("## One\n```step\nview = { elevation = 95 }\n```\n", "line 8: view: elevation must be > -90 and < 90, got 95"),
         ("## One\n```step\nsweep = { of = 'pixel', from = 1, to = 2 }\n```\n", "line 8: sweep must be a table"),
+        ("## One\n```step\nsweep = { of = 'a b', from = 1, to = 2 }\n```\n", "line 8: sweep must be a table whose"),
+        (
+            "## One\n```step\npixel = [1, 2]\nsweep = { of = 'pixel', from = [1, 3], to = [2, 2] }\n```\n",
+            "line 8: pixel is that with which the sweep begins",
+        ),
+        (
+            "## One\n```step\nreveal = 'depth'\nsweep = { of = 'a', from = 1, to = 2 }\n```\n",
+            "line 9: a step has a reveal or a sweep, not both",
+        ),
         ("## One\n```step\nexpect = 1\n```\n", "line 8: expect must be a table, got 1"),
         ("## One\nText.\n```step\ndepth = 1\n```\n", "line 8: the block step stands right below the heading"),
         ("## One\n```stp\ndepth = 1\n```\n", 'line 7: unknown block "stp" (did you mean "step"?)'),

@@ -12,8 +12,12 @@ from tests import ROOT
 from tests.conftest import LESSONS
 from tests.viewer.driver import Driver, are_equal, body, viewer
 from viewer.base.orbit import project
-from viewer.panels import lesson, ray
+from viewer.lessons.lesson import read
+from viewer.lessons.moments import Moment
+from viewer.panels import ray
+from viewer.panels.lessons import lesson
 from viewer.session import actions
+from viewer.session.lecture.player import LAST
 
 Key = imgui.Key
 
@@ -63,6 +67,15 @@ def test_lesson_texts_stay_inside_their_panel(room: Driver, size: tuple[int, int
         room.app.settle(4)
         panel = body(lesson.PANEL.title)
         assert panel.content_size.x <= panel.size.x
+
+
+def test_a_piece_that_takes_the_rest_of_the_panel_needs_no_scroll_bar(room: Driver) -> None:
+    found = read("ray-sphere")
+    room.session.appearance.toggle_lecture_size()
+    room.session.player.show(found, Moment(0, LAST))
+    room.app.settle(4)
+    panel = body(lesson.PANEL.title)
+    assert panel.content_size.y > 0.9 * panel.size.y and panel.scroll_max.y == 0.0
 
 
 def test_selected_ray_comes_to_the_front_and_begins_at_its_top(room: Driver) -> None:

@@ -11,7 +11,6 @@ from tests.viewer.driver import Driver, body, viewer
 from viewer.explain.recursion import source
 from viewer.figures.catalogue import RECURSION
 from viewer.panels import recursion
-from viewer.panels.recursion import wrapped_code
 from viewer.session.view_state import Request
 
 Key = imgui.Key
@@ -137,13 +136,7 @@ def test_the_page_says_where_it_differs_from_the_kernel(glass: Driver) -> None:
     assert session.recursion.moment == 0  # back to the last line that there is
 
 
-def test_a_long_line_is_wrapped() -> None:
-    for line in source().lines:
-        assert wrapped_code(line, len(line)) == [line]
-        for most in (24, 31, 57):
-            parts = wrapped_code(line, most)
-            assert all(len(part) <= most for part in parts)
-            assert "".join("".join(parts).split()) == "".join(line.split())
+def test_lines_have_room() -> None:
     assert all(len(line) <= 64 for line in source().lines[1:])  # at the usual size, in a panel of 460 pixels
 
 

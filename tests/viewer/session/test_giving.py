@@ -51,6 +51,17 @@ set = {}
 reveal = "colour"
 model = "fresnel"
 ```
+## Five
+```step
+sweep = { of = "pixel", from = [160, 150], to = [167, 153] }
+```
+Watch.
+???
+Seen.
+## Six
+```step
+sweep = { of = "material.mirror.reflect", from = 0.2, to = 0.9 }
+```
 """
 
 
@@ -92,6 +103,8 @@ def test_two_keys_lead_through_every_moment_and_back(driver: Driver, mine: Lesso
         Moment(1, 0), Moment(1, 1), Moment(1, 2), Moment(1, 3),  # depth 0, 1, 2, and the hidden part
         Moment(2, 0), Moment(2, 1),  # the camera ray, and the reflected ray
         Moment(3, 0), Moment(3, 1), Moment(3, 2),  # no sum, that of R, that of E
+        Moment(4, 0), Moment(4, 1), Moment(4, 2),  # both ends of the sweep, and the hidden part
+        Moment(5, 0), Moment(5, 1),
     ]  # fmt: skip
     assert session.notice.text == "the last step of Mine"
     for moment, forwards in reversed(seen):

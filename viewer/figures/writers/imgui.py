@@ -12,9 +12,25 @@ from imgui_bundle import imgui
 from viewer.base.theme import Color
 from viewer.figures import signs
 from viewer.figures.font import ANCHORS, BASELINE
-from viewer.figures.marks import Box, Disc, Formula, Handle, Line, Mark, Piece, Point, Shape, Stroke, Text, point_along
+from viewer.figures.marks import (
+    Box,
+    Disc,
+    Formula,
+    Handle,
+    Line,
+    Mark,
+    Piece,
+    Point,
+    Raster,
+    Shape,
+    Stroke,
+    Text,
+    point_along,
+)
 from viewer.figures.writers.arrows import heads
+from viewer.figures.writers.imgui_atlas import images
 from viewer.figures.writers.imgui_formula import draw_formula
+from viewer.figures.writers.raster import raster_pixels
 
 EM = 2048 / 2400  # of the window's font, over its size for imgui, which is the distance from ascender to descender
 HALF = 0.5  # pixels by which imgui moves the outline of a rectangle inwards
@@ -62,6 +78,8 @@ class _Writer:
                 self._shape(mark)
             case Handle():
                 self._handle(mark)
+            case Raster():
+                self._raster(mark)
             case Formula():
                 draw_formula(self.pad, mark, self.corner, self.scale)
             case _:
@@ -130,6 +148,22 @@ class _Writer:
             width = max(1.0, disc.stroke.width * self.scale)
             self.pad.add_circle(at, radius, _ink(disc.stroke.color), 0, width)
 
+    def _raster(self, raster: Raster) -> None:
+        """Draw an image pixel by pixel of the screen, so that its own pixels have sharp borders."""
+        (x, y), (w, h) = raster.center, raster.size
+        left, top = map(round, self._at((x - 0.5 * w, y - 0.5 * h)))
+        right, bottom = map(round, self._at((x + 0.5 * w, y + 0.5 * h)))
+        size = (max(1, right - left), max(1, bottom - top))
+
+        def fill(pixels: np.ndarray) -> None:
+            rows, columns = (np.arange(n) * of // n for n, of in zip(size[::-1], raster.shape[::-1], strict=True))
+            pixels[..., :3] = raster_pixels(raster)[rows[:, None], columns[None, :]]
+
+        place = images.rectangle((raster.pixels, raster.shape, size), size, fill)
+        if place:
+            texture = imgui.get_io().fonts.tex_data.get_tex_ref()
+            self.pad.add_image(texture, (left, top), (left + size[0], top + size[1]), place.uv0, place.uv1)
+
     def _handle(self, handle: Handle) -> None:
         at, (radius, rim) = self._at(handle.at), (length * self.scale for length in HANDLE)
         self.pad.add_circle_filled(at, radius, _ink((0.0, 0.0, 0.0, 0.6)))
@@ -140,7 +174,8 @@ class _Writer:
         if shape.fill and shape.closed and shape.holes:
             self._fill_rings((shape.corners, *shape.holes), _ink(shape.fill))
         elif shape.fill and shape.closed:
-            points: list[imgui.ImVec2Like] = [imgui.ImVec2(*self._at(corner)) for corner in shape.corners]
+            corners = shape.corners if _is_clockwise(shape.corners) else shape.corners[::-1]
+            points: list[imgui.ImVec2Like] = [imgui.ImVec2(*self._at(corner)) for corner in corners]
             self.pad.add_concave_poly_filled(points, _ink(shape.fill))
         if not shape.stroke:
             return
@@ -169,6 +204,12 @@ class _Writer:
         for triangle in triangles.tolist():
             a, b, c = (self._at((float(x), float(y))) for x, y in corners[triangle])
             self.pad.add_triangle_filled(a, b, c, ink)
+
+
+def _is_clockwise(outline: Sequence[Point]) -> bool:
+    """Whether the corners go round clockwise on the screen: imgui fills a concave outline in this order only."""
+    around = zip(outline, (*outline[1:], outline[0]), strict=True)
+    return sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in around) >= 0.0
 
 
 def _rounded(box: Box) -> list[Point]:

@@ -1,24 +1,43 @@
 """Figures as PDF, one page each: lines as lines, and text that can be selected, in an embedded font."""
 
+from __future__ import annotations
+
 import datetime
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
+from viewer.base.srgb import srgb
 from viewer.base.theme import Color, rgb_bytes
 from viewer.figures.font import BASELINE, FAMILY, FONT, boxed, text_width
 from viewer.figures.formula.typeset import Contour
-from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Raster, Rectangle, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
+from viewer.figures.writers.raster import raster_png
 from viewer.reopen.places import ATTACHMENT
+
+if TYPE_CHECKING:
+    import numpy as np
+    from fpdf import FPDF
 
 UNDATED = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)  # so that the same figure is the same file on every day
 ROUND = 0.5522847498  # distance of a quarter circle's control points from its ends, in radii
 
 
 def write_pdf(figures: Sequence[Figure]) -> bytes:
-    from fpdf import FPDF
+    pdf = new_document(figures[0])
+    for figure in figures:
+        page = PageDrawing(pdf, figure)
+        for mark in figure.marks:
+            page.draw(mark)
+    return bytes(pdf.output())
 
-    first = figures[0]
+
+def new_document(first: Figure) -> FPDF:
+    """A document without pages, with the title, the description, the command and the view of this figure."""
+    from fpdf import FPDF, ViewerPreferences
+
     pdf = FPDF(unit="pt", format=(first.width, first.height))
     pdf.set_auto_page_break(False)
     pdf.set_margin(0)
@@ -29,32 +48,52 @@ def write_pdf(figures: Sequence[Figure]) -> bytes:
     pdf.set_keywords(first.command)
     pdf.set_creator("raytree")
     pdf.set_lang("en")
+    pdf.viewer_preferences = ViewerPreferences(display_doc_title=True)
     pdf.add_font(FAMILY, "", FONT)
     if first.embedded:
         pdf.embed_file(
             bytes=first.embedded, basename=ATTACHMENT, mime_type="application/zip", modification_date=UNDATED
         )
-    for figure in figures:
+    return pdf
+
+
+class PageDrawing:
+    """A new page of the size of a figure, with its background. Marks are drawn as PDF operators (ISO 32000-1, 8.5),
+    which allow any dash and any outline.
+    """
+
+    def __init__(self, pdf: FPDF, figure: Figure) -> None:
+        self.pdf, self.height = pdf, figure.height
         pdf.add_page(format=(figure.width, figure.height))
-        page = _Page(pdf, figure.height)
         if figure.ground:
             corners = ((0.0, 0.0), (figure.width, 0.0), (figure.width, figure.height), (0.0, figure.height))
-            page.path(corners, True, figure.paper, None)
-        for mark in figure.marks:
-            page.draw(mark)
-    return bytes(pdf.output())
+            with self.artifact():
+                self.path(corners, True, figure.paper, None)
 
+    @contextmanager
+    def tagged(self, kind: str, said: str = "") -> Iterator[None]:
+        """What is drawn inside is an element of the document's structure (ISO 32000-1, 14.8.4), like H1, P or Figure,
+        with this alternative text.
+        """
+        number = self.pdf.struct_builder.next_mcid_for_page(self.pdf.page)
+        self.pdf._add_marked_content(struct_type=f"/{kind}", mcid=number, alt_text=said or None)
+        self.pdf._out(f"/{kind} <</MCID {number}>> BDC")
+        yield
+        self.pdf._out("EMC")
 
-class _Page:
-    """Marks as PDF operators (ISO 32000-1, 8.5), which allow any dash and any outline."""
-
-    def __init__(self, pdf, height: float) -> None:
-        self.pdf, self.height = pdf, height
+    @contextmanager
+    def artifact(self) -> Iterator[None]:
+        """What is drawn inside is not read out."""
+        self.pdf._out("/Artifact BMC")
+        yield
+        self.pdf._out("EMC")
 
     def draw(self, mark: Mark) -> None:
         match mark:
             case Box():
                 self._box(mark)
+            case Raster(center=(x, y), size=(w, h)):
+                self.pdf.image(raster_png(mark), x - 0.5 * w, y - 0.5 * h, w, h)
             case Disc():
                 self._disc(mark)
             case Shape() if mark.holes:
@@ -71,11 +110,18 @@ class _Page:
                         corners, filled, color if filled else None, None if filled else Stroke(color, mark.stroke.width)
                     )
             case Text():
-                self._text(mark)
+                self.text(mark)
             case Formula():
                 self._formula(mark)
             case _:
                 raise TypeError(f"no PDF for {type(mark).__name__}")
+
+    def image(self, pixels: np.ndarray, where: Rectangle) -> None:
+        """An image of linear colours (height, width, 3) in a rectangle."""
+        from PIL import Image
+
+        left, top, right, bottom = where
+        self.pdf.image(Image.fromarray(srgb(pixels)), left, top, right - left, bottom - top)
 
     def path(self, corners: Sequence[Point], closed: bool, fill: Color | None, stroke: Stroke | None) -> None:
         self._paint(self._ring(corners, closed), fill, stroke)
@@ -114,10 +160,16 @@ class _Page:
     def _disc(self, disc: Disc) -> None:
         self._box(Box(disc.name, disc.center, (2 * disc.radius, 2 * disc.radius), disc.radius, disc.fill, disc.stroke))
 
-    def _text(self, text: Text) -> None:
-        with self.pdf.local_context(fill_opacity=text.color[3]):
+    def text(self, text: Text, bold: float = 0.0, apart: float = 0.0) -> None:
+        """One line of text; its letters are `bold` points wider on every side, and stand `apart` points farther away
+        from each other.
+        """
+        outlined = {"text_mode": "FILL_STROKE", "line_width": 2.0 * bold, "draw_color": rgb_bytes(text.color)}
+        with self.pdf.local_context(fill_opacity=text.color[3], **(outlined if bold else {})):
             self.pdf.set_font(FAMILY, size=text.size)
             self.pdf.set_text_color(*rgb_bytes(text.color))
+            if apart:
+                self.pdf.set_char_spacing(apart)  # until the end of this context
             self.pdf.text(text.box()[0], text.at[1] + BASELINE * text.size, boxed(text.content))
 
     def _formula(self, formula: Formula) -> None:

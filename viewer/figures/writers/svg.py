@@ -3,14 +3,16 @@
 `groups` and `outline_path` are also what figures and formulas in HTML are made of.
 """
 
+from base64 import b64encode
 from collections.abc import Callable, Iterable
 from xml.sax.saxutils import escape, quoteattr
 
 from viewer.base.theme import Color, rgb_bytes
 from viewer.figures.font import BASELINE, FALLBACK, FAMILY
 from viewer.figures.formula.typeset import Contour
-from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Raster, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
+from viewer.figures.writers.raster import raster_png
 from viewer.reopen.places import as_xml
 
 FONT = f"font-family={quoteattr(', '.join((repr(FAMILY), *FALLBACK)))}"  # the attribute of the root element
@@ -28,11 +30,11 @@ def write_svg(figure: Figure) -> bytes:
     ]
     known: set[str] = set()
 
-    def group(name: str, title: str, elements: list[str]) -> str:
+    def group(name: str, title: str, content: list[str]) -> str:
         # An id occurs once in a file: later groups of the same name have it as their class.
         kind = "class" if name in known else "id"
         known.add(name)
-        return "\n".join([f"<g {kind}={quoteattr(name)}>{title_element(title)}", *elements, "</g>"])
+        return "\n".join([f"<g {kind}={quoteattr(name)}>{title_element(title)}", *content, "</g>"])
 
     return "\n".join([*lines, *groups(figure, group), "</svg>", ""]).encode("utf-8")
 
@@ -45,7 +47,7 @@ def groups(figure: Figure, group: Callable[[str, str, list[str]], str]) -> Itera
     if figure.ground:
         yield f'<rect width="{_n(figure.width)}" height="{_n(figure.height)}"{_fill(figure.paper)}/>'
     for name, title, marks in figure.groups():
-        yield group(name, title, [element for mark in marks for element in _element(mark)])
+        yield group(name, title, [element for mark in marks for element in elements(mark)])
 
 
 def title_element(title: str) -> str:
@@ -58,12 +60,18 @@ def outline_path(outlines: Iterable[Iterable[Contour]]) -> str:
     return "".join(_contour(contour) for outline in outlines for contour in outline)
 
 
-def _element(mark: Mark) -> list[str]:
+def elements(mark: Mark) -> list[str]:
+    """The elements of one mark."""
     match mark:
         case Box():
             (x, y), (w, h) = mark.center, mark.size
             place = f'x="{_n(x - 0.5 * w)}" y="{_n(y - 0.5 * h)}" width="{_n(w)}" height="{_n(h)}"'
             return [f'<rect {place} rx="{_n(mark.radius)}"{_fill(mark.fill)}{_stroke(mark.stroke)}/>']
+        case Raster():
+            (x, y), (w, h) = mark.center, mark.size
+            place = f'x="{_n(x - 0.5 * w)}" y="{_n(y - 0.5 * h)}" width="{_n(w)}" height="{_n(h)}"'
+            look = 'preserveAspectRatio="none" image-rendering="pixelated"'
+            return [f'<image {place} {look} href="data:image/png;base64,{b64encode(raster_png(mark)).decode()}"/>']
         case Disc():
             place = f'cx="{_n(mark.center[0])}" cy="{_n(mark.center[1])}" r="{_n(mark.radius)}"'
             return [f"<circle {place}{_fill(mark.fill)}{_stroke(mark.stroke)}/>"]

@@ -4,8 +4,9 @@ By itself, it loads the class `standalone`. If a document class is loaded alread
 """
 
 from viewer.base.theme import Color, rgb_bytes
-from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Shape, Stroke, Text
+from viewer.figures.marks import Box, Disc, Figure, Formula, Line, Mark, Point, Raster, Shape, Stroke, Text
 from viewer.figures.writers.arrows import heads
+from viewer.figures.writers.raster import raster_runs
 
 # TeX's special characters, and letters that its usual fonts lack.
 SIGNS = {
@@ -54,6 +55,11 @@ def _draw(mark: Mark) -> list[str]:
             (x, y), (w, h) = mark.center, mark.size
             options = f"{_options(mark.fill, mark.stroke)},rounded corners={_n(mark.radius)}bp"
             return [f"\\path[{options}] {_point((x - w / 2, y - h / 2))} rectangle {_point((x + w / 2, y + h / 2))};"]
+        case Raster():  # a picture would be a file of its own
+            return [
+                f"\\fill[{_ink('fill', color)}] {_point(first)} rectangle {_point(last)};"
+                for color, first, last in raster_runs(mark)
+            ]
         case Disc():
             return [
                 f"\\path[{_options(mark.fill, mark.stroke)}] {_point(mark.center)} circle[radius={_n(mark.radius)}bp];"

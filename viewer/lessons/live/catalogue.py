@@ -6,7 +6,7 @@ Functions are named as "module:function" and imported when they are first used, 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING
@@ -33,6 +33,7 @@ class LiveKind:
     title: str
     function: str
     arguments: tuple[Argument, ...] = ()  # optional words after the name
+    click: str = ""  # the function that says what a click on a mark sets, from the mark's name
 
     def given(self, words: Sequence[str], world: World | None = None) -> dict[str, float]:
         """The parameters that these words set. ValueError for a word that is not allowed, and for too many."""
@@ -50,6 +51,10 @@ class LiveKind:
     def marks(self, context: LiveContext, parameters: Parameters, words: Sequence[str] = ()) -> list[Mark]:
         """The marks of the piece. Parameters go before words. ValueError with a line for the reader."""
         return resolve_name(self.function)(context, {**self.given(words, context.world), **parameters})
+
+    def clicked(self, name: str) -> Mapping[str, float]:
+        """The parameters that a click on a mark of this name sets; none for most marks."""
+        return resolve_name(self.click)(name) if self.click else {}
 
 
 def _number(word: str) -> float:
@@ -75,6 +80,13 @@ def _speed(word: str, _: World | None) -> float:
     return number
 
 
+def _place(word: str, _: World | None) -> float:
+    number = _number(word)
+    if not math.isfinite(number):
+        raise ValueError("a number of metres along the shore")
+    return number
+
+
 def _count(word: str, _: World | None) -> float:
     if not word.isdecimal():
         raise ValueError("a whole number")
@@ -88,20 +100,37 @@ def _light(word: str, world: World | None) -> float:
     return float(names.index(word))
 
 
+def _object(word: str, world: World | None) -> float:
+    names = [world.scene.object_name(k) for k in range(len(world.scene.objects))] if world else []
+    if word not in names:
+        raise ValueError(f"an object of the scene, {', '.join(names)}" if names else "an object of a scene")
+    return float(names.index(word))
+
+
 INDICES = (Argument("n1", _index), Argument("n2", _index))
-SPEEDS = (Argument("v1", _speed), Argument("v2", _speed))
+OBJECTS = (Argument("object", _object),)
+SPEEDS = (Argument("v1", _speed), Argument("v2", _speed), Argument("x", _place))
 
 LIVE = (
-    LiveKind("snell", "Snell's law", "viewer.lessons.live.snell:snell", INDICES),
-    LiveKind("lifeguard", "The lifeguard", "viewer.lessons.live.lifeguard:lifeguard", SPEEDS),
-    LiveKind("fresnel", "Fresnel's equations", "viewer.lessons.live.fresnel:fresnel", INDICES),
-    LiveKind("media", "Media and the speed of light", "viewer.lessons.live.media:media", INDICES),
-    LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.sphere:sphere"),
-    LiveKind("inside", "Inside a polygon or a triangle", "viewer.lessons.live.inside:inside_piece"),
-    LiveKind("phong", "Phong's terms", "viewer.lessons.live.phong:phong", (Argument("light", _light),)),
-    LiveKind("sum", "The sum of a hit", "viewer.lessons.live.sum:sum_piece"),
-    LiveKind("samples", "Samples of a pixel", "viewer.lessons.live.samples:samples", (Argument("count", _count),)),
-    LiveKind("hit", "The hit", "viewer.lessons.live.hit:hit"),
+    LiveKind("snell", "Snell's law", "viewer.lessons.live.pieces.snell:snell", INDICES),
+    LiveKind("lifeguard", "The lifeguard", "viewer.lessons.live.pieces.lifeguard:lifeguard", SPEEDS),
+    LiveKind("fresnel", "Fresnel's equations", "viewer.lessons.live.pieces.fresnel:fresnel", INDICES),
+    LiveKind(
+        "media", "Media and the speed of light", "viewer.lessons.live.pieces.media:media", INDICES,
+        "viewer.lessons.live.pieces.media:clicked",
+    ),
+    LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.pieces.sphere:sphere", OBJECTS),
+    LiveKind("inside", "Inside a polygon or a triangle", "viewer.lessons.live.pieces.inside:inside_piece", OBJECTS),
+    LiveKind("phong", "Phong's terms", "viewer.lessons.live.pieces.phong:phong", (Argument("light", _light),)),
+    LiveKind("sum", "The sum of a hit", "viewer.lessons.live.pieces.sum:sum_piece"),
+    LiveKind(
+        "samples", "Samples of a pixel", "viewer.lessons.live.pieces.samples:samples", (Argument("count", _count),),
+        "viewer.lessons.live.pieces.samples:clicked",
+    ),
+    LiveKind(
+        "difference", "What a depth adds", "viewer.lessons.live.pieces.difference:difference", (Argument("d", _count),)
+    ),
+    LiveKind("hit", "The hit", "viewer.lessons.live.pieces.hit:hit"),
 )  # fmt: skip
 LIVE_NAMES = tuple(kind.name for kind in LIVE)
 

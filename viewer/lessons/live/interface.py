@@ -45,13 +45,14 @@ class Interface:
 
 def interface_of(context: LiveContext, parameters: Parameters, piece: str) -> Interface:
     """The interface of the hit, or of the parameters `n1` and `n2`, which go before the hit; `theta1` goes before its
-    angle. ValueError without either, for an index that is not above 0 and for an angle outside 0 to 90 degrees.
+    angle. With one index only, the other is that of the hit, or 1. ValueError without either, for an index that is not
+    above 0 and for an angle outside 0 to 90 degrees.
     """
     theta1 = parameters.get("theta1")
     if theta1 is not None and not 0.0 <= theta1 <= MOST:
         raise ValueError(f"{piece}: theta1 must be from 0 to 90 degrees, got {theta1:g}")
     if "n1" in parameters or "n2" in parameters:
-        n1, n2 = (parameters.get(name, 1.0) for name in ("n1", "n2"))
+        n1, n2 = (parameters.get(name, _of_hit(context, name)) for name in ("n1", "n2"))
         for name, n in (("n1", n1), ("n2", n2)):
             if not 0.0 < n < math.inf:
                 raise ValueError(f"{piece}: {name} must be a number above 0, got {n:g}")
@@ -65,3 +66,9 @@ def interface_of(context: LiveContext, parameters: Parameters, piece: str) -> In
         raise ValueError(f"{piece}: {name} is opaque; it needs a hit on a transparent surface, or {words}")
     picked = math.degrees(float(row["theta1"]))
     return Interface(float(row["n1"]), float(row["n2"]), picked if theta1 is None else theta1, picked)
+
+
+def _of_hit(context: LiveContext, name: str) -> float:
+    """An index of the hit looked at; 1 where there is none."""
+    n = float(context.tree.nodes[context.row][name]) if context.tree else math.nan
+    return 1.0 if math.isnan(n) else n

@@ -1,5 +1,6 @@
 """Gives a lesson: one key leads to the next moment, another to the one before. Each moment is an absolute state."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Protocol
 
@@ -7,9 +8,11 @@ from tracer.kernel.world import World
 from viewer.base.files import Unusable
 from viewer.lessons import lesson as lessons
 from viewer.lessons.lesson import Lesson
-from viewer.lessons.moments import Moment, Shown, count_presses, shown_at, view_of
+from viewer.lessons.moments import Moment, Shown, count_presses, shown_at, sweep_share, view_of
 from viewer.lessons.step import COLOUR, DEPTH, Step
+from viewer.reopen.view_state import ViewState, merged
 from viewer.session.image_renderer import ImageRenderer, Job
+from viewer.session.lecture.sweeping import Sweeping
 from viewer.session.loading.opening import Opening
 from viewer.session.loading.scene_loader import SceneLoader
 from viewer.session.scene_on_show import image_limits
@@ -30,6 +33,7 @@ class Taught(Protocol):
 
     @property
     def opening(self) -> Opening | None: ...
+    def show_swept(self, opening: Opening) -> None: ...
     def show_moment(self, opening: Opening) -> None: ...
     def show_faults(self, faults: list[str]) -> None: ...
     def image_job(self, depth: int) -> Job: ...
@@ -43,6 +47,7 @@ class LessonPlayer:
 
     def __init__(self, session: Taught) -> None:
         self.session = session
+        self.sweeping = Sweeping(session)
         self.parameters: dict[str, float] = {}  # of the live pieces, by the names of their handles
         self.lines_too_many = 0  # of the step's text in its panel, when it was drawn last
         self.is_due = False  # whether the stage is to be shown as soon as there is a tree
@@ -75,23 +80,25 @@ class LessonPlayer:
 
     @property
     def stages(self) -> int:
-        """The stages of the step's reveal; 1 if it has none, or no tree yet."""
+        """The stages of the step's reveal; 1 if it has none, or no tree yet; 2, the ends, of its sweep."""
         step = self.step
         if not step or not step.state.reveal:
-            return 1
+            return 2 if step and step.state.sweep else 1
         if step.state.reveal == DEPTH:
             return (self.session.scene_depth if step.state.depth is None else step.state.depth) + 1
         return len(self._pages)
 
     @property
-    def _pages(self) -> range:
-        """The pages by ray that are the stages of the reveal."""
+    def _pages(self) -> Sequence[int]:
+        """The pages by ray that are the stages of the reveal. Those that only add rays of hidden kinds are left out."""
         steps = self.session.reveal.steps
         if not steps or not self.step:
             return range(1)
         if self.step.state.reveal == COLOUR:
             return range(steps.count_reveals - 1, len(steps))
-        return range(steps.count_reveals)
+        shown = {*self.step.state.show, "camera"}
+        kinds = [{steps.tree.kind(row) for row in steps[k].current} for k in range(steps.count_reveals)]
+        return [k for k, added in enumerate(kinds) if added & shown]
 
     # --- going on -----------------------------------------------------------------------------------------------------
 
@@ -100,8 +107,13 @@ class LessonPlayer:
         lesson, step, moment = self.lesson, self.step, self.moment
         if not lesson or not step:
             return False
+        if by > 0 and self.sweeping.finish():
+            return True
         press = moment.press + by
-        if 0 <= press <= count_presses(step, self.stages):
+        if step.state.sweep and (moment.press, press) == (0, 1):
+            self.show(lesson, Moment(moment.step, press), 0.0)
+            self.sweeping.play()
+        elif 0 <= press <= count_presses(step, self.stages):
             self.show(lesson, Moment(moment.step, press))
         elif 0 <= moment.step + by < len(lesson.steps):
             self.show(lesson, Moment(moment.step + by, 0 if by > 0 else LAST))
@@ -117,23 +129,22 @@ class LessonPlayer:
 
     def _go_to_lesson(self, lesson: Lesson, by: int) -> None:
         """Go to the beginning of the next lesson, or to the end of the one before."""
-        names = lessons.names()
-        is_own = lesson.path.absolute().parent == lessons.folder() / lesson.name
-        k = names.index(lesson.name) + by if is_own else -1
-        if not 0 <= k < len(names):
+        name = lessons.neighbour(lesson, by)
+        if name is None:
             self.session.notice.say(f"the {'first' if by < 0 else 'last'} step of {lesson.title}")
             return
         try:
-            other = lessons.read(names[k])
+            other = lessons.read(name)
         except Unusable as unusable:
             self.session.show_faults(list(unusable.faults))
             return
         self.show(other, Moment() if by > 0 else Moment(len(other.steps) - 1, LAST))
 
-    def show(self, lesson: Lesson, moment: Moment) -> None:
-        """Show a moment of a lesson."""
+    def show(self, lesson: Lesson, moment: Moment, swept: float | None = None) -> None:
+        """Show a moment of a lesson, or a place of its step's sweep."""
+        self.sweeping.stop()
         self.parameters = {}
-        self.session.show_moment(self._opening(lesson, moment))
+        self.session.show_moment(self._opening(lesson, moment, swept))
 
     def look_ahead(self) -> None:
         """Prepare what the next presses show: scenes of the neighbouring steps, and images."""
@@ -155,10 +166,12 @@ class LessonPlayer:
         self.session.image.prepare(jobs)
         for opening in waiting:
             self.session.loader.prepare(opening, lambda world: self.look_ahead())
+        self.sweeping.prepare(lambda world: None)
 
-    def _opening(self, lesson: Lesson, moment: Moment) -> Opening:
+    def _opening(self, lesson: Lesson, moment: Moment, swept: float | None = None) -> Opening:
         step = lesson.step_at(moment.step)
-        state = replace(view_of(step), at=(moment.step + 1, moment.press))
+        place = ViewState(at=(moment.step + 1, moment.press), swept=swept)
+        state = merged(view_of(step, sweep_share(step, place)), place)
         return Opening(step.scene, lesson, state, is_return=True, shows_stage=True, sets_view=True)
 
     def show_stage(self) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from viewer.lessons.lesson import Lesson
-from viewer.lessons.moments import Moment
+from viewer.lessons.moments import Moment, sweep_share
 from viewer.lessons.step import Step
 from viewer.reopen.scene_files import SceneFiles
 from viewer.reopen.view_state import UNCHANGED, ViewState
@@ -31,9 +31,24 @@ class InLesson:
         return self.lesson and self.lesson.step_at(self.moment.step)
 
     @property
+    def share(self) -> float:
+        """How far the step's sweep has gone, 0 to 1."""
+        return sweep_share(self.step, self.state)
+
+    @property
     def changes(self) -> Mapping[str, Any]:
         """The values of the scene that the step replaces."""
-        return self.step.state.set if self.step else {}
+        return self.step.state.swept(self.share).set if self.step else {}
+
+    @property
+    def between(self) -> tuple[float, float] | None:
+        """The place in the image to which the step's sweep has gone, if it is between pixels and the state has no other
+        pixel than the nearest one. In pixels from the centre of pixel (0, 0).
+        """
+        sweep = self.step.state.sweep if self.step else None
+        if not sweep or not sweep.is_pixel or self.state.pixel != sweep.pixel(self.share):
+            return None
+        return sweep.between(self.share)
 
     def at_its_step(self) -> Self:
         """The same, with the scene of the lesson's step."""
@@ -50,6 +65,7 @@ class Opening(InLesson):
     is_return: bool = False  # to a place that was looked at before
     shows_stage: bool = False  # of the reveal of the lesson's step, after the presses that the state says
     sets_view: bool = False  # the state is taken over even if the scene is on show already
+    keeps_view: bool = False  # the scene is the one on show with another value: pixel, depth and view stay
     figure: Path | None = None  # whose copy of the scene this is
     files: SceneFiles | None = None  # the content of the scene's files, when it is loaded
     note: str = ""  # a notice for when it is shown

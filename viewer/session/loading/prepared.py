@@ -4,10 +4,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tracer.kernel.world import World
+from viewer.lessons.sweep import STOPS
 from viewer.session.loading.file_watch import Stamp, stamp
 from viewer.session.loading.opening import Opening
 
-MOST = 6  # scenes kept
+MOST = STOPS + 8  # scenes kept: those of a sweep, and of the neighbouring steps
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class PreparedScenes:
         self.scenes: list[PreparedScene] = []
 
     def add(self, opening: Opening, world: World) -> None:
-        own = [opening.lesson.path] if opening.lesson else []
+        own = opening.lesson.files if opening.lesson else []
         stamps = {path: stamp(path) for path in (*world.scene.files, *own)}
         self.scenes = [scene for scene in self.scenes if not scene.opening.is_of(opening)]
         self.scenes = [*self.scenes, PreparedScene(opening, world, stamps)][-MOST:]

@@ -10,7 +10,7 @@ from tracer.kernel.world import World
 from tracer.printable import shown_path
 from viewer.base.files import Unusable
 from viewer.lessons.lesson import Lesson, read_file
-from viewer.lessons.moments import view_of
+from viewer.lessons.moments import sweep_share, view_of
 from viewer.reopen.places import is_figure
 from viewer.reopen.scene_files import SceneFiles, scene_files
 from viewer.reopen.view_state import UNCHANGED, ViewState, merged
@@ -114,7 +114,8 @@ class SceneLoader:
         again = replace(self.opening, lesson=lesson, sets_view=False, note="", instead=None)
         before, after = self.opening.step, again.step
         if before and after and before.state != after.state:  # the lesson's author has changed it
-            again = replace(again, state=replace(view_of(after), at=again.state.at), sets_view=True, shows_stage=True)
+            state = replace(view_of(after, again.share), at=again.state.at, swept=again.state.swept)
+            again = replace(again, state=state, sets_view=True, shows_stage=True)
         self.load(again.at_its_step())
 
     def look(self) -> None:
@@ -138,7 +139,7 @@ class SceneLoader:
         """Look at the files of an opening that are known before it is read."""
         self.watch.follow(opening.path)
         if opening.lesson:
-            self.watch.follow_also([opening.lesson.path])
+            self.watch.follow_also(opening.lesson.files)
 
     def _finish(self, loading: "Future[tuple[World, Opening]]", opening: Opening) -> None:
         if loading is not self.loading:
@@ -182,7 +183,10 @@ def with_lesson(state: ViewState, lesson: Lesson | None) -> ViewState:
     number = state.at[0] if state.at else 1
     if number > len(lesson.steps):
         raise Unusable(f"{shown_path(lesson.path)}: --at must be within 1 .. {len(lesson.steps)}, got {number}")
-    asked = view_of(lesson.steps[number - 1])
+    step = lesson.steps[number - 1]
+    if state.swept is not None and not (state.at and step.state.sweep):
+        raise Unusable(f"{shown_path(lesson.path)}: --swept is for a step with a sweep, as --at {number} is not")
+    asked = view_of(step, sweep_share(step, state))
     if not state.at:
         asked = ViewState(pixel=asked.pixel, sample=asked.sample, depth=asked.depth, model=asked.model)
     elif state.panels:

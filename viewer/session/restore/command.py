@@ -26,8 +26,9 @@ def scene_word(path: Path, lesson: Lesson | None, figure: Path | None = None) ->
     return lesson.name if folder == lessons.folder() / lesson.name else str(folder)
 
 
-def view_command(viewed: Viewed, scene: str, size: tuple[int, int]) -> str:
-    """The command line that opens an equal window. `size` is that of the window.
+def view_command(viewed: Viewed, scene: str, size: tuple[int, int], language: str = "") -> str:
+    """The command line that opens an equal window. `size` is that of the window, `language` that of the lesson's
+    translation.
 
     The 3D view is set to the numbers in the command line, which differ from it by rounding: so both are equal.
     """
@@ -35,7 +36,8 @@ def view_command(viewed: Viewed, scene: str, size: tuple[int, int]) -> str:
     restore_camera(viewed, state)
     plain = Appearance()
     new = ViewState(theme=plain.theme.name, type_size=type_size_of(plain))
-    return shell_line(["raytree", "view", scene, *words(differing(state, new)), "--size", SIZE.show(size)])
+    more = ["--language", language] if language else []
+    return shell_line(["raytree", "view", scene, *words(differing(state, new)), "--size", SIZE.show(size), *more])
 
 
 def embedded(files: SceneFiles, state: ViewState) -> Embedded:

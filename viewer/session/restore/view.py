@@ -6,7 +6,7 @@ from typing import Protocol, TypeVar
 from tracer.kernel.world import World
 from viewer.base.orbit import Frame, Orbit, orbit_beside
 from viewer.base.theme import DARK, LIGHT
-from viewer.reopen.view_state import GRANULARITIES, KINDS, ORDERS, SWITCHES, TYPE_SIZES, ViewState
+from viewer.reopen.view_state import GRANULARITIES, KINDS, LEFT, ORDERS, SWITCHES, TYPE_SIZES, ViewState
 from viewer.session.layout import Layout, usual_borders
 from viewer.session.stepping.reveal import Reveal
 from viewer.session.stepping.sample import SampleChoice
@@ -34,11 +34,14 @@ class Viewed(Protocol):
     model: str
     selection: str | None
     turn: float | None
+    inset: str
     reveal: Reveal
 
     def show_faults(self, faults: list[str]) -> None: ...
     @property
     def at(self) -> tuple[int, int] | None: ...
+    @property
+    def swept(self) -> float | None: ...
     @property
     def up(self) -> str: ...
     @property
@@ -51,6 +54,7 @@ def state_of(viewed: Viewed) -> ViewState:
     hidden = tuple(name for name in SWITCHES if not getattr(shown, name))
     return ViewState(
         at=viewed.at,
+        swept=viewed.swept,
         pixel=viewed.pixel,
         sample=(viewed.world and viewed.sample.number(viewed.world.scene)) or None,
         depth=viewed.depth,
@@ -71,14 +75,15 @@ def state_of(viewed: Viewed) -> ViewState:
         borders=_unless_usual(
             viewed.layout.borders(look.is_lecture_size), usual_borders(viewed.layout, look.is_lecture_size)
         ),
+        inset=_unless_usual(viewed.inset, LEFT),
         image_zoom=_pan_zoom(viewed.image_view),
         tree_zoom=_pan_zoom(viewed.tree_view),
     )
 
 
 def complete(state: ViewState) -> ViewState:
-    """The state with the values of a new window for the steps, the kinds of rays and the parts shown, if it has none:
-    a window that takes it over may show others.
+    """The state with the values of a new window for the steps, the kinds of rays, the parts shown and the inset, if it
+    has none: a window that takes it over may show others.
     """
     return replace(
         state,
@@ -86,6 +91,7 @@ def complete(state: ViewState) -> ViewState:
         order=state.order or ORDERS[0],
         filter=KINDS if state.filter is None else state.filter,
         hide=() if state.hide is None else state.hide,
+        inset=state.inset or LEFT,
     )
 
 
@@ -106,6 +112,7 @@ def restore(viewed: Viewed, state: ViewState, note: str = "") -> None:
             look.zoom, look.center = zoom[0], (zoom[1], zoom[2])
     viewed.sample.chosen = state.sample or 0
     viewed.turn = state.turn
+    viewed.inset = state.inset or viewed.inset
     viewed.reveal.ask(state.step, state.order, state.page)
     restore_camera(viewed, state)
     if state.panels or state.beside:

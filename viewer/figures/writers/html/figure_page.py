@@ -76,7 +76,7 @@ def _page(figure: Figure, k: int, title: str, numbers: Numbers, drawings: Drawin
 
 def _position(count: int) -> Iterator[str]:
     """The buttons that go through the pages. The script shows them."""
-    yield '<nav aria-label="Pages" hidden>'
+    yield '<nav class="position" aria-label="Pages" hidden>'
     yield '<button type="button" data-go="-1">Previous</button>'
     yield f'<p role="status" data-count="{count}"></p>'
     yield '<button type="button" data-go="1">Next</button>'

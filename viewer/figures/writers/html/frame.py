@@ -19,9 +19,20 @@ FOLDER = Path(__file__).parent
 COLORS = ("ground", "panel", "raised", "text", "muted", "accent", "border")  # of a theme, which the style uses
 
 
-def framed(title: str, body: Sequence[str], theme: Theme, head: Sequence[str] = ()) -> bytes:
-    """The page as UTF-8. `body` and `head` are lines of HTML, `title` is text."""
-    style, script = f"{_colors(theme)}\n{_shipped('page.css')}", _shipped("page.js")
+def framed(
+    title: str,
+    body: Sequence[str],
+    theme: Theme,
+    head: Sequence[str] = (),
+    style: str = "",
+    script: str = "",
+    schemes: str = "",
+) -> bytes:
+    """The page as UTF-8. `body` and `head` are lines of HTML, `title` is text. `style` and `script` are added to those
+    of every page. `schemes` are the values of `color-scheme`, if it is not that of the theme alone.
+    """
+    style = f"{root_colors(theme)}\n{shipped(FOLDER / 'page.css')}{style}"
+    script = f"{shipped(FOLDER / 'page.js')}{script}"
     policy = (
         f"default-src 'none'; style-src {_hash(style)}; script-src {_hash(script)}; img-src data:; "
         "base-uri 'none'; form-action 'none'"
@@ -33,7 +44,7 @@ def framed(title: str, body: Sequence[str], theme: Theme, head: Sequence[str] = 
         '<meta charset="utf-8">',
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
-        f'<meta name="color-scheme" content="{"dark" if theme.dark else "light"}">',
+        f'<meta name="color-scheme" content="{schemes or ("dark" if theme.dark else "light")}">',
         *head,
         f"<title>{text(title)}</title>",
         f"<style>{style}</style>",
@@ -53,15 +64,16 @@ def text(content: str) -> str:
     return escape(printable(content))
 
 
-def _colors(theme: Theme) -> str:
+def root_colors(theme: Theme) -> str:
     """The theme's colours as custom properties of CSS."""
     named = {name: "#{:02X}{:02X}{:02X}".format(*rgb_bytes(getattr(theme, name))) for name in COLORS}
     return f":root {{ {' '.join(f'--{name}: {code};' for name, code in named.items())} }}"
 
 
 @cache
-def _shipped(name: str) -> str:
-    return (FOLDER / name).read_text("utf-8")
+def shipped(path: Path) -> str:
+    """The text of a file of the program."""
+    return path.read_text("utf-8")
 
 
 def _hash(content: str) -> str:

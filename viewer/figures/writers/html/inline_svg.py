@@ -5,9 +5,6 @@ belong to a ray have `data-ray`: what has the same value, in any figure of the p
 for the ray in its figure also has a name (`aria-label`), and `data-numbers`, the id of the article about it.
 
 The script makes these groups focusable. Without it, the figure is one image with a name and a description.
-
-A handle of a figure could be an `<input type="range">` below it, named as the handle: each of its values is a page,
-written as all pages are, and the script shows the page of the value in place of the page of a position.
 """
 
 from collections.abc import Iterator, Mapping
@@ -18,6 +15,7 @@ from viewer.figures.picking import PICKED, ray_of
 from viewer.figures.writers.svg import FONT, groups, title_element
 
 SHORT = 200  # characters of elements that are not worth sharing
+KEPT = ("<text", "aria-label", "data-ray", "data-handle")  # parts of elements that are not shared
 BELONGING = (*PICKED, "angle-ray", "sum", "bar", "lights")  # marks that light up with their ray
 
 
@@ -28,8 +26,10 @@ class Drawings:
         self._names: dict[str, str] = {}  # ids, by the elements
 
     def shared(self, content: str) -> str:
-        """An element in place of these, if that is shorter. Texts stay where they are, to be found and read."""
-        if len(content) < SHORT or "<text" in content or "aria-label" in content:
+        """An element in place of these, if that is shorter. Texts stay where they are, to be found and read, and so do
+        the groups of rays.
+        """
+        if len(content) < SHORT or any(kept in content for kept in KEPT):
             return content
         return f'<use href="#{self._names.setdefault(content, f"drawing-{len(self._names)}")}"/>'
 
@@ -39,6 +39,47 @@ class Drawings:
             for content, name in self._names.items():
                 yield f'<g id="{name}">\n{content}\n</g>'
             yield "</defs></svg>"
+
+
+class Groups:
+    """Makes the groups of one figure, for `groups`.
+
+    `place` begins the ids of groups; without it, they have none. The other arguments are those of `inline_svg`.
+    """
+
+    def __init__(
+        self,
+        figure: Figure,
+        numbers: Mapping[int, str],
+        tree: str = "",
+        drawings: Drawings | None = None,
+        place: str = "",
+    ) -> None:
+        self.figure, self.numbers, self.tree, self.drawings, self.place = figure, numbers, tree, drawings, place
+        self._names = _names(figure)
+        self._known: set[str] = set()
+
+    def __call__(self, name: str, title: str, content: list[str]) -> str:
+        """The group of marks with this name and title, from their elements."""
+        row = row_of_mark(name)
+        own = f' data-mark="{escape(name)}"'
+        if self.place and name not in self._known:  # an id occurs once in a page
+            own = f' id="{self.place}-{escape(name)}"{own}'
+        self._known.add(name)
+        inner = "\n".join(content)
+        if row is None:
+            return f"<g{own}>{title_element(title)}\n{self.drawings.shared(inner) if self.drawings else inner}\n</g>"
+        own += f' data-ray="{self.tree}{row}"'
+        if name == self._names.get(row):
+            said = f' data-numbers="{self.numbers[row]}"' if row in self.numbers else ""
+            own += f' aria-label="{escape(_label(self.figure, row))}"{said}'
+            del self._names[row]
+        return f"<g{own}>\n{inner}\n</g>"
+
+
+def row_of_mark(name: str) -> int | None:
+    """The row of the ray that a mark lights up with; None for other marks."""
+    return ray_of(name.removesuffix("-label"), BELONGING)
 
 
 def inline_svg(
@@ -56,27 +97,13 @@ def inline_svg(
     the rays, by row. `tree` tells rays of different trees in one page apart.
     `drawings` takes what several figures of the page may share; without it, the fragment stands by itself.
     """
-    names = _names(figure)
-    known: set[str] = set()
+    group = Groups(figure, numbers, tree, drawings, place)
+    return [*opening(figure, labelled), *groups(figure, group), "</svg>"]
 
-    def group(name: str, title: str, elements: list[str]) -> str:
-        row = ray_of(name.removesuffix("-label"), BELONGING)
-        own = f' data-mark="{escape(name)}"'
-        if name not in known:  # an id occurs once in a page
-            own = f' id="{place}-{escape(name)}"{own}'
-        known.add(name)
-        content = "\n".join(elements)
-        if row is None:
-            return f"<g{own}>{title_element(title)}\n{drawings.shared(content) if drawings else content}\n</g>"
-        own += f' data-ray="{tree}{row}"'
-        if name == names.get(row):
-            said = f' data-numbers="{numbers[row]}"' if row in numbers else ""
-            own += f' aria-label="{escape(_label(figure, row))}"{said}'
-            del names[row]
-        return f"<g{own}>\n{content}\n</g>"
 
-    size = f"{figure.width:g} {figure.height:g}"
-    return [f'<svg role="img" {labelled} viewBox="0 0 {size}" {FONT}>', *groups(figure, group), "</svg>"]
+def opening(figure: Figure, labelled: str) -> list[str]:
+    """The first line of the SVG of a figure."""
+    return [f'<svg role="img" {labelled} viewBox="0 0 {figure.width:g} {figure.height:g}" {FONT}>']
 
 
 def _names(figure: Figure) -> dict[int, str]:

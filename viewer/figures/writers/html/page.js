@@ -120,7 +120,7 @@ document.addEventListener("DOMContentLoaded", () => {
       if (!(event.key in { Enter: 0, " ": 0, ArrowUp: 0, ArrowDown: 0 })) return;
       event.preventDefault();
       if (!event.key.startsWith("Arrow")) return keep(button);
-      const near = buttons.filter((b) => b.closest("svg") === button.closest("svg"));
+      const near = buttons.filter((b) => b.closest("svg") === button.closest("svg") && b.getClientRects().length);
       const next = near[near.indexOf(button) + (event.key === "ArrowUp" ? -1 : 1)];
       if (next) next.focus();
     });
@@ -129,6 +129,20 @@ document.addEventListener("DOMContentLoaded", () => {
     for (const b of buttons) if (b.closest("svg") === button.closest("svg")) b.tabIndex = b === button ? 0 : -1;
   }
   for (const button of [...buttons].reverse()) reachable(button);
+  document.addEventListener("frame", ({ target }) => { // another state of a figure, which may not have that ray
+    const near = buttons.filter((b) => target.contains(b) && b.getClientRects().length);
+    if (near.length && !near.some((b) => b.tabIndex === 0)) reachable(near[0]);
+  });
+  for (const link of all("a[data-to]")) { // from a text to a ray of its section
+    const button = () => buttonIn(link.closest("section"), link.dataset.to);
+    for (const kind of ["pointerenter", "focus"]) link.addEventListener(kind, () => show(button()));
+    const release = () => show(kept === null ? null : buttons.find((b) => b.dataset.ray === kept));
+    for (const kind of ["pointerleave", "blur"]) link.addEventListener(kind, release);
+    link.addEventListener("click", (event) => {
+      event.preventDefault();
+      keep(button());
+    });
+  }
   if (panel) {
     for (const article of all("article")) article.hidden = true;
     panel.querySelector(".hint").hidden = buttons.length === 0;
@@ -137,7 +151,7 @@ document.addEventListener("DOMContentLoaded", () => {
   // Pages
 
   const pages = all(".page");
-  const nav = document.querySelector("nav");
+  const nav = document.querySelector("nav.position");
   let at = 0;
 
   function go(to, address = true) {

@@ -18,6 +18,7 @@ from viewer.lessons.live.labels import Labels
 from viewer.lessons.live.page import with_caption
 from viewer.lessons.live.piece import LiveContext, Parameters
 
+SAMPLE = "sample"  # what a click sets: the sample of the pixel whose rays are on show
 DEFAULT, MOST = 16, 1024
 NUMBERED = 64  # points that have a number beside them and a colour at most
 MIDDLE = 0.5  # encoded luminance of a ground, from which on dark letters are read better than light ones
@@ -26,9 +27,11 @@ BLACK, WHITE = (0.0, 0.0, 0.0, 1.0), (1.0, 1.0, 1.0, 1.0)
 
 def samples(context: LiveContext, parameters: Parameters) -> list[Mark]:
     """The first `count` sample points in the pixel of the tree, else in pixel (0, 0), as an image of so many samples
-    has them. ValueError for a count that is no whole number from 1 to 1024.
+    has them; by default as many as those of the scene. The one whose tree is shown has a ring. ValueError for a count
+    that is no whole number from 1 to 1024.
     """
-    count = parameters.get("count", DEFAULT)
+    own = context.world.scene.image.samples if context.world else 1
+    count = parameters.get("count", DEFAULT if own == 1 else min(own, MOST))
     if not (count == int(count) and 1 <= count <= MOST):
         raise ValueError(f"samples: count must be a whole number from 1 to {MOST}, got {count:g}")
     x, y = (context.tree.pixel or (0, 0)) if context.tree else (0, 0)
@@ -64,11 +67,21 @@ def samples(context: LiveContext, parameters: Parameters) -> list[Mark]:
         Disc(f"sample-{k}", (left + u * extent, top + v * extent), radius, color, edge, title=f"{u:.4f}, {v:.4f}")
         for k, ((u, v), color) in enumerate(zip(points, colors, strict=True))
     ]
+    chosen = context.tree.sample if context.tree and own > 1 else None
+    if chosen is not None and chosen < len(dots):
+        ring = Disc("chosen", dots[chosen].center, 1.7 * radius, None, Stroke(theme.text, 2.0))
+        marks.append(ring)
     labels = Labels((left, top, left + extent, top + extent), size, theme, dots)
     for k, dot in enumerate(dots if len(points) <= NUMBERED and extent / side >= 3.0 * size else []):
         (cx, cy), away = dot.center, radius + 0.25 * size
         labels.place(dot.name, [str(k)], [((cx + away, cy), "start"), ((cx - away, cy), "end")], ink)
     return [*marks, *dots, *labels.marks]
+
+
+def clicked(name: str) -> dict[str, float]:
+    """A click on a point chooses that sample."""
+    kind, _, number = name.partition("-")
+    return {SAMPLE: float(number)} if kind == "sample" and number.isdecimal() else {}
 
 
 def sample_points(x: int, y: int, count: int) -> list[tuple[float, float]]:

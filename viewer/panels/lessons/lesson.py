@@ -5,13 +5,17 @@ import math
 from imgui_bundle import imgui
 
 from viewer.base.theme import Color
+from viewer.explain.listing import listing
 from viewer.gl.canvas import Canvas
+from viewer.lessons.expectation import conditions
 from viewer.lessons.text import Fence, filled
 from viewer.lessons.values import ABSENT, value_text
 from viewer.panels import draw as d
-from viewer.panels.live import draw_piece
+from viewer.panels.lessons.goal import draw_goal, goal_height
+from viewer.panels.lessons.live import draw_piece
+from viewer.panels.lessons.sweep import draw_handle
+from viewer.panels.lessons.text_flow import BETWEEN, Colors, TextFlow
 from viewer.panels.panel import Panel
-from viewer.panels.text_flow import BETWEEN, Colors, TextFlow
 from viewer.session.session import Session
 from viewer.session.view_state import Request
 
@@ -24,24 +28,51 @@ def draw(session: Session, canvas: Canvas) -> None:
     corner, (width, height) = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
     colors = Colors(session.appearance.theme, lambda target: _color(session, target))
     flow = TextFlow(colors, corner.x, corner.y, width)
-    flow.fence = lambda fence: _fence(session, canvas, flow, fence, corner.y + height)
+    goal = conditions(step.state.goal, session.tree, session.player.hit)
+    below = goal_height(goal, width)
+    bottom = corner.y + height - (below + BETWEEN * flow.em if below else 0.0)
+    flow.fence = lambda fence: _fence(session, canvas, flow, fence, bottom)
     flow.heading(step.title, TITLE, session.appearance.theme.accent)
     flow.y += 0.5 * BETWEEN * flow.em
+    taken = draw_handle(session, canvas, (corner.x, flow.y), width)
+    flow.y += taken + BETWEEN * flow.em if taken else 0.0
     for part in step.parts[: session.player.shown.parts]:
         flow.blocks(filled(part.blocks, lambda name: _value(session, name)))
+    draw_goal(session.appearance.theme, goal, (flow.x, flow.y), width)
+    flow.y += below + BETWEEN * flow.em if below else 0.0
+    used = flow.y - BETWEEN * flow.em - corner.y
     imgui.set_cursor_screen_pos(corner)
-    imgui.dummy((1.0, max(1.0, flow.y - corner.y)))
+    imgui.dummy((1.0, max(1.0, used)))
     line = imgui.get_text_line_height_with_spacing()
-    session.player.lines_too_many = max(0, math.ceil((flow.y - BETWEEN * flow.em - corner.y - height) / line))
+    session.player.lines_too_many = max(0, math.ceil((used - height) / line))
     _follow(session, canvas, flow.pointed)
 
 
 def _fence(session: Session, canvas: Canvas, flow: TextFlow, fence: Fence, bottom: float) -> bool:
-    """Draw a live piece, down to the bottom of the panel."""
-    if fence.kind != "live":
-        return False
-    flow.y += draw_piece(session, canvas, fence, (flow.x, flow.y), flow.width, bottom - flow.y)
+    """Draw a live piece, or the source text of a function. A piece reaches down to `bottom`, or is small if more text
+    follows.
+    """
+    match fence.kind:
+        case "live":
+            step = session.lesson_step
+            is_last = step is not None and fence is step.parts[-1].blocks[-1]
+            room = bottom - flow.y if is_last else 0.0
+            flow.y += draw_piece(session, canvas, fence, (flow.x, flow.y), flow.width, room)
+        case "source":
+            _source(flow, fence.argument)
+        case _:
+            return False
     return True
+
+
+def _source(flow: TextFlow, name: str) -> None:
+    """The text of the function that computes the numbers, with its file and line."""
+    try:
+        found = listing(name)
+    except ValueError as error:
+        flow.code([], str(error))
+    else:
+        flow.code(found.lines, found.place)
 
 
 def _value(session: Session, name: str) -> str:

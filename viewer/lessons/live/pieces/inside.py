@@ -7,7 +7,17 @@ triangle, the barycentric coordinates of a point are the shares of three triangl
 import numpy as np
 
 from viewer.base.theme import faded
-from viewer.explain.intersection import Flat, barycentric, flattened, hit_face, inside_section, verdict
+from viewer.explain.intersection import (
+    Flat,
+    barycentric,
+    flattened,
+    format_share,
+    hit_face,
+    inside_section,
+    plane_point,
+    shape_tested,
+    verdict,
+)
 from viewer.figures.marks import Disc, Line, Mark, Point, Rectangle, Shape, Stroke, widened
 from viewer.lessons.live.labels import Labels
 from viewer.lessons.live.page import lay_out
@@ -20,19 +30,24 @@ BEYOND = 0.06  # length of the ray beyond the outline, as a share of its width
 TINT = 0.3
 
 
-def inside_piece(context: LiveContext, _: Parameters) -> list[Mark]:
-    """The picture and the numbers of the hit. ValueError where the ray meets a shape without straight sides."""
-    tree, _world, name = context.hit("inside")
-    row = tree.nodes[context.row]
-    corners, section = hit_face(tree, context.row), inside_section(tree, context.row)
-    if corners is None or section is None:
-        shape = tree.scene.objects[int(row["object"])].shape.name
-        raise ValueError(f"inside: {name} is a {shape}; it needs a hit on a polygon, a triangle or a mesh")
-    flat = flattened(corners, row["point"])
+def inside_piece(context: LiveContext, parameters: Parameters) -> list[Mark]:
+    """The picture and the numbers of the hit, or of the point where the ray meets the plane of the parameter `object`.
+    ValueError for a shape without straight sides, and where the ray does not meet its plane.
+    """
+    tree, name, number = context.tested("inside", parameters)
+    corners, met = hit_face(tree, context.row, number), plane_point(tree, context.row, number)
+    section = inside_section(tree, context.row, number)
+    if corners is None:
+        shape = shape_tested(tree, context.row, number)
+        found = shape.name if shape else "background"
+        raise ValueError(f"inside: {name} is a {found}; it needs a hit on a polygon, a triangle or a mesh")
+    if met is None or section is None:
+        raise ValueError(f"inside: {tree.label(context.row)} does not meet the plane of {name}")
+    flat = flattened(corners, met[1])
     if len(corners) == 3:
-        shares = barycentric(corners, row["point"])
-        brief = ", ".join(f"{letter} = {share:.3f}" for letter, share in zip("αβγ", shares, strict=True))
-        picture, text = lay_out(context, [section], [f"{brief}, sum {sum(shares):.3f}", brief])
+        shares = barycentric(corners, met[1])
+        brief = ", ".join(f"{letter} = {format_share(share)}" for letter, share in zip("αβγ", shares, strict=True))
+        picture, text = lay_out(context, [section], [f"{brief}, sum {format_share(sum(shares))}", brief])
         return [*_Picture(flat, picture, context).triangle(shares), *text]
     count = len(flat.crossings())
     picture, text = lay_out(context, [section], [f"sides crossed: {verdict(count)}", verdict(count)])
@@ -43,7 +58,7 @@ class _Picture:
     def __init__(self, flat: Flat, where: Rectangle, context: LiveContext) -> None:
         self.flat, self.where, self.size, self.theme = flat, where, context.size, context.theme
         left, top, right, bottom = widened(where, -MARGIN * self.size)
-        outline = np.array(flat.outline)
+        outline = np.array([*flat.outline, flat.point])
         low, high = outline.min(axis=0), outline.max(axis=0)
         self.high, self.wide = float(high[0]), float(high[0] - low[0])
         high = high + np.array([2.0 * BEYOND * self.wide, 0.0])
@@ -88,7 +103,7 @@ class _Picture:
         middles = []
         for k, (kind, letter) in enumerate(zip(KINDS, "αβγ", strict=True)):
             part = (self.p, self.corners[(k + 1) % 3], self.corners[(k + 2) % 3])
-            title = f"{letter} = {shares[k]:.4f}"
+            title = f"{letter} = {format_share(shares[k], 4)}"
             marks.append(
                 Shape(f"part-{k}", part, faded(theme.ray(kind), TINT), Stroke(theme.ray(kind), 1.4), title=title)
             )
@@ -100,7 +115,7 @@ class _Picture:
         for corner, letter in zip(self.corners, "abc", strict=True):
             labels.beside("corner", [letter], corner, theme.text)
         for k, letter in enumerate("αβγ"):
-            words = [f"{letter} = {shares[k]:.3f}", letter]
+            words = [f"{letter} = {format_share(shares[k])}", letter]
             labels.place(f"part-{k}", words, [(middles[k], "middle")], theme.text)
         labels.beside("point", ["p"], self.p, theme.text)
         return [*marks, *labels.marks]

@@ -19,6 +19,7 @@ from viewer.lessons import text
 from viewer.lessons.text import Block, Fence, Inline, InlineFormula, Items, Paragraph, Quote, Run, Table
 from viewer.panels import draw as d
 from viewer.panels.card import Card
+from viewer.panels.lessons.code import draw_code
 
 # In font sizes.
 LINE = 1.28  # from line to line
@@ -84,7 +85,7 @@ class TextFlow:
                 self._display(block.source)
             case Fence():
                 if not self.fence(block):
-                    self._code(block.content)
+                    self.code(block.content.rstrip("\n").split("\n"))
 
     def heading(self, content: str, size: float, color: Color | None = None) -> None:
         """A bold line, wrapped."""
@@ -133,25 +134,13 @@ class TextFlow:
         try:
             card.formula(source)
         except FormulaError:
-            self._code(source)
+            self.code([source])
         else:
             self.y = card.y
 
-    def _code(self, content: str) -> None:
-        font, size = d.font(d.SOURCE), 0.94 * self.em
-        lines = content.rstrip("\n").split("\n")
-        high = len(lines) * 1.2 * size + 0.6 * self.em
-        widest = max(_text_width(d.SOURCE, line or " ", size) for line in lines)
-        size *= min(1.0, (self.width - 0.8 * self.em) / widest)
-        plate = self._ink(faded(self.colors.theme.muted, 0.16))
-        self.pad.add_rect_filled((self.x, self.y), (self.x + self.width, self.y + high), plate, 0.25 * self.em)
-        y = self.y + 0.3 * self.em
-        for line in lines:
-            self.pad.add_text(
-                font, size, (round(self.x + 0.4 * self.em), round(y)), self._ink(self.colors.theme.text), line
-            )
-            y += 1.2 * size
-        self.y += high
+    def code(self, lines: Sequence[str], caption: str = "") -> None:
+        """Draw lines of source text."""
+        self.y += draw_code(self.colors.theme, (self.x, self.y), self.width, lines, caption)
 
     # --- lines --------------------------------------------------------------------------------------------------------
 

@@ -60,9 +60,9 @@ def media(context: LiveContext, parameters: Parameters) -> list[Mark]:
     for k, row in enumerate(rows):
         y = top + (k + 1.5) * ROW * size
         name, title = f"medium-{row.name}", f"{row.name}: v = {SPEED / row.n:.0f} km/s"
-        if row.emphasised:
-            place, extent = (0.5 * (left + right), y), (right - left, ROW * size)
-            marks.append(Box(name, place, extent, 3.0, faded(theme.accent, TINT), None, title=title))
+        place, extent = (0.5 * (left + right), y), (right - left, ROW * size)
+        tint = faded(theme.accent, TINT) if row.emphasised else None
+        marks.append(Box(name, place, extent, 3.0, tint, None, title=title))  # all of the row can be clicked
         ink = theme.accent if row.emphasised else theme.text
         marks.append(Text(name, (left + 0.2 * size, y), row.name, size, ink, "start", title=title))
         marks.append(Text(name, (columns[1], y), format_number(row.n), size, ink, "end"))
@@ -84,6 +84,13 @@ def media(context: LiveContext, parameters: Parameters) -> list[Mark]:
     content = words if text_width(words, size) <= right - left else short
     marks.append(Text("n", (left, axis + 2.25 * size), content, size, theme.text, "start"))
     return marks
+
+
+def clicked(name: str) -> dict[str, float]:
+    """A click on a medium puts the handle there, and makes it the medium behind the surface for other pieces."""
+    kind, _, medium = name.partition("-")
+    n = INDICES.get(medium) if kind == "medium" else None
+    return {} if n is None else {"n": n, "n2": n}
 
 
 def _steps() -> list[float]:

@@ -15,8 +15,8 @@ from viewer.figures.marks import Mark, Stroke
 from viewer.lessons.live.interface import MOST, Interface, interface_of
 from viewer.lessons.live.page import lay_out
 from viewer.lessons.live.piece import LiveContext, Parameters
+from viewer.lessons.live.pieces.snell import DEGREES, TINT
 from viewer.lessons.live.plot import Axis, Plot
-from viewer.lessons.live.snell import DEGREES, TINT
 
 SHARES = (0.25, 0.5, 1.0)  # distances of ticks
 

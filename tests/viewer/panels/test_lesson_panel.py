@@ -1,0 +1,111 @@
+"""The panel of a lesson: the task of a step is ticked off while it is reached; marks of live pieces are clicked."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.viewer.driver import Driver, viewer
+from viewer.figures.marks import Box, Disc
+from viewer.lessons.expectation import conditions
+from viewer.lessons.lesson import read_file
+from viewer.lessons.live.pieces.samples import sample_points
+from viewer.lessons.moments import Moment
+from viewer.lessons.skeleton import SCENE
+
+TEXT = """\
++++
+title = "Mine"
+question = "Why?"
+pixel = [160, 150]
++++
+## Your turn
+```step
+panels = ["scene"]
+goal = { object = "floor", children = [] }
+```
+Find the floor.
+"""
+
+
+def accents(driver: Driver) -> int:
+    """The pixels of the colour of ticks in the right third of the window, where the lesson stands."""
+    driver.session.notice.text = ""
+    driver.frames()
+    color = 255.0 * np.array(driver.session.appearance.theme.accent[:3])
+    picture = driver.picture()[60:-60, 860:]
+    return int((np.abs(picture - color).max(axis=2) < 3.0).sum())
+
+
+def test_a_goal_is_ticked_off_while_it_holds(tmp_path: Path) -> None:
+    (tmp_path / "scene.toml").write_text(SCENE, "utf-8")
+    (tmp_path / "lesson.md").write_text(TEXT, "utf-8")
+    lesson = read_file(tmp_path / "lesson.md")
+    with viewer() as driver:
+        session = driver.session
+        session.player.show(lesson, Moment())
+        driver.app.settle()
+
+        def holds() -> list[tuple[str, bool]]:
+            found = conditions(lesson.first.state.goal, session.tree, session.player.hit)
+            return [(condition.words, condition.holds) for condition in found]
+
+        words = ["the ray meets floor", "no ray goes on"]
+        assert holds() == list(zip(words, (False, False), strict=True))
+        before = accents(driver)
+        session.pick(160, 200)
+        assert holds() == list(zip(words, (True, True), strict=True))
+        assert accents(driver) > before + 100  # two discs with ticks
+        session.pick(160, 150)
+        assert accents(driver) == before
+        session.select(session.tree.find("R") if session.tree else None)
+        assert holds() == list(zip(words, (True, True), strict=True))  # the selected ray meets the floor
+
+
+def test_conditions_in_words() -> None:
+    goal = {"children": ["I"], "theta1": "48.7", "n2": "1", "TR": {"object": "ball"}, "R.end": "background"}
+    assert [one.words for one in conditions(goal, None, None)] == [
+        "total internal reflection", "θ₁ = 48.7°", "n₂ = 1", "TR meets ball", "R ends: background",
+    ]  # fmt: skip
+    assert not any(one.holds for one in conditions(goal, None, None))
+
+
+def clicked(driver: Driver, name: str) -> None:
+    """Click the middle of a mark of the live piece on show."""
+    ((line, (left, top, scale)),) = driver.canvas.live_places.items()
+    mark = next(mark for mark in driver.canvas.live[line].last if mark.name == name and isinstance(mark, (Box, Disc)))
+    driver.click(left + scale * mark.center[0], top + scale * mark.center[1])
+
+
+def show(driver: Driver, folder: Path, piece: str, scene: str = SCENE) -> None:
+    (folder / "scene.toml").write_text(scene, "utf-8")
+    head, _, _ = TEXT.partition("## Your turn")
+    (folder / "lesson.md").write_text(f"{head}## One\n```live\n{piece}\n```\n", "utf-8")
+    driver.session.player.show(read_file(folder / "lesson.md"), Moment())
+    driver.app.settle()
+
+
+def test_a_click_on_a_medium_sets_the_indices(tmp_path: Path) -> None:
+    with viewer() as driver:
+        show(driver, tmp_path, "media")
+        clicked(driver, "medium-glass")
+        assert driver.session.player.parameters == {"n": 1.52, "n2": 1.52}
+        clicked(driver, "medium-water")
+        assert driver.session.player.parameters == {"n": 1.33, "n2": 1.33}
+
+
+def test_a_click_on_a_sample_shows_its_tree(tmp_path: Path) -> None:
+    """The point of the piece is that of the tree; a scene whose pixels have one sample says so."""
+    scene = SCENE.replace("width = 320", "samples = 9\nwidth = 320")
+    with viewer() as driver:
+        show(driver, tmp_path, "samples", scene)
+        session = driver.session
+        for k in (5, 2):
+            clicked(driver, f"sample-{k}")
+            assert session.tree and session.tree.sample == k
+            x, y = sample_points(160, 150, 9)[k]
+            assert session.tree.image_point == pytest.approx((160 + x, 150 + y), abs=1e-12)
+        (tmp_path / "other").mkdir()
+        show(driver, tmp_path / "other", "samples 9")
+        clicked(driver, "sample-5")
+        assert session.tree and session.tree.sample is None and "has one sample" in session.notice.text

@@ -1,0 +1,1 @@
+"""The live pieces, one file each. `viewer.lessons.live.catalogue` lists them."""
