@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from imgui_bundle import imgui
 
+from tests.conftest import ALL_LESSONS
 from tests.viewer.driver import Driver, viewer
 from viewer.figures.marks import Handle, point_along
 from viewer.lessons import lesson as lessons
@@ -113,6 +114,27 @@ def test_two_keys_lead_through_every_moment_and_back(driver: Driver, mine: Lesso
         driver.press(K.page_up)
         driver.app.settle()
     assert session.player.moment == Moment()
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)
+@pytest.mark.parametrize("name", ALL_LESSONS)
+def test_every_lesson_is_given_from_start_to_end(driver: Driver, name: str) -> None:
+    """Every moment of a lesson is the same forwards and backwards, and there is one for each press."""
+    begin(driver, lessons.read(name))
+    session, seen = driver.session, list[tuple[Moment, np.ndarray]]()
+    while session.lesson and session.lesson.name == name and (not seen or session.player.moment != seen[-1][0]):
+        seen.append((session.player.moment, picture(driver)))
+        assert not session.faults
+        driver.press(K.page_down)
+        driver.app.settle()
+    assert [moment.step for moment, _ in seen] == sorted(moment.step for moment, _ in seen)
+    assert {moment.step for moment, _ in seen} == set(range(len(lessons.read(name).steps)))
+    session.player.show(lessons.read(name), seen[-1][0])
+    for moment, forwards in reversed(seen):
+        assert session.player.moment == moment
+        assert np.array_equal(picture(driver), forwards), moment
+        driver.press(K.page_up)
 
 
 def test_a_moment_is_the_same_after_wandering_off(driver: Driver, mine: Lesson) -> None:
