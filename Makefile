@@ -27,8 +27,8 @@ test: .venv/installed-dev
 	$(BIN)/python -c 'from tracer.image.warmup import fill_cache; fill_cache()'
 	$(BIN)/python -m pytest -q $(SIDE_BY_SIDE)
 
-# Also the slow tests: those with an office program and TeX, which take hundreds of megabytes, and those that compile
-# more kernels.
+# Also the slow tests: those with an office program and TeX, which take hundreds of megabytes, those that compile
+# more kernels, and more of the same.
 test-all: .venv/installed-dev
 	@sh .ci/system-packages '$(PROGRAMS) $(OFFICE)' '$(LIBRARIES)'
 	$(BIN)/python -m pytest -q $(SIDE_BY_SIDE) -m ''
