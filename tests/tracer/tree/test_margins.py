@@ -60,6 +60,7 @@ def test_many_planted_rays(scenes: Callable[[int], Scene]) -> None:
     assert missed == []
 
 
+@pytest.mark.slow
 def test_in_random_scenes_few_rows_could_have_gone_otherwise() -> None:
     rows = low = 0
     for seed in range(1500):

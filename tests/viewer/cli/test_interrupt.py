@@ -34,7 +34,13 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("name", CASES)
+# The same paths through the program as the others, with the other signal or in another command.
+SLOW = ("image, SIGTERM", "several", "few pixels, bounds", "measuring", "screenshot, SIGTERM")
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] if name in SLOW else []) for name in CASES]
+)
 def test_signal_ends_a_command_that_leaves_nothing_behind(name: str, tmp_path: Path) -> None:
     arguments, said, number = CASES[name]
     if "long.nff" in arguments:

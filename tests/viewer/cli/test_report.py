@@ -170,6 +170,7 @@ def test_faults_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert "folder not found" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_all_lessons_on_one_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, one_plot: None) -> None:
     """One lesson and three stiff trees: one chapter for the lesson, one for the trees; file names say whose data they
     hold.

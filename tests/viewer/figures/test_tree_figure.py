@@ -188,7 +188,7 @@ def width_of(line: Line, figure: Figure) -> float:
     return next(m.stroke.width for m in figure.marks if isinstance(m, Line) and m.name == line.name)
 
 
-@pytest.mark.parametrize("figure", ("tree", "both"))
+@pytest.mark.parametrize("figure", ("tree", pytest.param("both", marks=pytest.mark.slow)))
 def test_the_sum_at_a_hit_has_the_numbers_of_the_table(figure: str, worlds: dict[str, tracer.World]) -> None:
     """Each page that sums up a hit says how: local light, factors, colours of the children, colour."""
     for name in LESSONS:

@@ -132,8 +132,8 @@ def test_every_lesson_is_given_from_start_to_end(driver: Driver, name: str) -> N
     assert {moment.step for moment, _ in seen} == set(range(len(lessons.read(name).steps)))
     session.player.show(lessons.read(name), seen[-1][0])
     for moment, forwards in reversed(seen):
-        assert session.player.moment == moment
         assert np.array_equal(picture(driver), forwards), moment
+        assert session.player.moment == moment
         driver.press(K.page_up)
 
 
