@@ -12,6 +12,7 @@ from viewer.lessons.lesson import read_file
 from viewer.lessons.live.pieces.samples import sample_points
 from viewer.lessons.moments import Moment
 from viewer.lessons.skeleton import SCENE
+from viewer.session.layout import Corner
 
 TEXT = """\
 +++
@@ -29,11 +30,12 @@ Find the floor.
 
 
 def accents(driver: Driver) -> int:
-    """The pixels of the colour of ticks in the right third of the window, where the lesson stands."""
+    """The pixels of the colour of ticks in the panel of the lesson."""
     driver.session.notice.text = ""
     driver.frames()
     color = 255.0 * np.array(driver.session.appearance.theme.accent[:3])
-    picture = driver.picture()[60:-60, 860:]
+    left, top, width, height = map(round, driver.app.tiles.places[Corner.TOP_RIGHT])
+    picture = driver.picture()[top : top + height, left : left + width]
     return int((np.abs(picture - color).max(axis=2) < 3.0).sum())
 
 

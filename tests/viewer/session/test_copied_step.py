@@ -15,6 +15,7 @@ from viewer.lessons.skeleton import SCENE
 from viewer.lessons.step import LessonView, State
 from viewer.lessons.step_text import step_text
 from viewer.reopen.view_state import INSETS
+from viewer.session.layout import Corner
 from viewer.session.restore.view import state_of
 
 K = imgui.Key
@@ -51,7 +52,8 @@ def scene_picture(driver: Driver) -> np.ndarray:
     driver.app.settle()
     driver.session.notice.text = ""
     driver.frames(4)
-    return driver.picture()[:-40, :840].copy()
+    left, *_ = driver.app.tiles.places[Corner.TOP_RIGHT]  # of the lesson
+    return driver.picture()[:-40, : round(left)].copy()
 
 
 def test_a_copied_step_leads_back_to_the_view(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
