@@ -134,8 +134,13 @@ class Tiles:
             self._show(panel)
 
     def show_next(self) -> None:
-        """Of the panels that share a place at the lower right, show the one after that on show."""
-        panels, front = self._front(Corner.BOTTOM_RIGHT)
+        """Of the panels that share a place at the lower right, or beside a lesson at the lower left, show the one after
+        that on show.
+        """
+        place = Corner.BOTTOM_LEFT if self.session.layout.taught else Corner.BOTTOM_RIGHT
+        if place not in self._sharing():
+            return
+        panels, front = self._front(place)
         # The tree shares this place in lecture mode, except while it stands beside the panel in front.
         if self.session.layout.has_tree_beside(self.session.appearance.is_lecture_size):
             self._arrangement.front[Corner.BOTTOM_RIGHT] = "tree"

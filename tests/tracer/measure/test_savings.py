@@ -58,7 +58,8 @@ def test_what_is_left_out_would_change_no_picture(name: str, worlds: dict[str, t
             assert np.median(np.abs(first.pixels - second.pixels)) < 1e-14
         else:
             assert_same(first.pixels, second.pixels)
-    assert asked or name == "underwater"  # it needs all work that could be measured without another image
+    # These need all work that could be measured without another image.
+    assert asked or name in ("underwater", "scale", "panes")
     assert_same(*(image.pixels for image in shots(world, everything(world.scene, world.left_out))))
 
 

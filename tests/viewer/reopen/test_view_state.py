@@ -99,6 +99,6 @@ def test_a_line_for_the_shell_has_no_control_characters_and_reads_back() -> None
     assert run.stdout.split(b"\0")[:-1] == [word.encode("utf-8", "surrogateescape") for word in words]
 
 
-def test_view_options_are_the_state_and_three_more() -> None:
+def test_view_options_are_the_state_and_five_more() -> None:
     own = {item.name for item in fields(ViewOptions)} - {item.name for item in fields(ViewState)}
-    assert own == {"scene", "screenshot", "size"}
+    assert own == {"scene", "screenshot", "size", "speaker", "language"}

@@ -152,6 +152,18 @@ def test_a_moment_is_the_same_after_wandering_off(driver: Driver, mine: Lesson) 
     assert np.array_equal(picture(driver), before)
 
 
+def test_no_press_is_lost_while_a_scene_is_loaded(driver: Driver, mine: Lesson) -> None:
+    begin(driver, mine)
+    session = driver.session
+    session.player.show(mine, Moment(0, 1))
+    session.loader.prepared.scenes.clear()
+    session.player.go(1)
+    assert session.loader.loading and session.player.moment == Moment(0, 1)
+    session.player.go(1)
+    driver.app.settle()
+    assert session.player.moment == Moment(1, 1) and session.depth == 1
+
+
 def test_the_text_is_shown_as_far_as_it_is_revealed(driver: Driver, mine: Lesson) -> None:
     begin(driver, mine)
     player = driver.session.player
@@ -198,7 +210,11 @@ def test_the_next_moment_is_complete_in_the_first_frame(driver: Driver, mine: Le
     begin(driver, mine)
     session = driver.session
     for by in (K.page_down, K.page_down, K.page_down, K.page_up, K.page_up):
-        while session.loader.worker.submit(session.calls.run_posted).result() or session.image.aside:
+        while (
+            session.loader.worker.submit(session.calls.run_posted).result()
+            or session.image.aside
+            or session.image.ahead
+        ):
             session.image.runner.submit(lambda: None).result()
         before = session.player.moment
         driver.press(by)

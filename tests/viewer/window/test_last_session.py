@@ -124,14 +124,14 @@ def test_the_window_comes_back_as_it_was(tmp_path: Path) -> None:
         second.quit()
     assert kept_in(tmp_path) == last
     with program(tmp_path, "view", "plates") as third:  # a scene that is given takes nothing from the last session
-        third.until_kept("plates 3 dark")
+        third.until_kept("plates 5 dark")
         assert third.geometry()["WIDTH"] == view.SIZE[0]
         third.quit()
 
 
 def test_a_killed_program_has_kept_what_was_on_show(tmp_path: Path) -> None:
     with program(tmp_path, "view", "plates") as first:
-        first.until_kept("plates 3")
+        first.until_kept("plates 5")
         first.press("1")
         first.until_kept("plates 1")
         first.process.kill()
@@ -142,7 +142,7 @@ def test_a_killed_program_has_kept_what_was_on_show(tmp_path: Path) -> None:
 @pytest.mark.parametrize("manager", [True, False], ids=["with a window manager", "without"])
 def test_full_screen_and_back(tmp_path: Path, manager: bool) -> None:
     with program(tmp_path, "view", "plates", "--size", "900x600", display=None if manager else bare_screen()) as first:
-        first.until_kept("plates 3 dark")
+        first.until_kept("plates 5 dark")
         hand("windowmove", "--sync", first.window, 123, 145)
         first.until_kept("x=123, y=145.*full_screen=False")
         before = first.geometry()

@@ -103,23 +103,35 @@ class LessonPlayer:
     # --- going on -----------------------------------------------------------------------------------------------------
 
     def go(self, by: int) -> bool:
-        """Go to the next moment (1), or to the one before (-1). Returns False if no lesson is on show."""
-        lesson, step, moment = self.lesson, self.step, self.moment
-        if not lesson or not step:
+        """Go to the next moment (1), or to the one before (-1). Returns False if no lesson is on show.
+
+        A press counts from the moment that was asked for last, also while its scene is still being loaded.
+        """
+        coming = self._coming
+        opening = coming or self.session.opening
+        if not opening or not opening.lesson or not opening.step:
             return False
         if by > 0 and self.sweeping.finish():
             return True
+        lesson, step = opening.lesson, opening.step
+        moment, stages = (self.moment, self.stages) if coming is None else (opening.moment, _least_stages(step))
         press = moment.press + by
         if step.state.sweep and (moment.press, press) == (0, 1):
             self.show(lesson, Moment(moment.step, press), 0.0)
             self.sweeping.play()
-        elif 0 <= press <= count_presses(step, self.stages):
+        elif 0 <= press <= count_presses(step, stages):
             self.show(lesson, Moment(moment.step, press))
         elif 0 <= moment.step + by < len(lesson.steps):
             self.show(lesson, Moment(moment.step + by, 0 if by > 0 else LAST))
         else:
             self._go_to_lesson(lesson, by)
         return True
+
+    @property
+    def _coming(self) -> Opening | None:
+        """The moment of a lesson whose scene is being loaded."""
+        loader = self.session.loader
+        return loader.opening if loader.loading and loader.opening and loader.opening.shows_stage else None
 
     def come_back(self) -> bool:
         """Show the moment as it was, after wandering off. Returns False if no lesson is on show."""
@@ -185,6 +197,11 @@ class LessonPlayer:
         elif step.state.reveal:
             self.session.reveal.go_to(self._pages[self.shown.stage])
         self.look_ahead()
+
+
+def _least_stages(step: Step) -> int:
+    """The stages of a step without its tree: of its sweep exactly; of a reveal by rays, which needs the tree, two."""
+    return 2 if step.state.sweep or step.state.reveal else 1
 
 
 def _image_of(opening: Opening, world: World) -> Job:

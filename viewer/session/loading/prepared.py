@@ -4,11 +4,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tracer.kernel.world import World
-from viewer.lessons.sweep import STOPS
 from viewer.session.loading.file_watch import Stamp, stamp
 from viewer.session.loading.opening import Opening
 
-MOST = STOPS + 8  # scenes kept: those of a sweep, and of the neighbouring steps
+MOST = 6  # scenes kept, besides those of the sweep that is on show
 
 
 @dataclass(frozen=True)
@@ -29,8 +28,20 @@ class PreparedScenes:
     def add(self, opening: Opening, world: World) -> None:
         own = opening.lesson.files if opening.lesson else []
         stamps = {path: stamp(path) for path in (*world.scene.files, *own)}
-        self.scenes = [scene for scene in self.scenes if not scene.opening.is_of(opening)]
-        self.scenes = [*self.scenes, PreparedScene(opening, world, stamps)][-MOST:]
+        others = [scene for scene in self.scenes if not scene.opening.is_of(opening)]
+        stops = [scene for scene in others if scene.opening.keeps_view]
+        steps = [scene for scene in others if not scene.opening.keeps_view]
+        new = [PreparedScene(opening, world, stamps)]
+        self.scenes = [*steps, *stops, *new] if opening.keeps_view else [*stops, *[*steps, *new][-MOST:]]
+
+    def leave_others(self, opening: Opening) -> None:
+        """Drop the scenes of sweeps in other steps than that of this opening."""
+        place = (opening.lesson, opening.moment.step)
+        self.scenes = [
+            scene
+            for scene in self.scenes
+            if not scene.opening.keeps_view or (scene.opening.lesson, scene.opening.moment.step) == place
+        ]
 
     def find(self, opening: Opening) -> PreparedScene | None:
         for scene in self.scenes:

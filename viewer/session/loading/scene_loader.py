@@ -57,6 +57,7 @@ class SceneLoader:
             self._fail(list(unusable.faults), opening)
             return
         self.opening = opening
+        self.prepared.leave_others(opening)
         self._follow(opening)
         if self.loading:
             self.loading.cancel()
