@@ -16,7 +16,7 @@ from viewer.lessons.live.piece import LiveContext, Parameters
 from viewer.lessons.live.plot import Axis, Plot
 
 DEGREES = (15.0, 30.0, 45.0, 90.0)  # distances of ticks
-TINT = 0.16  # opacity of the region of total internal reflection
+TINT = 0.08  # opacity of the region of total internal reflection
 
 
 def snell(context: LiveContext, parameters: Parameters) -> list[Mark]:
