@@ -121,6 +121,8 @@ class Session(Picked):
             self.update()
         else:
             self.loader.load(opening)
+            if not self.loader.loading:  # it was prepared: no frame is drawn without its rays and its image
+                self.update()
 
     def show_swept(self, opening: Opening) -> None:
         """Show another place of the step's sweep."""

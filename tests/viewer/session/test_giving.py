@@ -217,7 +217,11 @@ def test_the_next_moment_is_complete_in_the_first_frame(driver: Driver, mine: Le
         ):
             session.image.runner.submit(lambda: None).result()
         before = session.player.moment
-        driver.press(by)
+        imgui.get_io().add_key_event(by, True)
+        driver.frames(1)
+        first = driver.app.surface.grab()[:-40].copy()
+        imgui.get_io().add_key_event(by, False)
         assert session.player.moment != before and session.loader.loading is None
         assert session.image.picture and session.image.picture.finished and session.tree
+        assert np.array_equal(first, picture(driver)), session.player.moment
     assert session.player.moment == Moment(0, 1)
