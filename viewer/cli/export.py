@@ -34,12 +34,11 @@ def export(options: ExportOptions) -> int:
             return _list(made)
         if scene.state.depth is not None and not options.depth:
             options = replace(options, depth=range(scene.state.depth, scene.state.depth + 1))
-        is_between = scene.between and not options.pixel and not options.ray
-        if not options.pixel and not options.ray and not is_between:
+        if not (options.pixel or options.ray or scene.between):
             options = replace(options, pixel=scene.state.pixel)
         if options.sample is None and not options.ray:
             options = replace(options, sample=scene.state.sample)
-        if not options.pixel and not options.ray and not is_between:
+        if not (options.pixel or options.ray or scene.between):
             raise Unusable("raytree export: give a pixel (--pixel X,Y) or a ray (--ray ox,oy,oz,dx,dy,dz)")
         made = make_files(options, scene, target)
     return _list(made)
@@ -72,7 +71,7 @@ def make_files(options: ExportOptions, scene: FigureScene, target: Target) -> Ma
     compile_once()
     with faults():
         world = prepared(scene.path, options.up, changes=scene.changes)
-        if scene.between and not options.pixel and not options.ray:
+        if scene.between and not (options.pixel or options.ray):
             origin, direction = ray_between(world, scene.between)
             options = replace(options, ray=(*origin, *direction))
         with Progress("export") as progress:

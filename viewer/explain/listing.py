@@ -75,7 +75,7 @@ def _function(name: str) -> FunctionType:
 
 
 def _inner(owner: Any) -> dict[str, Any]:
-    """What can follow a name: functions and classes of the tracer, and modules (None: not imported yet)."""
+    """The parts that may follow a name: functions and classes of the tracer, and modules (None: not imported yet)."""
     found: dict[str, Any] = {}
     if isinstance(owner, ModuleType) and hasattr(owner, "__path__"):
         paths = sorted(path.name.removesuffix(".py") for place in owner.__path__ for path in Path(place).iterdir())
@@ -109,7 +109,7 @@ def wrapped_code(line: str, most: int) -> list[str]:
 
 
 def _cut(line: str, most: int) -> int:
-    """Where a line is broken: of good places the one in the fewest brackets, `and` and `or` before others, the last."""
+    """The place at which a line is broken: in the fewest brackets, `and` and `or` before others, and then the last."""
     inner = len(line) - len(line.lstrip())
     for least in (inner + SHORTEST * (most - inner), inner):
         for sign in CUTS:

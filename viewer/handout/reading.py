@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 import tracer
-from tracer.formulas.sampler import sample_number
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
 from viewer.base.files import Unusable
@@ -22,6 +21,7 @@ from viewer.handout.pictures import KINDS, Frame, Frames, Scenery, picture
 from viewer.handout.sentences import angles, of_stage
 from viewer.handout.sweeps import Position, positions
 from viewer.lessons.expectation import conditions
+from viewer.lessons.image_place import pixel_fault, pixel_tree
 from viewer.lessons.lesson import Lesson
 from viewer.lessons.step import COLOUR, DEPTH, RAYS, State, Step
 from viewer.lessons.text import Block, Fence, Items, Paragraph, Run, filled
@@ -94,14 +94,11 @@ class _Reader:
         image = world.scene.image
         if state.pixel is None:
             return []
-        x, y = state.pixel
-        if not (x < image.width and y < image.height):
-            allowed = f"within 0,0 .. {image.width - 1},{image.height - 1}"
-            raise Unusable(f"{lesson.path}:{step.line_of('pixel')}: pixel must be {allowed}, got {x},{y}")
+        if fault := pixel_fault((image.width, image.height), state.pixel):
+            raise Unusable(f"{lesson.path}:{step.line_of('pixel')}: {fault}")
         depth = world.scene.tracing.depth if state.depth is None else state.depth
         depths = range(depth + 1) if state.reveal == DEPTH else (depth,)
-        sample = sample_number(image.samples, state.sample)
-        return [tracer.trace(world, state.pixel, sample=sample, depth=d, model=state.model) for d in depths]
+        return [pixel_tree(world, state, d) for d in depths]
 
     def _show(self, step: Step, world: World, trees: Sequence[RayTree], swept: Sequence[Position]) -> Show:
         """The pictures of the step's panels, with the stages of its reveal or the positions of its sweep."""

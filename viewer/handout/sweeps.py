@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import tracer
-from tracer.formulas.sampler import sample_number
 from tracer.kernel.world import World
 from tracer.tree.raytree import RayTree
-from viewer.lessons.image_place import ray_between
+from viewer.lessons.image_place import pixel_tree, ray_between
 from viewer.lessons.step import Step
 from viewer.lessons.sweep import Sweep
 
@@ -37,9 +36,8 @@ def positions(step: Step, sweep: Sweep, world_of: Callable[[Mapping[str, Any]], 
 def _position(step: Step, sweep: Sweep, world_of: Callable[[Mapping[str, Any]], World], share: float) -> Position:
     state, between = step.state.swept(share), sweep.between(share)
     world = world_of(state.set)
-    how: dict[str, Any] = {"depth": state.depth, "model": state.model}
     if between:
-        tree = tracer.trace(world, ray=ray_between(world, between), **how)
+        tree = tracer.trace(world, ray=ray_between(world, between), depth=state.depth, model=state.model)
     else:
-        tree = tracer.trace(world, state.pixel, sample=sample_number(world.scene.image.samples, state.sample), **how)
+        tree = pixel_tree(world, state)
     return Position(world, tree, sweep.words(share), between or state.pixel or (0, 0))

@@ -20,6 +20,7 @@ from viewer.figures.export_options import TEXT_SIZE
 from viewer.figures.formula.typeset import typeset
 from viewer.figures.marks import HEIGHT, WIDTH
 from viewer.lessons.expectation import conditions, failures
+from viewer.lessons.image_place import pixel_fault, pixel_tree
 from viewer.lessons.language import translations
 from viewer.lessons.lesson import Lesson, read_file
 from viewer.lessons.live.catalogue import live_kind
@@ -131,17 +132,15 @@ class _Check:
         if state.pixel is None:
             yield from (Fault(f"{{{name}}}: the step has no pixel", line) for line, name in _values(step))
             return
-        x, y = state.pixel
-        if not (x < image.width and y < image.height):
-            allowed = f"within 0,0 .. {image.width - 1},{image.height - 1}"
-            yield Fault(f"pixel must be {allowed}, got {x},{y}", step.line_of("pixel"))
+        if fault := pixel_fault((image.width, image.height), state.pixel):
+            yield Fault(fault, step.line_of("pixel"))
             return
         try:
-            sample = sample_number(image.samples, state.sample)
+            sample_number(image.samples, state.sample)
         except ValueError as error:
             yield Fault(str(error), step.line_of("sample"))
             return
-        tree = tracer.trace(world, state.pixel, sample=sample, depth=state.depth, model=state.model)
+        tree = pixel_tree(world, state)
         if state.hit and tree.find(state.hit) is None:
             yield Fault(f"hit must be a ray of this pixel ({_paths(tree)}), got {state.hit}", step.line_of("hit"))
             return
@@ -193,11 +192,13 @@ class _Check:
         if not world or state.pixel is None:
             return
         image = world.scene.image
-        x, y = state.pixel
-        if not (x < image.width and y < image.height):
-            yield Fault(f"sweep: pixel must be within 0,0 .. {image.width - 1},{image.height - 1}, got {x},{y}", line)
+        if fault := pixel_fault((image.width, image.height), state.pixel):
+            yield Fault(f"sweep: {fault}", line)
             return
-        tree = tracer.trace(world, state.pixel, depth=state.depth, model=state.model)
+        try:
+            tree = pixel_tree(world, state)
+        except ValueError:
+            return  # the sample: it is said of the step
         for _, fault in failures(state.sweep.expect, tree, state.hit):
             yield Fault(f"sweep: expect: {fault}", line)
 

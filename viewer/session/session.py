@@ -11,6 +11,7 @@ from tracer.kernel.world import World
 from tracer.printable import shown_path
 from viewer.base.orbit import Frame
 from viewer.figures.steps import Step
+from viewer.lessons.image_place import pixel_fault
 from viewer.lessons.moments import Moment
 from viewer.reopen.view_state import ViewState
 from viewer.session.call_queue import CallQueue
@@ -101,14 +102,13 @@ class Session(Picked):
         """A pixel outside the image is a fault. If the image has become smaller (`moves`), the pixel moves inside."""
         if not self.pixel:
             return
-        (x, y), (width, height) = self.pixel, self.size
-        inside = self.inside(x, y)
+        inside = self.inside(*self.pixel)
         if inside != self.pixel and not moves:
             step = self.lesson_step
             said = (
                 f"{shown_path(self.lesson.path)}: " if self.lesson and step and step.state.pixel == self.pixel else ""
             )
-            self.show_faults([f"{said}pixel must be within 0,0 .. {width - 1},{height - 1}, got {x},{y}"])
+            self.show_faults([said + pixel_fault(self.size, self.pixel)])
             self.put(None)
         elif inside != self.pixel:
             self.put(inside)

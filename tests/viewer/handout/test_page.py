@@ -1,13 +1,12 @@
 """A lesson as a page, in a real browser: stages, sweeps, handles, hidden parts, phones, schemes, screen readers."""
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 
 import html5lib
 import pytest
 
-from tests.viewer.chromium import Browser, chromium
+from tests.viewer.chromium import Browser
 from tests.viewer.figures.writers.test_html import ARTICLE, CONTRASTS, TAP, messages
 from tests.viewer.handout.sample import EVIL
 from viewer.figures.marks import Text
@@ -31,23 +30,10 @@ SEEN = "[...document.querySelectorAll({})].map(e => e.checkVisibility())"
 
 
 @pytest.fixture(scope="module")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    with chromium(tmp_path_factory.mktemp("profile")) as tab:
-        yield tab
-
-
-@pytest.fixture(scope="module")
 def page(handout: Handout, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("pages") / "glass.html"
     path.write_bytes(write_page(handout, COMMAND))
     return path
-
-
-@pytest.fixture
-def desktop(browser: Browser, page: Path) -> Browser:
-    browser.size(1280, 720)
-    browser.open(page.as_uri())
-    return browser
 
 
 def move_to(browser: Browser, place: str, position: int) -> str:

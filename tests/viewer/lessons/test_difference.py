@@ -1,4 +1,4 @@
-"""What a level adds to the image: the numbers are those of the trees, and the window never waits for them."""
+"""The light that a level adds to the image: its numbers are those of the trees, and the window never waits for them."""
 
 import re
 from pathlib import Path

@@ -46,7 +46,7 @@ def test_the_roots_of_a_sphere_agree_with_the_tree() -> None:
 
 
 def aside(offset: float, start: float = 5.0) -> tuple[str, list[Mark]]:
-    """What the piece says of a ray beside the centre of a ball of radius 1, and its marks."""
+    """The caption of the piece for a ray beside the centre of a ball of radius 1, and its marks."""
     seen = world_of(ball((offset, 0, 0)), ball((9, 0, 0), name="far"))
     tree = tracer.trace(seen, ray=((0.0, 0.0, start), (0.0, 0.0, -1.0)))
     for size in SIZES:

@@ -1,6 +1,5 @@
 """A lesson is given with two keys: every moment is an absolute state, the same forwards and backwards, bit by bit."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +7,7 @@ import pytest
 from imgui_bundle import imgui
 
 from tests.conftest import ALL_LESSONS
-from tests.viewer.driver import Driver, viewer
+from tests.viewer.driver import Driver
 from viewer.figures.marks import Handle, point_along
 from viewer.lessons import lesson as lessons
 from viewer.lessons.lesson import Lesson, read_file
@@ -71,12 +70,6 @@ def mine(tmp_path: Path) -> Lesson:
     (tmp_path / "scene.toml").write_text(SCENE, "utf-8")
     (tmp_path / "lesson.md").write_text(TEXT, "utf-8")
     return read_file(tmp_path / "lesson.md")
-
-
-@pytest.fixture
-def driver() -> Iterator[Driver]:
-    with viewer() as driver:
-        yield driver
 
 
 def begin(driver: Driver, lesson: Lesson) -> None:

@@ -2,7 +2,6 @@
 
 import json
 import math
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -72,12 +71,6 @@ def lesson(tmp_path: Path) -> Lesson:
     (tmp_path / "scene.toml").write_text(SCENE, "utf-8")
     (tmp_path / "lesson.md").write_text(LESSON, "utf-8")
     return read_file(tmp_path / "lesson.md")
-
-
-@pytest.fixture
-def driver() -> Iterator[Driver]:
-    with viewer() as driver:
-        yield driver
 
 
 def direction(world: tracer.World, x: float, y: float) -> np.ndarray:

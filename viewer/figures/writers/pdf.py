@@ -72,8 +72,8 @@ class PageDrawing:
 
     @contextmanager
     def tagged(self, kind: str, said: str = "") -> Iterator[None]:
-        """What is drawn inside is an element of the document's structure (ISO 32000-1, 14.8.4), like H1, P or Figure,
-        with this alternative text.
+        """Marks that are drawn inside are an element of the document's structure (ISO 32000-1, 14.8.4), like H1, P or
+        Figure, with this alternative text.
         """
         number = self.pdf.struct_builder.next_mcid_for_page(self.pdf.page)
         self.pdf._add_marked_content(struct_type=f"/{kind}", mcid=number, alt_text=said or None)

@@ -76,6 +76,11 @@ class Opening(InLesson):
         """The axis of a mesh file that points upwards."""
         return self.state.up
 
+    @property
+    def scene_key(self) -> tuple[Path, str, Mapping[str, Any]]:
+        """The scene's file and its values: two openings with equal keys are of one scene."""
+        return (self.path, self.up, self.changes)
+
     def is_of(self, other: "Opening") -> bool:
         """True if both open the same scene with the same values."""
-        return (self.path, self.up, self.changes) == (other.path, other.up, other.changes)
+        return self.scene_key == other.scene_key

@@ -1,7 +1,9 @@
 """Scenes that may be shown next, prepared in the background, so that a key of the lecturer shows them at once."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from tracer.kernel.world import World
 from viewer.session.loading.file_watch import Stamp, stamp
@@ -15,6 +17,7 @@ class PreparedScene:
     """A scene with the state of its files when it was read."""
 
     opening: Opening
+    key: tuple[Path, str, Mapping[str, Any]]  # of its opening, which would make it anew each time
     world: World
     stamps: dict[Path, Stamp]
 
@@ -28,10 +31,11 @@ class PreparedScenes:
     def add(self, opening: Opening, world: World) -> None:
         own = opening.lesson.files if opening.lesson else []
         stamps = {path: stamp(path) for path in (*world.scene.files, *own)}
-        others = [scene for scene in self.scenes if not scene.opening.is_of(opening)]
+        key = opening.scene_key
+        others = [scene for scene in self.scenes if scene.key != key]
         stops = [scene for scene in others if scene.opening.keeps_view]
         steps = [scene for scene in others if not scene.opening.keeps_view]
-        new = [PreparedScene(opening, world, stamps)]
+        new = [PreparedScene(opening, key, world, stamps)]
         self.scenes = [*steps, *stops, *new] if opening.keeps_view else [*stops, *[*steps, *new][-MOST:]]
 
     def leave_others(self, opening: Opening) -> None:
@@ -44,7 +48,8 @@ class PreparedScenes:
         ]
 
     def find(self, opening: Opening) -> PreparedScene | None:
+        key = opening.scene_key
         for scene in self.scenes:
-            if scene.opening.is_of(opening) and all(stamp(path) == was for path, was in scene.stamps.items()):
+            if scene.key == key and all(stamp(path) == was for path, was in scene.stamps.items()):
                 return scene
         return None

@@ -3,7 +3,6 @@
 import json
 import math
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 import html5lib
@@ -12,7 +11,7 @@ import pytest
 
 import tracer
 from tests.scenes import named_scene
-from tests.viewer.chromium import Browser, chromium
+from tests.viewer.chromium import Browser
 from tracer.kernel.nodes import SHADOW
 from tracer.printable import printable
 from tracer.tree.raytree import RayTree
@@ -66,24 +65,11 @@ CONTRASTS = """(() => {
 
 
 @pytest.fixture(scope="module")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    with chromium(tmp_path_factory.mktemp("profile")) as tab:
-        yield tab
-
-
-@pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Scene and tree of a lesson, at these depths."""
     path = tmp_path_factory.mktemp("pages") / "both.html"
     assert main(["export", LESSON, "--figure", "both", "--depth", f"{DEPTHS[0]}..{DEPTHS[-1]}", "-o", str(path)]) == 0
     return path
-
-
-@pytest.fixture
-def desktop(browser: Browser, page: Path) -> Browser:
-    browser.size(1280, 720)
-    browser.open(page.as_uri())
-    return browser
 
 
 @pytest.fixture(scope="module")

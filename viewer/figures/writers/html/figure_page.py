@@ -84,7 +84,7 @@ def _position(count: int) -> Iterator[str]:
 
 
 def _titles(titles: Sequence[str]) -> tuple[str, list[str]]:
-    """What the titles begin with, up to a comma, and the rest of each."""
+    """The common beginning of the titles, up to a comma, and the rest of each."""
     parts = [title.split(", ") for title in titles]
     if all(part == parts[0] for part in parts):
         return titles[0], ["" for _ in titles]

@@ -20,7 +20,7 @@ BELONGING = (*PICKED, "angle-ray", "sum", "bar", "lights")  # marks that light u
 
 
 class Drawings:
-    """What figures of one page have in common, such as the objects of a scene: each is in the page once."""
+    """Elements that the figures of one page share, such as the objects of a scene: each is in the page once."""
 
     def __init__(self) -> None:
         self._names: dict[str, str] = {}  # ids, by the elements
@@ -115,6 +115,6 @@ def _names(figure: Figure) -> dict[int, str]:
 
 
 def _label(figure: Figure, row: int) -> str:
-    """What is said of a ray in a sentence: the title of its marks."""
+    """The description of a ray: the title of its marks."""
     titled = (mark.title for mark in figure.marks if mark.title and ray_of(mark.name) == row)
     return next(titled, "") or next((one.name for one in figure.details if one.row == row), "")
