@@ -1,7 +1,7 @@
 """Drives the viewer without a screen: real GL, real panels, events put into imgui's own queue."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -20,8 +20,8 @@ from viewer.window.backend import Offscreen
 class Driver:
     """One viewer. Every action draws enough frames to take effect."""
 
-    def __init__(self, size: tuple[int, int] = (1280, 720)) -> None:
-        self.app = App(Offscreen(size), Session())
+    def __init__(self, size: tuple[int, int] = (1280, 720), languages: Sequence[str] | None = None) -> None:
+        self.app = App(Offscreen(size), Session(languages))
         self.session = self.app.session
         self.canvas = self.app.canvas
         self.provokes = False  # exceptions in the window, which are failures otherwise
@@ -162,8 +162,8 @@ def body(title: str) -> internal.Window:
 
 
 @contextmanager
-def viewer(size: tuple[int, int] = (1280, 720)) -> Iterator[Driver]:
-    driver = Driver(size)
+def viewer(size: tuple[int, int] = (1280, 720), languages: Sequence[str] | None = None) -> Iterator[Driver]:
+    driver = Driver(size, languages)
     try:
         yield driver
     finally:

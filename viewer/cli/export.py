@@ -8,13 +8,13 @@ from viewer.base.files import Unusable, collect
 from viewer.base.progress import Progress
 from viewer.base.streams import put
 from viewer.cli.loading import faults, found_scene, prepared
+from viewer.cli.place import ray_of, with_place
 from viewer.cli.terminal import compile_once
 from viewer.figures.export import Made, check_options, make
 from viewer.figures.export_options import ExportOptions
 from viewer.figures.targets import Target, target_of
 from viewer.handout.files import check_lesson_options, lesson_target, make_lesson
 from viewer.handout.reading import read_handout
-from viewer.lessons.image_place import ray_between
 from viewer.reopen.scene_files import scene_files
 from viewer.session.restore.command import embedded
 from viewer.session.restore.figure_scene import FigureScene
@@ -25,22 +25,14 @@ READING = 0.3  # the share of the time that an export of a lesson takes to trace
 def export(options: ExportOptions) -> int:
     with contextlib.ExitStack() as stack:
         scene, target, _ = collect(
-            lambda: stack.enter_context(found_scene(options.scene, options.at, options.swept)),
+            lambda: stack.enter_context(found_scene(options.scene, options.at, options.swept, options.language)),
             lambda: target_of(options),
             lambda: check_lesson_options(options) if options.lesson else check_options(options),
         )
         if options.lesson:
             made = make_lesson_files(options, scene, target)
             return _list(made)
-        if scene.state.depth is not None and not options.depth:
-            options = replace(options, depth=range(scene.state.depth, scene.state.depth + 1))
-        if not (options.pixel or options.ray or scene.between):
-            options = replace(options, pixel=scene.state.pixel)
-        if options.sample is None and not options.ray:
-            options = replace(options, sample=scene.state.sample)
-        if not (options.pixel or options.ray or scene.between):
-            raise Unusable("raytree export: give a pixel (--pixel X,Y) or a ray (--ray ox,oy,oz,dx,dy,dz)")
-        made = make_files(options, scene, target)
+        made = make_files(with_place(options, scene, "export"), scene, target)
     return _list(made)
 
 
@@ -71,8 +63,8 @@ def make_files(options: ExportOptions, scene: FigureScene, target: Target) -> Ma
     compile_once()
     with faults():
         world = prepared(scene.path, options.up, changes=scene.changes)
-        if scene.between and not (options.pixel or options.ray):
-            origin, direction = ray_between(world, scene.between)
+        if not (options.pixel or options.ray) and (ray := ray_of(world, scene)):
+            origin, direction = ray
             options = replace(options, ray=(*origin, *direction))
         with Progress("export") as progress:
             lesson = scene.lesson

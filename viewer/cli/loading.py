@@ -15,6 +15,7 @@ from viewer.base.files import Unusable, has_folder, is_there
 from viewer.base.progress import Progress
 from viewer.base.values import SCENE_HELP
 from viewer.lessons import lesson
+from viewer.lessons.language import check_language, wanted
 from viewer.lessons.lesson import Lesson
 from viewer.reopen.places import CARRYING, is_figure
 from viewer.reopen.view_state import UNCHANGED, ViewState, merged
@@ -24,21 +25,25 @@ from viewer.session.restore.figure_scene import FigureScene, FigureScenes
 LESSON_FILE = "lesson.md"
 
 
-def find(name: str, takes_figures: bool = False) -> tuple[Path, Lesson | None]:
-    """The scene's file, and the lesson if a lesson was named. Unusable if there is neither, or for a figure unless the
-    caller takes one.
+def find(name: str, takes_figures: bool = False, language: str | None = None) -> tuple[Path, Lesson | None]:
+    """The scene's file, and the lesson if a lesson was named, in this language or in that of the system. Unusable if
+    there is neither, for a language that the lesson does not have, and for a figure unless the caller takes one.
     """
     path = Path(name)
     if is_figure(path) and not takes_figures:
         raise Unusable(f"{name}: a figure is opened by raytree view, trace and export; a scene is {SCENE_HELP}")
     if file := lesson_file(path):
-        found = lesson.read_file(file)
-        return found.scene, found
+        return _read(file, language)
     if is_there(path) or path.suffix.lower() in (*READERS, *OTHER_MESHES, *CARRYING):
         return path, None
     if name not in lesson.names() and (path.suffix or len(path.parts) > 1):
         raise Unusable(f"{name}: a scene must be one of {', '.join(READERS)} or a lesson's name")
-    found = lesson.read(name)
+    return _read(lesson.file_of(name), language)
+
+
+def _read(file: Path, language: str | None) -> tuple[Path, Lesson]:
+    check_language(file, language)
+    found = lesson.read_file(file, wanted(language))
     return found.scene, found
 
 
@@ -56,18 +61,18 @@ def lesson_file(path: Path) -> Path | None:
 
 
 @contextlib.contextmanager
-def found_scene(name: str, at: tuple[int, int] | None = None, swept: float | None = None) -> Iterator[FigureScene]:
+def found_scene(
+    name: str, at: tuple[int, int] | None = None, swept: float | None = None, language: str | None = None
+) -> Iterator[FigureScene]:
     """The scene of a file, a lesson or a figure, with the state that it opens with. `at` is the place in a lesson, and
     `swept` that of its step's sweep. A copy that a figure carries is there until the end. Unusable if there is none.
     """
-    path, lesson = find(name, takes_figures=True)
-    if (at or swept is not None) and lesson is None and not is_figure(path):
-        raise Unusable(f"{name}: --{'at' if at else 'swept'} is for a lesson; this is a scene")
-    figures = FigureScenes()
+    path, lesson = find(name, True, language)
+    figures = FigureScenes(wanted(language))
     try:
         found = figures.find(path) if is_figure(path) else FigureScene(path, lesson, UNCHANGED, path.parent)
         state = merged(found.state, ViewState(at=at, swept=swept))
-        yield replace(found, state=with_lesson(state, found.lesson)).at_its_step()
+        yield replace(found, state=with_lesson(state, found.lesson, path)).at_its_step()
     finally:
         figures.close()
 

@@ -14,13 +14,16 @@ from viewer.base.values import (
     FIGURE_TOO,
     FILE,
     LANGUAGE,
+    LANGUAGE_HELP,
     LIGHT,
     MAX_RAYS_HELP,
     MODEL_HELP,
     MOMENT,
     PIXEL,
+    PIXEL_HELP,
     POSITIVE,
     RAY,
+    RAY_HELP,
     SAMPLE_HELP,
     SCENE_HELP,
     SHARE,
@@ -84,10 +87,7 @@ class ViewOptions(ViewState):
     scene: str | None = argument("SCENE", TEXT, FIGURE_TOO, nargs="?")
     screenshot: Path | None = option(FILE, "draw the viewer into a file, and exit", metavar="FILE.png")
     size: tuple[int, int] | None = _size("of the window or the screenshot")
-    language: str | None = option(
-        LANGUAGE, "show the translation of the lesson into this language; by default that of the system"
-    )
-
+    language: str | None = option(LANGUAGE, LANGUAGE_HELP)
     speaker: bool = switch("open a second window for the speaker: notes, next step, clock")
 
     @property
@@ -103,8 +103,8 @@ class TraceOptions:
     scene: str = argument("SCENE", TEXT, FIGURE_TOO)
     at: tuple[int, int] | None = option(MOMENT, AT_HELP)
     swept: float | None = option(SHARE, SWEPT_HELP)
-    pixel: tuple[int, int] | None = option(PIXEL, "counted from the image's top left", group="where", required=True)
-    ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where", required=True)
+    pixel: tuple[int, int] | None = option(PIXEL, PIXEL_HELP, group="where")
+    ray: tuple[float, ...] | None = option(RAY, RAY_HELP, group="where")
     sample: int | None = option(whole(0, metavar="K"), SAMPLE_HELP)
     depth: int | None = _depth()
     model: str | None = _model()
@@ -199,3 +199,6 @@ class LessonsOptions:
 
     check: str | None = option(TEXT, "say everything that is wrong with a lesson", metavar="FOLDER", group="what")
     new: str | None = option(TEXT, "write a new lesson to begin with", metavar="FOLDER", group="what")
+    language: str | None = option(
+        LANGUAGE, "titles in this language, by default in that of the system; of the check: this translation only"
+    )

@@ -7,6 +7,7 @@ from viewer.base.progress import Progress
 from viewer.base.streams import put
 from viewer.cli.loading import extra, faults, found_scene, prepared
 from viewer.cli.options import TraceOptions, limits_of
+from viewer.cli.place import ray_of, with_place
 from viewer.cli.terminal import compile_once
 from viewer.figures.catalogue import FORMATS
 
@@ -19,9 +20,10 @@ def trace(options: TraceOptions) -> int:
     if options.sample is not None and options.ray:
         raise Unusable("raytree trace: --sample is for a pixel: a ray has no samples")
     with found_scene(options.scene, options.at, options.swept) as scene, faults():
+        options = with_place(options, scene, "trace")
         compile_once()
         world = prepared(scene.path, options.up, changes=scene.changes)
-        ray = (options.ray[:3], options.ray[3:]) if options.ray else None
+        ray = (options.ray[:3], options.ray[3:]) if options.ray else None if options.pixel else ray_of(world, scene)
         sample = None if ray else sample_number(world.scene.image.samples, options.sample)
         tree = tracer.trace(world, options.pixel, ray, sample=sample, **limits_of(options))
     most = options.rays or None

@@ -16,11 +16,14 @@ from viewer.base.progress import Progress
 from viewer.base.streams import put
 from viewer.cli.loading import faults, find, found_scene, prepared
 from viewer.cli.options import ViewOptions
+from viewer.cli.place import ray_of
 from viewer.cli.terminal import compile_once, compiling
 from viewer.lessons import lesson as lessons
-from viewer.lessons.language import ORIGINAL, choose, translations
+from viewer.lessons.language import wanted
+from viewer.reopen.places import is_figure
 from viewer.reopen.view_state import merged
 from viewer.session.loading.opening import Opening
+from viewer.session.loading.scene_loader import with_lesson
 from viewer.session.restore.last_session import LastSession, SessionKeeper, read_last
 from viewer.session.restore.view import restore_appearance
 from viewer.session.session import Session
@@ -35,8 +38,6 @@ CONTENTS = "raytree window"  # the text in a screenshot that names what is shown
 
 
 def view(options: ViewOptions) -> int:
-    if options.language:
-        choose(options.language)
     if options.screenshot:
         if options.screenshot.suffix.lower() != ".png":
             raise Unusable(f"{options.screenshot}: a screenshot must be a .png file")
@@ -52,7 +53,7 @@ def view(options: ViewOptions) -> int:
         window = Window("raytree", size, folder / "panels.ini" if folder else None, place=place)
     except NoWindow as reason:
         return without_display(options, str(reason))
-    app = App(window, Session())
+    app = App(window, Session(wanted(options.language)))
     session = app.session
     restore_appearance(session.appearance, opening.state)
     keeper = SessionKeeper(folder / "session.json", session, lambda: window.place) if folder else None
@@ -79,11 +80,12 @@ def view(options: ViewOptions) -> int:
 
 
 def _opening(options: ViewOptions) -> Opening:
-    """The scene, lesson or figure that was asked for; the first lesson if none was."""
-    path, lesson = find(options.scene or lessons.names()[0], takes_figures=True)
-    if lesson and options.language not in (None, ORIGINAL, lesson.language):
-        known = ", ".join((ORIGINAL, *translations(lesson.path)))
-        raise Unusable(f"{shown_path(lesson.path)}: --language must be one of {known}, got {options.language}")
+    """The scene, lesson or figure that was asked for; the first lesson if none was. Unusable for a place that it does
+    not have.
+    """
+    path, lesson = find(options.scene or lessons.names()[0], True, options.language)
+    if not is_figure(path):  # that of a figure is read when it is loaded
+        with_lesson(options.state, lesson, path)
     if not is_there(path):  # a file that cannot be read is shown with its faults: perhaps it is being written
         raise Unusable(f"{shown_path(path)}: file not found")
     is_whole = options.depth is not None or options.page is not None  # as in a copied command line
@@ -145,7 +147,7 @@ class TreeCheck:
 def take_screenshot(opening: Opening, options: ViewOptions, target: Path) -> None:
     """Draw the viewer until the first full image and the tree are finished, and write a screenshot."""
     try:
-        app = App(Offscreen(options.size or SIZE), Session())
+        app = App(Offscreen(options.size or SIZE), Session(wanted(options.language)))
     except NoWindow as reason:
         raise Unusable(str(reason)) from None
     session = app.session
@@ -176,13 +178,15 @@ def without_display(options: ViewOptions, reason: str) -> int:
     compile_once()
     opening = _opening(options)
     with contextlib.ExitStack() as stack, faults():
-        scene = stack.enter_context(found_scene(options.scene or lessons.names()[0], options.at, options.swept))
+        asked = (options.scene or lessons.names()[0], options.at, options.swept, options.language)
+        scene = stack.enter_context(found_scene(*asked))
         state = merged(scene.state, options.state)
         world = prepared(scene.path, state.up, changes=scene.changes)
         image = world.scene.image
         pixel = state.pixel or (image.width // 2, image.height // 2)
-        sample = sample_number(image.samples, state.sample)
-        tree = tracer.trace(world, pixel, sample=sample, depth=state.depth, model=state.model)
+        ray = None if options.pixel else ray_of(world, scene)
+        sample = None if ray else sample_number(image.samples, state.sample)
+        tree = tracer.trace(world, None if ray else pixel, ray, sample=sample, depth=state.depth, model=state.model)
         name = scene.lesson.name if scene.lesson else scene.path.stem
     target = Path("out") / f"{name}.png"
     put(f"Drawing the viewer into {shown_path(target)} instead; this is the ray tree it shows:\n\n{tree.to_text()}")

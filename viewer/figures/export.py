@@ -62,6 +62,8 @@ def check_options(options: ExportOptions) -> None:
         figures = [kind.name for kind in reversed(FIGURES) if name in kind.options]
         if name in given and options.figure not in figures:
             found.append(f"raytree export: --{name} is for --figure {' and '.join(figures)}, got {options.figure}")
+    if options.language:
+        found.append("raytree export: --language is for --lesson: a figure has no text of its lesson")
     if found:
         raise Unusable(*found)
 

@@ -11,14 +11,18 @@ from viewer.base.values import (
     DEPTHS,
     FIGURE_TOO,
     INCIDENCE,
+    LANGUAGE,
+    LANGUAGE_HELP,
     MAX_RAYS_HELP,
     MOMENT,
     ORBIT,
     PAPER,
     PIXEL,
+    PIXEL_HELP,
     PIXELS,
     POINTS,
     RAY,
+    RAY_HELP,
     RAY_NAME,
     RAY_PATH,
     SAMPLE_HELP,
@@ -48,10 +52,11 @@ class ExportOptions:
 
     scene: str = argument("SCENE", TEXT, FIGURE_TOO)
     lesson: bool = switch("all steps of a lesson: a page for a browser, slides, a PDF, and figures")
+    language: str | None = option(LANGUAGE, f"with --lesson: {LANGUAGE_HELP}")
     at: tuple[int, int] | None = option(MOMENT, AT_HELP)
     swept: float | None = option(SHARE, SWEPT_HELP)
-    pixel: tuple[int, int] | None = option(PIXEL, "from the image's top left; a lesson's own by default", group="where")
-    ray: tuple[float, ...] | None = option(RAY, "origin and direction of a ray", group="where")
+    pixel: tuple[int, int] | None = option(PIXEL, PIXEL_HELP, group="where")
+    ray: tuple[float, ...] | None = option(RAY, RAY_HELP, group="where")
     sample: int | None = option(whole(0, metavar="K"), SAMPLE_HELP)
     figure: str = option(one_of(FIGURE_NAMES), "tree by default", "tree")
     view: tuple[float, ...] | None = option(

@@ -24,7 +24,7 @@ DOCUMENTS = {
     "pdf": "viewer.handout.pdf:write_slides",
 }
 ALL = ("html", "pptx", "pdf", "svg")  # written into a folder if no format is asked for
-ALLOWED = ("scene", "lesson", "format", "theme", "width", "output")  # options
+ALLOWED = ("scene", "lesson", "language", "format", "theme", "width", "output")  # options
 
 
 def check_lesson_options(options: ExportOptions) -> None:
@@ -56,6 +56,7 @@ def make_lesson(
     files: list[tuple[Path, bytes]] = []
     notes: list[str] = []
     name = handout.lesson.name
+    options = replace(options, language=handout.lesson.language or options.language)  # also if the system chose it
     for k, kind in enumerate(target.formats):
         progress(k / len(target.formats))
         command = command_line(options, kind)

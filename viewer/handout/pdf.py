@@ -11,6 +11,7 @@ from viewer.figures.writers.pdf import PageDrawing, new_document
 from viewer.handout.document import Handout, paper
 from viewer.handout.slides import FOOT, FOOT_SIZE, HEAD, MARGIN, RING, RINGS, TITLE, Placed, Slide, slides_of
 from viewer.handout.text_lines import BOLD as WIDER, BlockLines
+from viewer.lessons.language import web_tag
 
 BOLD = 0.016  # by which bold letters are wider on every side, in text sizes
 KINDS = {"h": "H3", "li": "P", "quote": "P", "tr": "P", "formula": "Formula"}  # structure elements of blocks
@@ -22,6 +23,7 @@ def write_slides(handout: Handout, command: str, theme: str) -> bytes:
     colors, lesson = paper(theme), handout.lesson
     about = Figure(lesson.title, lesson.question, command, (), colors.ground, True)
     pdf = new_document(about)
+    pdf.set_lang(web_tag(lesson.language))
     titles: list[str] = []
     for slide in slides_of(handout, colors):
         page = PageDrawing(pdf, about)

@@ -22,6 +22,7 @@ from viewer.figures.writers.pptx_shapes import A, SlideDrawing, emu, emu_box, pa
 from viewer.handout.document import Handout, paper
 from viewer.handout.slides import FOOT, FOOT_SIZE, HEAD, MARGIN, RING, RINGS, TITLE, Placed, Slide, slides_of
 from viewer.handout.text_lines import LINE, BlockLines
+from viewer.lessons.language import web_tag
 
 TITLE_ONLY = 5  # of the default template's layouts
 MONO = "DejaVu Sans Mono"
@@ -50,13 +51,13 @@ def write_slides(handout: Handout, command: str, theme: str) -> bytes:
     lesson = handout.lesson
     deck = new_deck(Figure(lesson.title, lesson.question, command, (), colors.ground))
     for slide in slides_of(handout, colors):
-        _Writer(deck, slide, colors).write()
+        _Writer(deck, slide, colors, web_tag(lesson.language)).write()
     return saved(deck)
 
 
 class _Writer:
-    def __init__(self, deck: Any, slide: Slide, theme: Theme) -> None:
-        self.slide, self.theme = slide, theme
+    def __init__(self, deck: Any, slide: Slide, theme: Theme, language: str) -> None:
+        self.slide, self.theme, self.language = slide, theme, language
         self.made = deck.slides.add_slide(deck.slide_layouts[TITLE_ONLY])
         self.shapes = self.made.shapes
 
@@ -140,6 +141,7 @@ class _Writer:
         run.font.size, run.font.name = Pt(size), MONO if code else FAMILY
         run.font.bold, run.font.italic = bold, italic
         run.font.color.rgb = rgb_color(color)
+        run.font._element.set("lang", self.language)
 
     def _place(self) -> None:
         frame = self.shapes.add_textbox(*emu_box(MARGIN, FOOT, WIDTH - 2.0 * MARGIN, 1.5 * FOOT_SIZE))

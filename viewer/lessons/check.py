@@ -43,8 +43,10 @@ from viewer.lessons.values import ABSENT, NAMES, OF_TREE, split_name, value_text
 MOST_AT_ONCE, MOST_WORDS = 40, 90  # words between two presses, and in a step
 
 
-def check(path: Path) -> list[str]:
-    """The faults of a lesson.md and of its translations, one line each, in the order of each file."""
+def check(path: Path, language: str | None = None) -> list[str]:
+    """The faults of a lesson.md and of its translations, or of that into one language, one line each, in the order of
+    each file.
+    """
     place = shown_path(path)
     try:
         lesson = read_file(path, ())
@@ -52,9 +54,9 @@ def check(path: Path) -> list[str]:
         return list(unusable.faults)
     faults = _sorted(_Check(lesson).faults(), place)
     is_sound = not faults  # otherwise a translation has the same faults
-    for language, file in translations(path).items():
+    for code, file in translations(path, language).items():
         try:
-            translated = read_file(path, [language])
+            translated = read_file(path, [code])
         except Unusable as unusable:
             faults += unusable.faults
         else:

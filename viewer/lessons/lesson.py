@@ -94,12 +94,12 @@ def _order() -> list[str]:
     return (folder() / "ORDER").read_text("utf-8").split()
 
 
-def read(name: str) -> Lesson:
-    """Read one lesson by name. Raises Unusable with all faults of its file."""
-    return read_file(_path(name))
+def read(name: str, languages: Sequence[str] | None = None) -> Lesson:
+    """Read one lesson by name. `languages` and errors as for `read_file`."""
+    return read_file(file_of(name), languages)
 
 
-def _path(name: str) -> Path:
+def file_of(name: str) -> Path:
     """The file of a lesson of the program. Raises Unusable if there is none."""
     path = folder() / name / "lesson.md"
     if not is_there(path):
@@ -107,10 +107,10 @@ def _path(name: str) -> Path:
     return path
 
 
-def read_title(name: str) -> str:
+def read_title(name: str, languages: Sequence[str] | None = None) -> str:
     """The title of a lesson, without reading its steps. Raises Unusable as `read`."""
-    path = _path(name)
-    found = translation_of(path, wanted())
+    path = file_of(name)
+    found = translation_of(path, wanted() if languages is None else languages)
     place, head, _ = _split_file(found[1] if found else path)
     source = Source(Path())
     data = read_head(source, head, FIRST_LINE)

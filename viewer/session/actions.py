@@ -97,7 +97,7 @@ def look_through_camera(session: Session) -> None:
 def open_lesson(session: Session, name: str) -> None:
     """Open one of the program's lessons."""
     try:
-        lesson = lessons.read(name)
+        lesson = lessons.read(name, session.languages)
     except Unusable as unusable:
         session.show_faults(list(unusable.faults))
         return

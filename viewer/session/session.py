@@ -4,6 +4,7 @@ Only the window's thread changes it. Panels read it and call its methods. It imp
 """
 
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 
 from tracer.compile.numba_private import NOTE
@@ -12,6 +13,7 @@ from tracer.printable import shown_path
 from viewer.base.orbit import Frame
 from viewer.figures.steps import Step
 from viewer.lessons.image_place import pixel_fault
+from viewer.lessons.language import wanted
 from viewer.lessons.moments import Moment
 from viewer.reopen.view_state import ViewState
 from viewer.session.call_queue import CallQueue
@@ -39,16 +41,20 @@ from viewer.session.warmup import Warmup
 class Session(Picked):
     """One scene, one picked pixel, one selected ray."""
 
-    def __init__(self) -> None:
+    def __init__(self, languages: Sequence[str] | None = None) -> None:
+        """`languages` are those of the lessons, the first one that there is; None: those of the environment."""
         super().__init__()
+        self.languages = wanted() if languages is None else languages
         self.guard = Guard(self.show_faults)
         self.calls = CallQueue(self.guard)
         self.requests: list[Request] = []  # to the window
         self.warmup = Warmup(lambda note: self.calls.post(lambda: self.notice.say(note)))
-        self.loader = SceneLoader(self.calls, self.warmup, self._show, lambda faults: self.show_faults(faults, True))
+        self.loader = SceneLoader(
+            self.calls, self.warmup, self._show, lambda faults: self.show_faults(faults, True), self.languages
+        )
         self.image = ImageRenderer(self.calls.post)
         self.small_images = SmallImages(self.calls.post)
-        self.lesson_list = LessonList(self.calls.post)
+        self.lesson_list = LessonList(self.calls.post, languages=self.languages)
         self.refinement = Refinement(self.image)
         self.export = FigureExport(self.calls.post)
         self.verification = Verification(self.calls.post)

@@ -15,10 +15,14 @@ from viewer.window.backend import NoWindow, Offscreen
 SIZE = (1280, 720)  # of a projector's window, in lecture mode
 
 
-def room_faults(path: Path) -> list[str]:
-    """The steps whose text needs scrolling in lecture type, one line each. None of a lesson that cannot be read."""
+def room_faults(path: Path, language: str | None = None) -> list[str]:
+    """The steps whose text needs scrolling in lecture type, one line each: of lesson.md and of its translations, or of
+    that into one language. None of a lesson that cannot be read.
+    """
     try:
-        versions = [read_file(path, languages) for languages in ((), *([code] for code in translations(path)))]
+        versions = [
+            read_file(path, languages) for languages in ((), *([code] for code in translations(path, language)))
+        ]
     except Unusable:
         return []
     try:

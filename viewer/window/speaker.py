@@ -92,7 +92,7 @@ def _next(session: Session) -> str:
     if name is None:
         return "the end"
     try:
-        return f"the lesson “{lessons.read_title(name)}”"
+        return f"the lesson “{lessons.read_title(name, session.languages)}”"
     except Unusable:
         return f"the lesson {name}"
 

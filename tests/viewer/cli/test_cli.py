@@ -138,7 +138,7 @@ def test_plan_says_what_is_left_out_and_why(capsysbinary: pytest.CaptureFixture)
         (["trace", "mirror-balls", "--ray", "0,0,0,0,0,0"], "direction must not be 0,0,0"),
         (["trace", "mirror-balls", "--ray", "0,0,nan,0,0,1"], "six finite numbers"),
         (["trace", "mirror-balls", "--ray", "0,0,0"], "six numbers"),
-        (["trace", "mirror-balls"], "one of the arguments --pixel --ray is required"),
+        (["trace", "mirror-balls", "--pixel", "1,1", "--ray", "0,0,0,0,0,1"], "not allowed with argument --pixel"),
         (["trace", "mirror-balls", "--pixel", "1,1", "--depth", "-1"], "a whole number >= 0"),
         (["trace", "mirror-balls", "--pixel", "1,1", "--format", "xml"], f"one of {', '.join(DATA)}"),
         (["render", "mirror-balls"], "the following arguments are required: -o"),

@@ -120,10 +120,12 @@ def test_faults_are_one_line(
     assert names(tmp_path) == before
 
 
-def test_a_scene_needs_a_pixel(tmp_path: Path, capsys: pytest.CaptureFixture[str], scene_file) -> None:
+@pytest.mark.parametrize("command", ["trace", "export"])
+def test_a_scene_needs_a_pixel(command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], scene_file) -> None:
     scene = scene_file('format = 1\n[[object]]\nshape = "sphere"\ncenter = [0, 0, 0]\nradius = 1\n')
-    assert main.main(["export", str(scene), "-o", str(tmp_path / "a.svg")]) == 2
-    assert "give a pixel (--pixel X,Y) or a ray" in capsys.readouterr().err
+    assert main.main([command, str(scene), "-o", str(tmp_path / "a.svg")]) == 2
+    said = f"raytree {command}: give a pixel (--pixel X,Y) or a ray (--ray ox,oy,oz,dx,dy,dz)\n"
+    assert capsys.readouterr().err == said
 
 
 def test_all_that_is_wrong_is_said_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -145,13 +147,14 @@ def test_a_ray_is_asked_for_as_figures_name_it(tmp_path: Path) -> None:
 
 
 def test_what_has_no_room_or_no_glyph_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str], scene_file) -> None:
-    assert main.main(["export", "panes", "--figure", "both", "-o", str(tmp_path / "a.svg")]) == 0
+    both = ["panes", "--figure", "both", "--model", "fresnel"]
+    assert main.main(["export", *both, "-o", str(tmp_path / "a.svg")]) == 0
     (note,) = capsys.readouterr().err.splitlines()
     size = re.fullmatch(
         r"note: both: branches that do not fit are folded; .* --text-size (\d+) shows all branches", note
     )
     assert size
-    arguments = ["panes", "--figure", "both", "--text-size", size[1], "-o", str(tmp_path / "b.svg")]
+    arguments = [*both, "--text-size", size[1], "-o", str(tmp_path / "b.svg")]
     assert main.main(["export", *arguments]) == 0
     assert capsys.readouterr().err == ""
     scene = scene_file('format = 1\n[[object]]\nname = "球"\nshape = "sphere"\ncenter = [0, 0, 0]\nradius = 1\n')

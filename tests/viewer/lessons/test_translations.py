@@ -1,17 +1,22 @@
 """A translation has the texts; data, steps and live pieces are those of lesson.md."""
 
+import os
+import subprocess
 from dataclasses import replace
 from pathlib import Path
 
+import html5lib
 import pytest
 
 from tests.viewer.driver import viewer
 from viewer.cli.main import main
+from viewer.lessons import lesson
 from viewer.lessons.check import check
-from viewer.lessons.language import choose, wanted
+from viewer.lessons.language import wanted
 from viewer.lessons.lesson import read_file
 from viewer.lessons.moments import Moment
 from viewer.lessons.skeleton import write_skeleton
+from viewer.session.actions import open_lesson
 from viewer.window.lesson_room import room_faults
 
 GERMAN = """\
@@ -59,8 +64,8 @@ def test_the_environment_chooses_the_language(folder: Path, monkeypatch: pytest.
     assert title() == "Eine Spiegelkugel"
     monkeypatch.setenv("LANGUAGE", "en_GB:de")
     assert title() == "A mirror ball"
-    choose("de")
-    assert wanted() == ["de", "en_GB", "en"] and title() == "Eine Spiegelkugel"
+    assert wanted("de") == ["de", "en_GB", "en"]
+    assert read_file(folder / "lesson.md", wanted("de")).title == "Eine Spiegelkugel" and title() == "A mirror ball"
 
 
 def test_only_the_texts_are_others(folder: Path) -> None:
@@ -98,14 +103,78 @@ def test_a_fault_of_a_translation_has_its_file_and_line(folder: Path, old: str, 
 
 
 def test_the_option_shows_it(folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setenv("LANGUAGE", "")
-    assert main(["view", str(folder), "--language", "fr", "--screenshot", str(folder / "a.png")]) == 2
-    assert capsys.readouterr().err == f"{folder / 'lesson.md'}: --language must be one of en, de, got fr\n"
-    monkeypatch.setenv("LANGUAGE", "")
-    assert main(["view", str(folder), "--language", "de", "--screenshot", str(folder / "a.png"), "--at", "1"]) == 0
+    """And the environment stays as it is."""
+    before, pictures = dict(os.environ), []
+    for language in ("en", "de_AT"):
+        out = folder / f"{language}.png"
+        assert main(["view", str(folder), "--language", language, "--screenshot", str(out), "--at", "1"]) == 0
+        pictures.append(out.read_bytes())
+    assert pictures[0] != pictures[1] and dict(os.environ) == before
+    file = str(folder / "lesson.md")
+    for words in (["view", file, "--screenshot", str(folder / "a.png")], ["lessons", "--check", file],
+                  ["export", file, "--lesson", "-o", str(folder / "a.html")]):  # fmt: skip
+        capsys.readouterr()
+        assert main([*words, "--language", "fr"]) == 2
+        assert capsys.readouterr().err == f"{file}: --language must be one of en, de, got fr\n"
     with pytest.raises(SystemExit):
-        main(["view", str(folder), "--language", "german"])
+        main(["view", file, "--language", "german"])
     assert "the code of a language, like de or pt_BR" in capsys.readouterr().err
+    assert main(["export", file, "--language", "de", "-o", str(folder / "a.svg")]) == 2
+    assert capsys.readouterr().err == (
+        "raytree export: --language is for --lesson: a figure has no text of its lesson\n"
+    )
+
+
+def test_lessons_that_are_opened_later_are_in_that_language(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lesson, "folder", lambda: folder.parent)
+    (folder.parent / "ORDER").write_text("ball", "utf-8")
+    with viewer(languages=["de"]) as driver:
+        session = driver.session
+        session.lesson_list.read()
+        assert [entry.title for entry in session.lesson_list.entries] == ["Eine Spiegelkugel"]
+        open_lesson(session, "ball")
+        driver.app.settle()
+        assert session.lesson and session.lesson.title == "Eine Spiegelkugel"
+        session.loader.reload()
+        driver.app.settle()
+        assert session.lesson.language == "de"
+
+
+def test_a_check_of_one_language_leaves_out_the_others(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (folder / "lesson.fr.md").write_text(GERMAN.replace("???", ""), "utf-8")
+    assert main(["lessons", "--check", str(folder), "--language", "de"]) == 0
+    assert main(["lessons", "--check", str(folder), "--language", "fr"]) == 1
+    assert "lesson.fr.md: line 5: the step must have 2 parts" in capsys.readouterr().out
+    assert main(["lessons", "--new", str(folder / "more"), "--language", "de"]) == 2
+    monkeypatch.setattr(lesson, "folder", lambda: folder.parent)
+    (folder.parent / "ORDER").write_text("ball", "utf-8")
+    capsys.readouterr()
+    assert main(["lessons", "--language", "de"]) == 0
+    assert capsys.readouterr().out.split(maxsplit=1)[1] == "Eine Spiegelkugel\n"
+
+
+def test_what_is_taken_home_names_its_language(folder: Path) -> None:
+    """What the program itself says in a page is marked as English."""
+    words = ["export", str(folder), "--lesson", "--language", "de"]
+    for kind in ("html", "pdf", "pptx"):
+        assert main([*words, "-o", str(folder / f"a.{kind}")]) == 0
+    tree = html5lib.HTMLParser(namespaceHTMLElements=False).parse((folder / "a.html").read_text("utf-8"))
+    assert tree.get("lang") == "de"
+    ours = {id(inner) for element in tree.iter() if element.get("lang") == "en" for inner in element.iter()}
+    texts = {"".join(e.itertext()).strip(): id(e) in ours for e in tree.iter() if e.tag in ("summary", "p", "h2", "h1")}
+    assert texts["Show the answer"] and texts["Rays"] and not texts["Eine Spiegelkugel"] and not texts["2/2Der Winkel"]
+    assert "--language de" in (folder / "a.html").read_text("utf-8")
+    assert subprocess.run(["pdfinfo", "-struct-text", folder / "a.pdf"], capture_output=True, text=True).stdout.count(
+        "Winkel"
+    )
+    assert b"/Lang (de)" in (folder / "a.pdf").read_bytes()
+    from pptx import Presentation
+
+    deck = Presentation(str(folder / "a.pptx"))
+    runs = [run for slide in deck.slides for run in slide._element.xpath(".//a:r/a:rPr")]
+    assert runs and {run.get("lang") for run in runs if run.getparent().xpath("ancestor::p:sp")} >= {"de"}
 
 
 def test_a_saved_translation_is_shown_at_once(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

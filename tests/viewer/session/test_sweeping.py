@@ -181,7 +181,7 @@ def test_a_place_of_the_way_is_part_of_the_view(lesson: Lesson, tmp_path: Path) 
         driver.session.loader.open(lesson.scene, lesson, state)
         assert np.array_equal(picture(driver), before)
         driver.session.loader.open(lesson.scene, lesson, ViewState(swept=0.5))
-        assert "--swept is for a step with a sweep" in driver.session.faults[0]
+        assert "--swept needs --at with a step that has a sweep (1, 3), got no --at" in driver.session.faults[0]
     file = tmp_path / "tree.json"
     where = ["--at", "1", "--swept", "0.53"]
     assert main(["export", str(lesson.path), *where, "--format", "json", "-o", str(file)]) == 0

@@ -16,6 +16,7 @@ from viewer.handout.document import Handout, Page, PagePart, Shown, paper
 from viewer.handout.html.blocks import BlockWriter, RayLink
 from viewer.handout.html.colors import ColorPairs
 from viewer.handout.html.shows import ShowWriter
+from viewer.lessons.language import ORIGINAL, web_tag
 from viewer.lessons.text import Fence, Run, inlines
 
 FOLDER = Path(__file__).parent
@@ -33,14 +34,21 @@ def write_page(handout: Handout, command: str, theme: str = LIGHT.name, head: Se
     return _Writer(handout, command, themes).page(head)
 
 
+def own_language(language: str) -> str:
+    """The attribute of what the program itself says, in a page of this language."""
+    return "" if language == ORIGINAL else f' lang="{ORIGINAL}"'
+
+
 class _Writer:
     def __init__(self, handout: Handout, command: str, themes: Sequence[Theme]) -> None:
         self.handout, self.command, self.themes = handout, command, themes
+        self.language = web_tag(handout.lesson.language)
+        self.ours = own_language(self.language)
         self.formulas = Formulas()
         self.numbers = Numbers(self.formulas)
         self.drawings = Drawings()
         self.colors = ColorPairs(themes)
-        self.shows = ShowWriter(themes, self.numbers, self.drawings, self.colors)
+        self.shows = ShowWriter(themes, self.numbers, self.drawings, self.colors, self.ours)
 
     def page(self, head: Sequence[str]) -> bytes:
         lesson = self.handout.lesson
@@ -49,23 +57,24 @@ class _Writer:
         body = [
             *self.formulas.definitions(),
             *self.drawings.definitions(),
-            '<a class="skip" href="#numbers">Skip to the numbers</a>',
+            f'<a class="skip" href="#numbers"{self.ours}>Skip to the numbers</a>',
             *self._cover(),
             '<main class="handout">',
             '<div class="steps">',
             *steps,
             "</div>",
-            '<section id="numbers" class="numbers" aria-labelledby="numbers-title" tabindex="-1">',
+            f'<section id="numbers" class="numbers" aria-labelledby="numbers-title" tabindex="-1"{self.ours}>',
             '<h2 id="numbers-title">Rays</h2>',
             f'<p class="hint" hidden>{HINT}</p>',
             *articles,
             "</section>",
             "</main>",
-            f"<footer><p>Made by <code>{text(self.command)}</code></p></footer>",
+            f"<footer{self.ours}><p>Made by <code>{text(self.command)}</code></p></footer>",
         ]
         style = f"{self.colors.style()}{shipped(FOLDER / 'handout.css')}"
         schemes = "light dark" if len(self.themes) > 1 else ""
-        return framed(lesson.title, body, self.themes[0], head, style, shipped(FOLDER / "handout.js"), schemes)
+        script = shipped(FOLDER / "handout.js")
+        return framed(lesson.title, body, self.themes[0], head, style, script, schemes, self.language)
 
     def _cover(self) -> Iterator[str]:
         lesson = self.handout.lesson
@@ -74,7 +83,7 @@ class _Writer:
         if lesson.question:
             yield f'<p class="question"><strong>{text(lesson.question)}</strong></p>'
         if lesson.objectives:
-            yield "<p>After this lesson you can:</p>"
+            yield f"<p{self.ours}>After this lesson you can:</p>"
             yield "<ul>"
             yield from (f"<li>{text(one)}</li>" for one in lesson.objectives)
             yield "</ul>"
@@ -95,7 +104,7 @@ class _Writer:
         before = first
         for k, part in enumerate(others):
             yield '<details class="answer">'
-            yield f"<summary>{ANSWER if _asks(before) else NEXT}</summary>"
+            yield f"<summary{self.ours}>{ANSWER if _asks(before) else NEXT}</summary>"
             yield '<div class="words">'
             yield from self._part(page, part, f"{place}-part-{k + 2}")
             yield "</div>"
@@ -109,7 +118,7 @@ class _Writer:
                 return []
             show = part.live.get(fence.line)
             if not show:
-                return ["<p>This ray has no such figure.</p>"]
+                return [f"<p{self.ours}>This ray has no such figure.</p>"]
             return list(self.shows.lines(show, f"{place}-live-{fence.line}", kind="live"))
 
         writer = BlockWriter(self.formulas, lambda path: self._ray(page, part.shown, path), fence)

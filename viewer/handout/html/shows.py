@@ -34,8 +34,11 @@ RING = 0.018  # radius of the ring around the pixel, in widths of the image
 class ShowWriter:
     """Writes the shows of one page."""
 
-    def __init__(self, themes: Sequence[Theme], numbers: Numbers, drawings: Drawings, colors: ColorPairs) -> None:
-        self.themes, self.numbers, self.drawings, self.colors = themes, numbers, drawings, colors
+    def __init__(
+        self, themes: Sequence[Theme], numbers: Numbers, drawings: Drawings, colors: ColorPairs, ours: str = ""
+    ) -> None:
+        """`ours`: the attribute of what the program itself says, if the page is in another language."""
+        self.themes, self.numbers, self.drawings, self.colors, self.ours = themes, numbers, drawings, colors, ours
         self._trees: dict[tuple, str] = {}
         self._details: dict[tuple[int, int], RayDetails] = {}
         self._images: dict[int, str] = {}
@@ -60,7 +63,7 @@ class ShowWriter:
             if show.photos:
                 yield from self._photos(show.photos, f"{place}-image", start, "" if show.pictures else " large")
             yield "</div>"
-        yield '<div class="moved">'
+        yield f'<div class="moved"{self.ours}>'
         if show.pictures:
             alone = " alone" if len(show.pictures) == 1 else ""
             yield '<div class="pictures">'
@@ -127,7 +130,7 @@ class ShowWriter:
     def _photos(self, photos: Sequence[Photo], place: str, start: int, large: str) -> Iterator[str]:
         height, width = photos[0].pixels.shape[:2]
         labelled = f'aria-labelledby="{place}-name" aria-describedby="{place}-said"'
-        yield f'<figure class="photo{large}">'
+        yield f'<figure class="photo{large}"{self.ours}>'
         yield f'<svg role="img" {labelled} viewBox="0 0 {width} {height}">'
         for k, photo in enumerate(photos):
             own = frames_attribute([k], start) if len(photos) > 1 else ""

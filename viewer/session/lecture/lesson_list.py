@@ -2,7 +2,7 @@
 
 import hashlib
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
@@ -36,9 +36,14 @@ class Entry:
 class LessonList:
     """The lessons as they were when the menu was opened. `post` gives a call to the window's thread."""
 
-    def __init__(self, post: Callable[[Callable[[], object]], object], folder: Path | None = None) -> None:
-        """`folder`: for the pictures; that of the kernels by default."""
-        self.post, self.folder = post, folder
+    def __init__(
+        self,
+        post: Callable[[Callable[[], object]], object],
+        folder: Path | None = None,
+        languages: Sequence[str] | None = None,
+    ) -> None:
+        """`folder` of the pictures: by default that of the kernels. `languages` of the titles: as for `read_title`."""
+        self.post, self.languages, self.folder = post, languages, folder
         self.entries: list[Entry] = []
         self.pictures: dict[str, np.ndarray] = {}  # (height, width, 3) 8-bit sRGB, by name
         self.asked: set[str] = set()
@@ -47,7 +52,7 @@ class LessonList:
     def read(self) -> None:
         """Read the titles again. Called when the menu opens."""
         course = lessons.course()
-        self.entries = [Entry(name, _title(name), name not in course) for name in lessons.names()]
+        self.entries = [Entry(name, _title(name, self.languages), name not in course) for name in lessons.names()]
 
     def picture(self, name: str) -> np.ndarray | None:
         """The picture of a lesson; None if it is not there yet: then it is made in another thread."""
@@ -79,9 +84,9 @@ class LessonList:
         self.post(lambda: self.pictures.update({name: pixels}))
 
 
-def _title(name: str) -> str:
+def _title(name: str, languages: Sequence[str] | None) -> str:
     try:
-        return printable(lessons.read_title(name))
+        return printable(lessons.read_title(name, languages))
     except Unusable:
         return name
 

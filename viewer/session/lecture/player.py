@@ -30,6 +30,7 @@ class Taught(Protocol):
     image: ImageRenderer
     selection: str | None
     notice: Notice
+    languages: Sequence[str]
 
     @property
     def opening(self) -> Opening | None: ...
@@ -146,7 +147,7 @@ class LessonPlayer:
             self.session.notice.say(f"the {'first' if by < 0 else 'last'} step of {lesson.title}")
             return
         try:
-            other = lessons.read(name)
+            other = lessons.read(name, self.session.languages)
         except Unusable as unusable:
             self.session.show_faults(list(unusable.faults))
             return

@@ -1,6 +1,6 @@
 """Loads scenes in the background, and again when their files are saved."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -32,14 +32,15 @@ class SceneLoader:
         warmup: Warmup,
         loaded: Callable[[World, Opening], object],
         failed: Callable[[list[str]], object],
+        languages: Sequence[str],
     ) -> None:
-        self.calls, self.warmup = calls, warmup
+        self.calls, self.warmup, self.languages = calls, warmup, languages
         self.loaded, self.failed = loaded, failed  # called in the window's thread
         self.opening: Opening | None = None  # the last one, with success or not
         self.loading: Future[tuple[World, Opening]] | None = None
         self.worker = ThreadPoolExecutor(1)
         self.watch = FileWatch()
-        self.figures = FigureScenes()
+        self.figures = FigureScenes(languages)
         self.prepared = PreparedScenes()
 
     def open(self, path: Path, lesson: Lesson | None = None, state: ViewState = UNCHANGED) -> None:
@@ -51,8 +52,8 @@ class SceneLoader:
     def load(self, opening: Opening) -> None:
         """Load a scene in the background. A lesson opens on its own pixel and depth, if the state has none."""
         try:
-            if not opening.is_return:
-                opening = replace(opening, state=with_lesson(opening.state, opening.lesson))
+            if not opening.is_return and not is_figure(opening.path):
+                opening = replace(opening, state=with_lesson(opening.state, opening.lesson, opening.path))
         except Unusable as unusable:
             self._fail(list(unusable.faults), opening)
             return
@@ -108,7 +109,7 @@ class SceneLoader:
             return
         lesson = self.opening.lesson
         try:
-            lesson = lesson and read_file(lesson.path)
+            lesson = lesson and read_file(lesson.path, self.languages)
         except Unusable as unusable:
             self.failed(list(unusable.faults))
             return
@@ -129,7 +130,7 @@ class SceneLoader:
     def _read(self, opening: Opening) -> Opening:
         """The opening of a figure's scene. The state that was asked for goes before that of the figure."""
         found = self.figures.find(opening.path)
-        state = merged(complete(found.state), opening.state)
+        state = with_lesson(merged(complete(found.state), opening.state), found.lesson, opening.path)
         files = SceneFiles(found.home, "") if found.copy_of else None
         opened = Opening(
             found.path, found.lesson, state, sets_view=True, figure=found.copy_of, files=files, note=found.note
@@ -175,18 +176,23 @@ class SceneLoader:
         self.figures.close()
 
 
-def with_lesson(state: ViewState, lesson: Lesson | None) -> ViewState:
-    """The state, with what the lesson's step asks for where the state has nothing. Raises Unusable for a step that the
-    lesson does not have. Only a step that is asked for decides on how it is looked at.
+def with_lesson(state: ViewState, lesson: Lesson | None, path: Path) -> ViewState:
+    """The state, with what the lesson's step asks for where the state has nothing. `path` is what was opened, if there
+    is no lesson. Raises Unusable for a place that there is not: in a scene, or in a step that the lesson does not have.
+    Only a step that is asked for decides on how it is looked at.
     """
     if lesson is None:
+        if state.at or state.swept is not None:
+            raise Unusable(f"{shown_path(path)}: --{'at' if state.at else 'swept'} is for a lesson; this is a scene")
         return state
-    number = state.at[0] if state.at else 1
+    place, number = shown_path(lesson.path), state.at[0] if state.at else 1
     if number > len(lesson.steps):
-        raise Unusable(f"{shown_path(lesson.path)}: --at must be within 1 .. {len(lesson.steps)}, got {number}")
+        raise Unusable(f"{place}: --at must be within 1 .. {len(lesson.steps)}, got {number}")
     step = lesson.steps[number - 1]
     if state.swept is not None and not (state.at and step.state.sweep):
-        raise Unusable(f"{shown_path(lesson.path)}: --swept is for a step with a sweep, as --at {number} is not")
+        having = ", ".join(str(k) for k, one in enumerate(lesson.steps, 1) if one.state.sweep)
+        allowed = f"needs --at with a step that has a sweep ({having})" if having else "is for a lesson with a sweep"
+        raise Unusable(f"{place}: --swept {allowed}, got {f'--at {number}' if state.at else 'no --at'}")
     asked = view_of(step, sweep_share(step, state))
     if not state.at:
         asked = ViewState(pixel=asked.pixel, sample=asked.sample, depth=asked.depth, model=asked.model)

@@ -5,6 +5,7 @@ Copies are unpacked into a temporary folder, which is removed when the window cl
 
 import shutil
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -35,7 +36,9 @@ class FigureScene(InLesson):
 class FigureScenes:
     """Finds the scenes of figures. `close` removes the copies."""
 
-    def __init__(self) -> None:
+    def __init__(self, languages: Sequence[str] | None = None) -> None:
+        """`languages` of their lessons, as for `read_file`."""
+        self.languages = languages
         self.folder: tempfile.TemporaryDirectory[str] | None = None
         self.count = 0
 
@@ -46,19 +49,24 @@ class FigureScenes:
         home = lessons.folder() / files.folder if embedded.is_lesson_of_program else files.folder
         for folder in (home, figure.absolute().parent):
             if not str(folder).startswith(NETWORK) and files.are_in(folder):
-                return _scene(folder, embedded, home)
+                return self._scene(folder, embedded, home)
         folder = self._unpacked(figure, embedded, home)
         before = home / files.main
         was = f"the lesson {files.folder}" if embedded.is_lesson_of_program else shown_path(before)
         what = "has changed" if before.is_file() else "is gone"
         note = f"{was} {what}: this is the copy in {shown_path(figure.name)}"
-        return replace(_scene(folder, embedded, home), copy_of=figure.absolute(), note=note)
+        return replace(self._scene(folder, embedded, home), copy_of=figure.absolute(), note=note)
 
     def close(self) -> None:
         """Remove the copies."""
         if self.folder:
             self.folder.cleanup()
             self.folder = None
+
+    def _scene(self, folder: Path, embedded: Embedded, home: Path) -> FigureScene:
+        files = embedded.files
+        lesson = lessons.read_file(folder / files.lesson, self.languages) if files.lesson else None
+        return FigureScene(lesson.scene if lesson else folder / files.main, lesson, embedded.state, home)
 
     def _unpacked(self, figure: Path, embedded: Embedded, home: Path) -> Path:
         """A new folder with copies of the scene's files."""
@@ -94,12 +102,6 @@ def _take_over(figure: Path, file: SceneFile, before: Path, target: Path) -> Non
         target.symlink_to(before)
     except OSError:  # Windows, without the permission
         shutil.copyfile(before, target)
-
-
-def _scene(folder: Path, embedded: Embedded, home: Path) -> FigureScene:
-    files = embedded.files
-    lesson = lessons.read_file(folder / files.lesson) if files.lesson else None
-    return FigureScene(lesson.scene if lesson else folder / files.main, lesson, embedded.state, home)
 
 
 def save_copy(scene: Path, files: SceneFiles) -> Path:

@@ -27,9 +27,11 @@ def framed(
     style: str = "",
     script: str = "",
     schemes: str = "",
+    language: str = "en",
 ) -> bytes:
     """The page as UTF-8. `body` and `head` are lines of HTML, `title` is text. `style` and `script` are added to those
-    of every page. `schemes` are the values of `color-scheme`, if it is not that of the theme alone.
+    of every page. `schemes` are the values of `color-scheme`, if it is not that of the theme alone. `language` is that
+    of the text (BCP 47).
     """
     style = f"{root_colors(theme)}\n{shipped(FOLDER / 'page.css')}{style}"
     script = f"{shipped(FOLDER / 'page.js')}{script}"
@@ -39,7 +41,7 @@ def framed(
     )
     lines = [
         "<!DOCTYPE html>",
-        '<html lang="en">',
+        f'<html lang="{text(language)}">',
         "<head>",
         '<meta charset="utf-8">',
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
