@@ -3,6 +3,7 @@
 A fault is one line: `scene.toml: object[2] "ball": radius must be > 0, got -1`. Tables are counted from 0.
 """
 
+import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -13,7 +14,7 @@ from tracer import fields
 from tracer.formats.mesh_part import MeshFile
 from tracer.formats.meshes import load_mesh, part_objects
 from tracer.formats.source import MOST_TEXT, Fault, decode, read_bytes
-from tracer.printable import shown_path
+from tracer.printable import printable, shown_path
 from tracer.scene import Background, Camera, Checker, Image, Light, Material, Object, Scene, SceneError, Tracing
 from tracer.scene.changes import overridden
 from tracer.scene.scene import place
@@ -23,6 +24,8 @@ from tracer.shapes.mesh import Mesh
 T = TypeVar("T")
 
 FORMAT = 1
+PLACE = re.compile(r" \(at (?:line (\d+), column \d+|end of document)\)")  # at the end of the parser's messages
+MOST_SHOWN = 60  # characters of a line in a fault
 TABLES = ("camera", "image", "background", "tracing")
 LISTS = ("light", "material", "object")
 KEYS = ("format", "title", *TABLES, *LISTS)
@@ -55,15 +58,24 @@ def parsed(data: bytes) -> dict[str, Any]:
     except RecursionError:
         raise Fault("not TOML that can be read: tables or lists are nested too deeply") from None
     except tomllib.TOMLDecodeError as error:
-        what = str(error)
-        windows = "\\" in what or "hex value" in what
-        hint = " (write a Windows path in '...', or with / instead of \\)" if windows else ""
-        raise Fault(f"not TOML: {what[:1].lower()}{what[1:]}{hint}") from None
+        raise _not_toml(text, str(error)) from None
     except ValueError as error:
         raise Fault(f"not TOML that can be read: {str(error).split(';')[0]}") from None
     if "\ufffd" in text and "\ufffd" in repr(document):
         raise Fault(f"byte {first_bad_byte(data)}: a scene file is UTF-8 text, got something else")
     return document
+
+
+def _not_toml(text: str, what: str) -> Fault:
+    """The fault of a text that is not TOML, with its line and what stands there. `what` is the parser's message."""
+    windows = "\\" in what or "hex value" in what
+    hint = " (write a Windows path in '...', or with / instead of \\)" if windows else ""
+    what, place = PLACE.split(what, maxsplit=1)[0], PLACE.search(what)
+    lines = text.rstrip().split("\n")
+    number = min(int(place[1]), len(lines)) if place and place[1] else len(lines)
+    found = printable(lines[number - 1].strip())
+    found = found if len(found) <= MOST_SHOWN else f"{found[: MOST_SHOWN - 1]}…"
+    return Fault(f'not TOML: {what[:1].lower()}{what[1:]}, got "{found}"{hint}', number)
 
 
 def first_bad_byte(data: bytes) -> int:

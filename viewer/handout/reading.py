@@ -1,14 +1,15 @@
 """Makes the pages of a lesson: traces its steps, and finds the frames of their pictures."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 import tracer
+from tracer.formats.source import Fault
 from tracer.kernel.world import World
+from tracer.printable import shown_path
 from tracer.tree.raytree import RayTree
 from viewer.base.files import Unusable
 from viewer.base.orbit import Frame as SceneFrame, initial_orbit
@@ -23,6 +24,8 @@ from viewer.handout.sweeps import Position, positions
 from viewer.lessons.expectation import conditions
 from viewer.lessons.image_place import pixel_fault, pixel_tree
 from viewer.lessons.lesson import Lesson
+from viewer.lessons.moments import stages_of
+from viewer.lessons.scenes import SceneFaults, StepScenes
 from viewer.lessons.step import COLOUR, DEPTH, RAYS, State, Step
 from viewer.lessons.text import Block, Fence, Items, Paragraph, Run, filled
 from viewer.lessons.values import ABSENT, value_text
@@ -32,7 +35,7 @@ SWEEP = "sweep"
 
 
 def read_handout(lesson: Lesson, progress: Callable[[float], None] = lambda share: None) -> Handout:
-    """The pages of a lesson. Unusable or SceneError if a step asks for what its scene does not have."""
+    """The pages of a lesson. Unusable if a step asks for what its scene does not have."""
     reader = _Reader()
     pages = []
     for k, step in enumerate(lesson.steps):
@@ -45,17 +48,17 @@ class _Reader:
     """Scenes, views of them and images are made once for all steps that show them."""
 
     def __init__(self) -> None:
-        self._worlds: list[tuple[tuple[Path, Mapping[str, Any]], World]] = []
+        self._scenes = StepScenes()
         self._sceneries: list[tuple[World, Any, Scenery]] = []
         self._images: dict[tuple[int, int, str], tuple[World, np.ndarray]] = {}
         self._seen: tuple | None = None  # the image and the pixel of the step before
 
     def page(self, number: int, step: Step, lesson: Lesson) -> Page:
         state, swept = step.state.swept(0.0), list[Position]()
-        world = self._world(step, state.set)
+        world = self._world(lesson, step)
         trees = self._trees(step, state, world, lesson)
         if trees and state.sweep:
-            swept = positions(step, state.sweep, lambda changes: self._world(step, changes))
+            swept = positions(step, state.sweep, lambda share: self._world(lesson, step, share))
         parts = []
         for k, part in enumerate(step.parts):
             shown = Shown(trees[-1] if trees else None, world)
@@ -72,14 +75,12 @@ class _Reader:
         """The show of a step without a pixel."""
         return Show((), 1, 0, photos=self._photos(step, world, (), ()))
 
-    def _world(self, step: Step, changes: Mapping[str, Any]) -> World:
-        key = (step.scene, changes)
-        for known, world in self._worlds:
-            if known == key:
-                return world
-        world = tracer.prepare(tracer.load(step.scene, changes=changes or None))
-        self._worlds.append((key, world))
-        return world
+    def _world(self, lesson: Lesson, step: Step, share: float = 0.0) -> World:
+        """The step's scene at this share of its sweep. Unusable if it has faults."""
+        try:
+            return self._scenes.world(step, share)
+        except SceneFaults as error:
+            raise _unusable(lesson, error.faults) from None
 
     def _scenery(self, step: Step, world: World) -> Scenery:
         for known, view, scenery in self._sceneries:
@@ -95,7 +96,7 @@ class _Reader:
         if state.pixel is None:
             return []
         if fault := pixel_fault((image.width, image.height), state.pixel):
-            raise Unusable(f"{lesson.path}:{step.line_of('pixel')}: {fault}")
+            raise _unusable(lesson, [Fault(fault, step.line_of("pixel"))])
         depth = world.scene.tracing.depth if state.depth is None else state.depth
         depths = range(depth + 1) if state.reveal == DEPTH else (depth,)
         return [pixel_tree(world, state, d) for d in depths]
@@ -113,7 +114,6 @@ class _Reader:
             controls = (Control(SWEEP, "Place in the image" if state.sweep.is_pixel else state.sweep.of, 0, said),)
         else:
             stages = [_shown(stage, state) for stage in _stages(step, trees)]
-            stages = [stage for k, stage in enumerate(stages) if k == 0 or not _is_same(stage, stages[k - 1])]
             frames = [Frame(stage, scenery, 0, _row(trees[-1], state.hit)) for stage in stages]
             if state.reveal and len(stages) > 1:
                 said = tuple(_name(stage, state.reveal) for stage in stages)
@@ -162,15 +162,14 @@ class _Reader:
 
 def _stages(step: Step, trees: Sequence[RayTree]) -> Sequence[ray_steps.Step]:
     """The stages of a step's reveal, the fullest last; without one, the whole tree."""
-    match step.state.reveal:
-        case "depth":
-            return ray_steps.by_depth(trees)
-        case "rays":
-            found = ray_steps.by_ray(trees[-1])
-            return found[: found.count_reveals]
-        case "colour":
-            return list(ray_steps.by_color(trees[-1]))
-    return [ray_steps.whole(trees[-1])]
+    state, tree = step.state, trees[-1]
+    if state.reveal == DEPTH:
+        return ray_steps.by_depth(trees)
+    if state.reveal is None:
+        return [ray_steps.whole(tree)]
+    steps = ray_steps.by_ray(tree, lights="shadow" in state.show)
+    first, *others = [steps[k] for k in stages_of(steps, state.reveal, state.show)]
+    return [replace(first, current=frozenset()) if state.reveal == COLOUR else first, *others]
 
 
 def _with_listings(blocks: Sequence[Block]) -> Iterator[Block]:
@@ -208,8 +207,8 @@ def _row(tree: RayTree | None, hit: str | None) -> int:
     return (tree.find(hit) if tree and hit else None) or 0
 
 
-def _is_same(one: ray_steps.Step, other: ray_steps.Step) -> bool:
-    return (one.tree, one.rows, one.summed) == (other.tree, other.rows, other.summed)
+def _unusable(lesson: Lesson, faults: Sequence[Fault]) -> Unusable:
+    return Unusable(*(fault.within(shown_path(lesson.path)) for fault in faults))
 
 
 def _name(stage: ray_steps.Step, reveal: str) -> str:

@@ -1,8 +1,7 @@
 """The positions of a step's sweep: the tree at each."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import tracer
 from tracer.kernel.world import World
@@ -26,16 +25,14 @@ class Position:
     place: tuple[float, float]
 
 
-def positions(step: Step, sweep: Sweep, world_of: Callable[[Mapping[str, Any]], World]) -> list[Position]:
-    """The positions, from the start to the end. `world_of` prepares the step's scene with changes. Raises SceneError if
-    the scene does not allow a value.
-    """
+def positions(step: Step, sweep: Sweep, world_of: Callable[[float], World]) -> list[Position]:
+    """The positions, from the start to the end. `world_of` prepares the step's scene at a share of the sweep."""
     return [_position(step, sweep, world_of, k / (POSITIONS - 1)) for k in range(POSITIONS)]
 
 
-def _position(step: Step, sweep: Sweep, world_of: Callable[[Mapping[str, Any]], World], share: float) -> Position:
+def _position(step: Step, sweep: Sweep, world_of: Callable[[float], World], share: float) -> Position:
     state, between = step.state.swept(share), sweep.between(share)
-    world = world_of(state.set)
+    world = world_of(share)
     if between:
         tree = tracer.trace(world, ray=ray_between(world, between), depth=state.depth, model=state.model)
     else:

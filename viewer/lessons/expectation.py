@@ -18,8 +18,6 @@ from tracer.tree.raytree import RayTree
 from viewer.lessons.values import QUANTITIES, row_named
 
 CHILDREN, END, OBJECT = "children", "end", "object"
-SYMBOLS = {"theta1": "θ₁", "theta2": "θ₂", "critical": "θc", "n1": "n₁", "n2": "n₂", "eta": "n₁/n₂"}
-ANGLES = ("theta1", "theta2", "critical")
 SENT_ON = {
     (): "no ray goes on",
     ("R",): "a reflected ray goes on, and no other",
@@ -33,9 +31,8 @@ NAMES = (*QUANTITIES, CHILDREN, END, OBJECT)
 def failures(expected: Mapping[str, Any], tree: RayTree, hit: str | None) -> list[tuple[str, str]]:
     """(key, fault) for all that does not hold. `hit` is the path that names without a path are about."""
     found = []
-    for path, name, value in _entries(expected):
-        key = f"{path}.{name}" if path else name
-        fault = _fault(key, path, name, value, tree, hit)
+    for path, name, value in entries(expected):
+        fault = _fault(key_of(path, name), path, name, value, tree, hit)
         if fault:
             found.append((name, fault))
     return found
@@ -52,7 +49,7 @@ class Condition:
 def conditions(goal: Mapping[str, Any], tree: RayTree | None, hit: str | None) -> list[Condition]:
     """The conditions of a goal in words, and whether they hold for a tree; `hit` as in `failures`."""
     found = []
-    for path, name, value in _entries(goal):
+    for path, name, value in entries(goal):
         words = _words(path, name, value)
         found.append(Condition(words, tree is not None and not _fault(name, path, name, value, tree, hit)))
     return found
@@ -69,14 +66,20 @@ def _words(path: str, name: str, value: Any) -> str:
             return f"{path or 'the ray'} ends: {value}"
         case "object":
             return f"{path or 'the ray'} meets {value}"
-    return f"{before}{SYMBOLS.get(name, name)} = {value}{'°' if name in ANGLES else ''}"
+    known = QUANTITIES.get(name)
+    return f"{before}{known.symbol if known and known.symbol else name} = {value}{known.unit if known else ''}"
 
 
-def _entries(expected: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, str, Any]]:
+def key_of(path: str, name: str) -> str:
+    """The key of a name about the ray of a path, as `TR.theta1`."""
+    return f"{path}.{name}" if path else name
+
+
+def entries(expected: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, str, Any]]:
     """(path, name, value). Tables are paths, also written as `TR.theta1`."""
     for key, value in expected.items():
         if isinstance(value, Mapping):
-            yield from _entries(value, key)
+            yield from entries(value, key)
         else:
             before, dot, name = key.rpartition(".")
             yield (before if dot else path), name, value
@@ -84,8 +87,8 @@ def _entries(expected: Mapping[str, Any], path: str = "") -> Iterator[tuple[str,
 
 def _fault(key: str, path: str, name: str, value: Any, tree: RayTree, hit: str | None) -> str:
     """What is wrong; empty if nothing is."""
-    if name not in NAMES:
-        return f'unknown name "{name}"{fields.hint(name, NAMES)}'
+    if fault := name_fault(name):
+        return fault
     row = row_named(tree, path or None, hit)
     if row is None:
         known = ", ".join(tree.path(i) for i in range(len(tree)) if tree.nodes["kind"][i] != SHADOW)
@@ -100,21 +103,46 @@ def _fault(key: str, path: str, name: str, value: Any, tree: RayTree, hit: str |
     return _number_fault(key, value, QUANTITIES[name].value(tree, row))
 
 
+def name_fault(name: str) -> str:
+    """The fault of a name that is not known; empty for others."""
+    return "" if name in NAMES else f'unknown name "{name}"{fields.hint(name, NAMES)}'
+
+
 def _same(key: str, expected: Any, found: Any) -> str:
     return "" if expected == found else f"{key} must be {fields.shown(expected)}, got {fields.shown(found)}"
 
 
-def _number_fault(key: str, expected: Any, found: float) -> str:
+def number_of(expected: Any) -> Decimal | None:
+    """The number of a text; None for other values."""
     try:
         number = Decimal(expected) if isinstance(expected, str) else None
     except InvalidOperation:
-        number = None
-    if number is None or not number.is_finite():
-        return f'{key} must be a number in quotes, like "47.26", got {fields.shown(expected)}'
+        return None
+    return number if number is not None and number.is_finite() else None
+
+
+def half_unit(number: Decimal) -> Decimal:
+    """Half a unit of its last digit."""
+    return Decimal((0, (5,), _exponent(number) - 1))
+
+
+def _exponent(number: Decimal) -> int:
     exponent = number.as_tuple().exponent
     assert isinstance(exponent, int)
+    return exponent
+
+
+def number_words(expected: Any) -> str:
+    """The fault of a value that is no number in quotes."""
+    return f'must be a number in quotes, like "47.26", got {fields.shown(expected)}'
+
+
+def _number_fault(key: str, expected: Any, found: float) -> str:
+    number = number_of(expected)
+    if number is None:
+        return f"{key} {number_words(expected)}"
     if math.isnan(found):
         return f"{key} must be {expected}, but this hit has none"
-    if abs(Decimal(found) - number) <= Decimal((0, (5,), exponent - 1)):
+    if abs(Decimal(found) - number) <= half_unit(number):
         return ""
-    return f"{key} must be {expected}, got {found:.{max(0, -exponent) + 2}f}"
+    return f"{key} must be {expected}, got {found:.{max(0, -_exponent(number)) + 2}f}"

@@ -3,10 +3,12 @@
 In a step, the stages of its reveal come first, or its sweep; then its hidden parts, one by one.
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from viewer.figures.catalogue import BREADTH
-from viewer.lessons.step import DEPTH, Step
+from viewer.figures.steps import Steps, of_kinds, whole
+from viewer.lessons.step import COLOUR, DEPTH, Step
 from viewer.reopen.view_state import GRANULARITIES, ViewState
 
 
@@ -44,6 +46,19 @@ def shown_at(step: Step, stages: int, press: int) -> Shown:
     """What is shown after so many presses."""
     stage = min(press, stages - 1)
     return Shown(min(1 + press - stage, len(step.parts)), stage)
+
+
+def stages_of(steps: Steps, reveal: str, show: Collection[str]) -> list[int]:
+    """The numbers of the steps of a tree, ray by ray, that are the stages of a reveal by rays, or of one by sums, which
+    begins with all rays. Stages that only add or sum up rays of hidden kinds are left out: they would look like the one
+    before. `show` are the kinds of rays that are shown.
+    """
+    kept = of_kinds(whole(steps.tree), {*show, "camera"}).rows
+    is_colour = reveal == COLOUR
+    found = [
+        k for k, change in enumerate(steps.changes) if change.sums == is_colour and not kept.isdisjoint(change.rows)
+    ]
+    return [steps.count_reveals - 1, *found] if is_colour else found
 
 
 def view_of(step: Step, share: float = 0.0) -> ViewState:

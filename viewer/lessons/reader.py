@@ -170,9 +170,7 @@ def _toml(source: Source, text: str, first_line: int) -> dict[str, Any]:
     try:
         return parsed(text.encode("utf-8"))
     except Fault as fault:
-        place = re.search(r" \(at line (\d+), column \d+\)", str(fault))
-        line = first_line + int(place[1]) - 1 if place else first_line
-        source.fault(str(fault).replace(place[0], "") if place else str(fault), line)
+        source.fault(str(fault), first_line + (fault.line or 1) - 1)
         return {}
 
 

@@ -12,10 +12,13 @@ from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.wording import format_angle, format_color, format_number, format_weight
 from viewer.explain.fate import ray_fate
+from viewer.explain.formulas import Lecture
 from viewer.explain.intersection import barycentric, flattened, format_share, hit_face
+from viewer.explain.plain_formula import plain
 from viewer.explain.scattering import direction_error, local_error
 
 ABSENT = format_number(math.nan)
+RIGHT_ANGLE, SHARE = (0.0, 90.0), (0.0, 1.0)  # limits of values
 
 
 @dataclass(frozen=True)
@@ -24,26 +27,35 @@ class Quantity:
 
     value: Callable[[RayTree, int], float]
     written: Callable[[RayTree, int], str]
+    limits: tuple[float, float] = (0.0, math.inf)  # the smallest and the largest value that a hit can have
+    formula: str = ""  # the lecture's symbol for it, if there is one
+    unit: str = ""
+
+    @property
+    def symbol(self) -> str:
+        """The lecture's symbol as plain text."""
+        return plain(self.formula)
 
 
-def _field(name: str) -> Quantity:
+def _field(name: str, limits: tuple[float, float] = (0.0, math.inf), formula: str = "") -> Quantity:
     """A number of the table of rays."""
-    return Quantity(lambda tree, i: float(tree.nodes[name][i]), lambda tree, i: format_number(tree.nodes[name][i]))
-
-
-def _angle(name: str) -> Quantity:
     return Quantity(
-        lambda tree, i: math.degrees(float(tree.nodes[name][i])),
-        lambda tree, i: format_angle(float(tree.nodes[name][i]), direction_error(tree, i)),
+        lambda tree, i: float(tree.nodes[name][i]), lambda tree, i: format_number(tree.nodes[name][i]), limits, formula
     )
 
 
-def _computed(value: Callable[[RayTree, int], float], is_angle: bool = False) -> Quantity:
-    def written(tree: RayTree, i: int) -> str:
-        found = value(tree, i)
-        return format_angle(math.radians(found)) if is_angle else format_number(found)
+def _angle(name: str, formula: str) -> Quantity:
+    return Quantity(
+        lambda tree, i: math.degrees(float(tree.nodes[name][i])),
+        lambda tree, i: format_angle(float(tree.nodes[name][i]), direction_error(tree, i)),
+        RIGHT_ANGLE, formula, "°",
+    )  # fmt: skip
 
-    return Quantity(value, written)
+
+def _computed(
+    value: Callable[[RayTree, int], float], limits: tuple[float, float] = (0.0, math.inf), formula: str = ""
+) -> Quantity:
+    return Quantity(value, lambda tree, i: format_number(value(tree, i)), limits, formula)
 
 
 def _reflectance(tree: RayTree, i: int) -> float:
@@ -61,7 +73,7 @@ def _critical(tree: RayTree, i: int) -> float:
     return math.nan if found is None else math.degrees(found)
 
 
-def _share(k: int) -> Quantity:
+def _share(k: int, formula: str) -> Quantity:
     """A barycentric coordinate of a hit on a triangle; NaN on other shapes."""
 
     def value(tree: RayTree, i: int) -> float:
@@ -70,7 +82,7 @@ def _share(k: int) -> Quantity:
             barycentric(corners, tree.nodes["point"][i])[k] if corners is not None and len(corners) == 3 else math.nan
         )
 
-    return Quantity(value, lambda tree, i: format_share(value(tree, i)))
+    return Quantity(value, lambda tree, i: format_share(value(tree, i)), SHARE, formula)
 
 
 def _crossings(tree: RayTree, i: int) -> float:
@@ -86,15 +98,17 @@ def _channel(name: str, k: int) -> Quantity:
 
 
 QUANTITIES: dict[str, Quantity] = {
-    "theta1": _angle("theta1"),
-    "theta2": _angle("theta2"),
-    "critical": _computed(_critical, is_angle=True),
-    "n1": _field("n1"),
-    "n2": _field("n2"),
-    "eta": _computed(lambda tree, i: float(tree.nodes["n1"][i]) / float(tree.nodes["n2"][i])),
-    "radicand": _field("radicand"),
-    "reflectance": _computed(_reflectance),
-    "transmittance": _computed(lambda tree, i: 1.0 - _reflectance(tree, i)),
+    "theta1": _angle("theta1", Lecture.THETA_1),
+    "theta2": _angle("theta2", Lecture.THETA_2),
+    "critical": Quantity(
+        _critical, lambda tree, i: format_angle(math.radians(_critical(tree, i))), RIGHT_ANGLE, Lecture.THETA_C, "°"
+    ),
+    "n1": _field("n1", formula=Lecture.INDEX_1),
+    "n2": _field("n2", formula=Lecture.INDEX_2),
+    "eta": _computed(lambda tree, i: float(tree.nodes["n1"][i]) / float(tree.nodes["n2"][i]), formula=Lecture.ETA),
+    "radicand": _field("radicand", (-math.inf, 1.0), Lecture.RADICAND),
+    "reflectance": _computed(_reflectance, SHARE),
+    "transmittance": _computed(lambda tree, i: 1.0 - _reflectance(tree, i), SHARE),
     "weight": Quantity(
         lambda tree, i: float(max(tree.nodes["weight"][i])),
         lambda tree, i: format_weight(tree.nodes["weight"][i], float(tree.nodes["weight_error"][i])),
@@ -104,9 +118,9 @@ QUANTITIES: dict[str, Quantity] = {
         lambda tree, i: format_weight(tree.nodes["factor"][i], float(tree.nodes["factor_error"][i])),
     ),
     "t": _field("t"),
-    "alpha": _share(0),
-    "beta": _share(1),
-    "gamma": _share(2),
+    "alpha": _share(0, Lecture.ALPHA),
+    "beta": _share(1, Lecture.BETA),
+    "gamma": _share(2, Lecture.GAMMA),
     "crossings": _computed(_crossings),
     "red": _channel("radiance", 0),
     "green": _channel("radiance", 1),

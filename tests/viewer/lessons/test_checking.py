@@ -12,6 +12,7 @@ from viewer.lessons.skeleton import SCENE, write_skeleton
 from viewer.lessons.values import QUANTITIES, value_text
 
 HEAD = '+++\ntitle = "Mine"\nquestion = "Why?"\npixel = [160, 150]\n+++\n## One\n'
+SWEEP = "sweep = { of = 'material.mirror.reflect', from = 0.5, to = 0 }"  # the reflected ray is gone at its end
 STEP = '```step\nhit = "E"\n%s\n```\n%s\n'
 
 
@@ -83,12 +84,73 @@ def test_the_skeleton_passes_and_is_never_written_over(
         ("", "```code formula\nx\n\n\\foo\n```", r"line 14: formula '\\foo': \foo is not known"),
         ("", r"$\foo$", r"line 11: formula '\\foo': \foo is not known"),
         ('scene = "other.toml"', "", "other.toml: file not found"),
+        ("goal = { t = 3 }", "", 'line 9: goal: t must be a number in quotes, like "47.26", got 3'),
+        ('goal = { theta1 = "91" }', "", "line 9: goal: theta1 must be from 0 to 90, got 91"),
+        ('goal = { R.reflectance = "1.2" }', "", "line 9: goal: R.reflectance must be from 0 to 1, got 1.2"),
+        ('goal = { X.t = "1" }', "", "line 9: goal: X.t must begin with the path of a ray, like E, TR or"),
+        ('goal = { RT.t = "1" }', "", "line 9: goal: RT.t asks for a ray T, and nothing in the scene transmits"),
+        ('goal = { RRRR.t = "1" }', "", "line 9: goal: RRRR.t must be about a ray of depth 3 at most, which"),
+        ('goal = { "E.L(sun)".end = "lit" }', "", "E.L(sun).end must be about a light of the scene (lamp), got sun"),
+        ('goal = { "E.L(lamp)".end = "depth" }', "", 'E.L(lamp).end must be one of "lit", "filtered", "blocked", got'),
+        ('goal = { end = "lit" }', "", 'line 9: goal: end must be one of "surface", "background", "depth", "weight",'),
+        ('goal = { object = "bal" }', "", 'object must be one of "ball", "floor" (did you mean "ball"?), got "bal"'),
+        ('goal = { children = "R" }', "", 'children must be one of [], ["R"], ["T"], ["I"], ["R", "T"], got "R"'),
+        ('goal = { children = ["I"] }', "", "children asks for a ray I, and nothing in the scene transmits"),
+        ('goal = { RRR.children = ["R"] }', "", "RRR.children must be [], since no ray goes on at depth 3, which is"),
+        (SWEEP, "a\n\n{R.object}", "line 13: {R.object}: at the end of the sweep this pixel has no ray R (it has E)"),
+        (SWEEP, "a\n\n???\n\n[it](#R)", "line 15: link #R: at the end of the sweep this pixel has no such ray"),
+        (SWEEP, "```live\nphong x\n```", "line 12: live: phong: light must be a light of the scene, lamp, got"),
+        (SWEEP, "{theta3}", "line 11: {theta3}: unknown value"),
+        (
+            "sweep = { of = 'material.mirror.reflect', from = 0.5, to = 0, expect = { children = ['R'] } }",
+            "\n???\n[R](#E)", 'line 9: sweep: expect: children must be ["R"], got []',
+        ),
+        ("sweep = { of = 'material.mirror.iro', from = 1, to = 2 }", "\n## Two\n", 'unknown key "iro" (did you'),
+        ("set = { material.miror.ior = 1 }", f"\n## Two\n```step\n{SWEEP}\n```\n", '(did you mean "mirror"?)'),
+        ("sweep = { of = 'material.mirror.ior', from = -1, to = -1 }", "\n## Two\n", "ior must be > 0, got -1"),
     ],
 )  # fmt: skip
 def test_a_planted_fault_is_found_with_its_line(tmp_path: Path, step: str, text: str, said: str) -> None:
     assert checked(tmp_path, "", "Right: {theta1}, {R.object}, [it](#R).") == []
     faults = checked(tmp_path, step, text)
     assert len(faults) == 1 and said in faults[0] and faults[0].startswith("line "), faults
+
+
+def test_a_sweep_may_show_how_a_ray_goes(tmp_path: Path) -> None:
+    """A link in the first part may be about a ray that is gone at the end. A later part is only about the end."""
+    assert checked(tmp_path, SWEEP, "The [ray](#R) goes.\n\n???\n\n{t}") == []
+    other = "sweep = { of = 'material.mirror.reflect', from = 0, to = 0.5 }"
+    assert checked(tmp_path, other, "{t}\n\n???\n\nIt meets the {R.object}, [see](#R).") == []
+
+
+def test_a_goal_that_can_be_reached_is_none_of_these(tmp_path: Path) -> None:
+    for goal in (
+        'RRR.object = "floor"', "children = []", 'RR.children = ["R"]', '"R.L(lamp)".end = "blocked"', 'theta1 = "90"',
+        'radicand = "-2"', 'end = "background"', "E = { object = 'floor' }",
+    ):  # fmt: skip
+        assert checked(tmp_path, f"goal = {{ {goal} }}") == []
+
+
+@pytest.mark.parametrize(
+    ("step", "said"),
+    [
+        ('hit = "R"', "line 9: hit: the step has no pixel"),
+        ('expect = { object = "ball" }', "line 9: expect: the step has no pixel"),
+        ('goal = { object = "bal" }', 'line 9: goal: object must be one of "ball", "floor" (did you mean "ball"?)'),
+        (f"{SWEEP[:-2]}, expect = {{ children = [] }} }}", "line 9: sweep: expect: the step has no pixel"),
+        ("", "line 12: {t}: the step has no pixel"),
+        ("", "line 12: link #R: the step has no pixel"),
+        ("", "line 15: live: phong: no pixel is picked"),
+    ],
+)
+def test_what_needs_a_pixel_is_a_fault_without_one(tmp_path: Path, step: str, said: str) -> None:
+    text = {"{t}": "{t}", "link": "[a](#R)", "live": "\n\n```live\nphong\n```"}
+    used = next((words for key, words in text.items() if key in said), "") if not step else ""
+    (tmp_path / "scene.toml").write_text(SCENE, "utf-8")
+    head = '+++\ntitle = "Mine"\nquestion = "Why?"\ndepth = 1\n+++\n## One\n'
+    (tmp_path / "lesson.md").write_text(f"{head}```step\ndepth = 2\n{step}\n```\n\n{used}\n", "utf-8")
+    (fault,) = check(tmp_path / "lesson.md")
+    assert said in fault
 
 
 def test_a_lesson_begins_with_a_question(tmp_path: Path) -> None:

@@ -83,7 +83,7 @@ def test_floor_under_the_table_sees_no_light(worlds: dict[str, tracer.World]) ->
     ("text", "said"),
     [
         ("no data", "a lesson begins with its data"),
-        ("+++\ntitle = \n+++\nx", "not TOML"),
+        ("+++\ntitle = \n+++\nx", 'line 2: not TOML: invalid value, got "title ="'),
         ("+++\nscene = 'scene.toml'\n+++\nx", "title is missing"),
         ("+++\ntitle = 'x'\npixle = [1, 2]\n+++\nx", 'unknown key "pixle" (did you mean "pixel"?)'),
         ("+++\ntitle = 'x'\npixel = [1, -2]\n+++\nx", "pixel must be two whole numbers"),

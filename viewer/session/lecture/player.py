@@ -5,11 +5,12 @@ from dataclasses import replace
 from typing import Protocol
 
 from tracer.kernel.world import World
+from viewer.base.cached import Cached
 from viewer.base.files import Unusable
 from viewer.lessons import lesson as lessons
 from viewer.lessons.lesson import Lesson
-from viewer.lessons.moments import Moment, Shown, count_presses, shown_at, sweep_share, view_of
-from viewer.lessons.step import COLOUR, DEPTH, Step
+from viewer.lessons.moments import Moment, Shown, count_presses, shown_at, stages_of, sweep_share, view_of
+from viewer.lessons.step import DEPTH, RAYS, Step
 from viewer.reopen.view_state import ViewState, merged
 from viewer.session.image_renderer import ImageRenderer, Job
 from viewer.session.lecture.sweeping import Sweeping
@@ -51,6 +52,7 @@ class LessonPlayer:
         self.sweeping = Sweeping(session)
         self.parameters: dict[str, float] = {}  # of the live pieces, by the names of their handles
         self.lines_too_many = 0  # of the step's text in its panel, when it was drawn last
+        self._found: Cached[list[int]] = Cached()  # the stages of the reveal
         self.is_due = False  # whether the stage is to be shown as soon as there is a tree
 
     @property
@@ -91,15 +93,12 @@ class LessonPlayer:
 
     @property
     def _pages(self) -> Sequence[int]:
-        """The pages by ray that are the stages of the reveal. Those that only add rays of hidden kinds are left out."""
+        """The steps of the tree that are the stages of the reveal."""
         steps = self.session.reveal.steps
         if not steps or not self.step:
             return range(1)
-        if self.step.state.reveal == COLOUR:
-            return range(steps.count_reveals - 1, len(steps))
-        shown = {*self.step.state.show, "camera"}
-        kinds = [{steps.tree.kind(row) for row in steps[k].current} for k in range(steps.count_reveals)]
-        return [k for k, added in enumerate(kinds) if added & shown]
+        asked = (self.step.state.reveal or RAYS, self.step.state.show)
+        return self._found.get((steps, *asked), lambda: stages_of(steps, *asked))
 
     # --- going on -----------------------------------------------------------------------------------------------------
 
