@@ -12,23 +12,34 @@ from viewer.figures.layout.tree_plan import TreePlan
 from viewer.figures.marks import Line, Mark, Stroke, Text
 
 FROM_EYE = 1.1  # from the middle of the eye to the first ray, in text sizes
+BELOW_EYE = 0.5  # the same, if the ray goes down
 RAISED = 0.72  # of the first ray's label above it, in text sizes
 FIRST_ARROW = 0.3  # of the first ray's length
 
 
 def outline_ray(plan: TreePlan, tree: RayTree, i: int, stroke: Stroke) -> list[Mark]:
-    """The edge to hit i, with its label behind the box. The first ray runs from the eye to its box, below its label."""
+    """The edge to hit i, with its label behind the box. The first ray runs from the eye to its box, with its label
+    beside it.
+    """
     name, size, arrow = f"ray-{i}", plan.size, STYLES[tree.kind(i)].arrow
     (x, y), label, title, half = plan.at[i], edge_label(tree, i), ray_title(tree, i), 0.5 * plan.box[0]
     if i:
         edge = outline_edge(plan, tree, i, name, stroke, arrow, title)
         return [*edge, Text(name, (x + half + GAP * size, y), label, size, stroke.color, "start")]
-    start, end = plan.places.eye[0] + FROM_EYE * size, x - half
-    at = (end - GAP * size - text_width(label, size), y - RAISED * size)
+    (left, top), is_beside = plan.places.eye, plan.places.eye[1] == y
+    if is_beside:
+        start, end = (left + FROM_EYE * size, y), (x - half, y)
+        at = (end[0] - GAP * size - text_width(label, size), y - RAISED * size)
+    else:
+        start, end = (left, top + BELOW_EYE * size), (left, y - 0.5 * plan.box[1])
+        at = (left + GAP * size, 0.5 * (start[1] + end[1]))
     return [
-        Line(name, (start, y), (end, y), stroke, arrow, FIRST_ARROW, leaves="eye", reaches="hit-0", title=title),
+        Line(
+            name, start, end, stroke, arrow, FIRST_ARROW if is_beside else 1.0,
+            leaves="eye", reaches="hit-0", title=title,
+        ),
         Text(name, at, label, size, stroke.color, "start"),
-    ]
+    ]  # fmt: skip
 
 
 def outline_edge(

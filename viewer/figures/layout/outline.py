@@ -11,13 +11,13 @@ from viewer.figures.layout.sizes import BOX, MARGIN
 from viewer.figures.marks import Point
 
 # All in text sizes.
-INDENT = 2.1  # of a level
+INDENT = 1.7  # of a level
 PITCH, TALLEST = 2.0, 2.7  # least and largest distance of lines
 GAP = 0.5  # between a box and the label behind it
 EYE = 1.0  # from the left to the middle of the eye
-FIRST_EDGE = 4.5  # from the left to the first box: the eye, and the first ray with its label above it
-TRUNK = 0.8  # from the left end of a box to the edges that begin below it
-APART = 0.22  # of two edges that begin together, from their middle
+FIRST_EDGE = 4.5  # from the left to the first box, if it stands beside the eye: the first ray with its label above it
+TRUNK = 0.6  # from the left end of a box to the edges that begin below it
+APART = 0.2  # of two edges that begin together, from their middle
 
 
 def outline_rows(task: LayoutTask) -> list[int]:
@@ -33,22 +33,28 @@ def outline_rows(task: LayoutTask) -> list[int]:
 
 
 def place_as_outline(task: LayoutTask, anyhow: bool) -> Places | None:
-    """The positions; None if they do not fit."""
+    """The positions; None if they do not fit. The eye stands before the first box, or on a line above it if there is
+    more room for that.
+    """
+    beside = _placed(task, FIRST_EDGE, 0, False)
+    return beside or _placed(task, 0.0, 1, False) or (_placed(task, FIRST_EDGE, 0, True) if anyhow else None)
+
+
+def _placed(task: LayoutTask, before: float, above: int, anyhow: bool) -> Places | None:
+    """The positions with so much room, in text sizes, before the first box, and so many lines above it."""
     style, sizes, depth = task.style, task.sizes, task.rays.depths
     size, (left, top, right, bottom) = style.size, style.where
     margin = MARGIN * size
     rows = outline_rows(task)
-    deepest = max(depth[i] for i in rows)
-    wide = FIRST_EDGE * size + sizes.column + GAP * size + sizes.label
+    last = len(rows) - 1 + above
+    wide = (before + max(depth[i] for i in rows) * INDENT + GAP) * size + sizes.column + sizes.label
     free = bottom - top - 2.0 * margin - BOX * size
-    fits = deepest * INDENT * size + wide <= right - left - 2.0 * margin
-    fits = fits and (len(rows) - 1) * PITCH * size <= free
-    if not fits and not anyhow:
+    if not anyhow and (wide > right - left - 2.0 * margin or last * PITCH * size > free):
         return None
-    pitch = min(TALLEST * size, free / (len(rows) - 1)) if len(rows) > 1 else 0.0
+    pitch = min(TALLEST * size, free / last) if last else 0.0
     first = top + margin + 0.5 * BOX * size
-    start = left + margin + FIRST_EDGE * size + 0.5 * sizes.column
-    at = {i: (start + INDENT * size * depth[i], first + pitch * k) for k, i in enumerate(rows)}
+    start = left + margin + before * size + 0.5 * sizes.column
+    at = {i: (start + INDENT * size * depth[i], first + pitch * (k + above)) for k, i in enumerate(rows)}
     return Places(at, {}, {}, (left + margin + EYE * size, first))
 
 
