@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
 from tracer import whitted
 from tracer.choices import MODELS
 from tracer.formulas.camera import pixel_direction
@@ -34,7 +34,7 @@ def differences(world: tracer.World, model: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_the_page_and_the_kernel_trace_the_same_colours(name: str, model: str, worlds: dict[str, tracer.World]) -> None:
     off = differences(worlds[name], model)
     assert len(off) > 80

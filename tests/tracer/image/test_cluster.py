@@ -161,7 +161,7 @@ class Assassin(SchedulerPlugin):
             self.gone.set()
 
 
-@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize("workers", [pytest.param(1, marks=pytest.mark.slow), 2])
 def test_killed_worker_costs_no_pixel(world: tracer.World, workers: int) -> None:
     """The other worker takes over. If it was the only one, it is started again and receives the scene again."""
     with (

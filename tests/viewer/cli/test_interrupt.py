@@ -35,7 +35,7 @@ CASES = {
 
 
 # The same paths through the program as the others, with the other signal or in another command.
-SLOW = ("image, SIGTERM", "several", "few pixels, bounds", "measuring", "screenshot, SIGTERM")
+SLOW = ("image", "image, SIGTERM", "several", "few pixels, bounds", "bounds", "measuring", "screenshot, SIGTERM")
 
 
 @pytest.mark.parametrize(
