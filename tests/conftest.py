@@ -18,6 +18,11 @@ EACH_LESSON = [*LESSONS, *(pytest.param(name, marks=pytest.mark.slow) for name i
 ALL_LESSONS = lesson.names()
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Files of few long tests begin first: at the end, one process would work on them, and the other wait."""
+    items.sort(key=lambda item: item.get_closest_marker("early") is None)
+
+
 @pytest.fixture(autouse=True)
 def _strict_numbers() -> Iterator[None]:
     """An unexpected division by zero or overflow fails the test instead of passing on as inf or NaN."""

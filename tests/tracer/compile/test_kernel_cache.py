@@ -14,7 +14,10 @@ import pytest
 
 from tests import ROOT
 
-pytestmark = pytest.mark.skipif(not hasattr(os, "geteuid"), reason="Windows keeps the folders of users apart")
+pytestmark = [
+    pytest.mark.early,
+    pytest.mark.skipif(not hasattr(os, "geteuid"), reason="Windows keeps the folders of users apart"),
+]
 
 STRANGER = 12345  # the number of another user
 SMALL = """

@@ -32,6 +32,8 @@ from tracer.kernel.limits import make_limits
 from tracer.scene import Image, Light, Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
 
+pytestmark = pytest.mark.early
+
 
 def local_cluster(workers: int) -> Any:
     return distributed.LocalCluster(

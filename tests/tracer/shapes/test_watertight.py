@@ -13,6 +13,8 @@ from tracer.kernel.workspace import Workspace
 from tracer.scene import Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
 
+pytestmark = pytest.mark.early
+
 RAYS = 100_000  # at the corners, and as many at the edges, of each mesh
 
 

@@ -17,6 +17,8 @@ from viewer.cli import main
 from viewer.figures.catalogue import FIGURE_NAMES
 from viewer.session.figure_export import SHOWN, FigureExport, free_path
 
+pytestmark = pytest.mark.early
+
 
 @pytest.fixture
 def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Driver]:

@@ -18,6 +18,8 @@ from viewer.lessons import lesson
 from viewer.reopen.places import CARRYING, read_figure
 from viewer.session.restore.view import state_of
 
+pytestmark = pytest.mark.early
+
 SCROLL_BAR = 24  # pixels
 FORMATS = tuple(suffix[1:] for suffix in CARRYING)
 

@@ -22,7 +22,7 @@ from viewer.session.stepping.reveal import LEVELS, RAYS
 from viewer.window import bar
 from viewer.window.app import FASTEST
 
-pytestmark = LINUX_ONLY
+pytestmark = [pytest.mark.early, LINUX_ONLY]
 
 
 @pytest.fixture

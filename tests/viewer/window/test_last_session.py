@@ -29,7 +29,7 @@ from viewer.session.restore.last_session import LastSession, SessionKeeper, Wind
 from viewer.session.restore.view import state_of
 from viewer.window.screens import is_reachable, screen_of
 
-pytestmark = LINUX_ONLY
+pytestmark = [pytest.mark.early, LINUX_ONLY]
 
 # The program, which tells when it has kept its session.
 PROGRAM = """

@@ -18,6 +18,8 @@ from viewer.lessons import lesson
 from viewer.reopen.view_state import ViewState
 from viewer.window import bindings
 
+pytestmark = pytest.mark.early
+
 K = imgui.Key
 EVENTS = 500  # a seed
 NAMED = [K(k) for k in range(K.named_key_begin, K.mouse_left) if K(k) not in (K.q, K.left_super, K.right_super)]
