@@ -57,6 +57,7 @@ def test_the_window_and_the_paper_have_the_same_stages(tmp_path: Path, reveal: s
             driver.session.player.show(lesson, Moment(0, press))
             driver.app.settle()
             assert driver.session.player.moment == Moment(0, press)
+            assert driver.session.tree
             in_window.append(of_kinds(driver.canvas.step(driver.session.tree), driver.session.shown.kinds))
     counted = [len(step.rows) for step in in_window]
     if reveal == "colour":
