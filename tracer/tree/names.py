@@ -7,6 +7,7 @@ The label is the kind of the ray with its number, which counts the rays without 
 `E`, `R1`, `T2`, `TIR3`. A shadow ray has the label of the ray that it starts from, and its light: `T2.L(key)`.
 """
 
+import re
 from collections import Counter
 
 import numpy as np
@@ -44,6 +45,13 @@ def path(nodes: np.ndarray, lights: list[str], i: int) -> str:
         letters.append(LETTERS[KINDS[nodes["kind"][i]]])
         i = int(nodes["parent"][i])
     return "".join(reversed(letters)) or LETTERS["camera"]
+
+
+def kind_of(path: str) -> str:
+    """The kind of the ray that has this path, as `KINDS` names it."""
+    way, _, light = path.partition(".")
+    letter = light[:1] or re.sub(r"\[\d+\]", "", way)[-1]
+    return next(kind for kind, known in LETTERS.items() if known == letter)
 
 
 def numbers(nodes: np.ndarray) -> np.ndarray:

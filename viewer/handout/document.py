@@ -90,6 +90,7 @@ class Show:
     controls: tuple[Control, ...] = ()
     shown: tuple[Shown, ...] = ()
     photos: tuple[Photo, ...] = ()  # one for all frames, or one for each
+    follows: int | None = None  # of a live piece: its frames from here on are those of the step's sweep
 
     @property
     def last(self) -> int:
@@ -98,6 +99,7 @@ class Show:
         return stages.first + len(stages.positions) - 1 if stages and stages.name in REVEALED else self.start
 
 
+MOST_ON_THE_WAY = 4  # slides between both ends of a sweep
 REVEALED = ("depth", "rays", "colour")  # names of controls whose last position shows everything
 
 
@@ -130,6 +132,24 @@ class Page:
         if state.sweep and last:
             return (0, last)
         return tuple(range(last + 1)) if state.reveal else (0,)
+
+    @property
+    def on_the_way(self) -> tuple[int, ...]:
+        """The frames between both ends of a sweep that show it best: those before and after a change of the tree's
+        shape, at most MOST_ON_THE_WAY; the middle one if it keeps its shape.
+        """
+        last = self.show.frames - 1
+        if not self.step.state.sweep or last < 2:
+            return ()
+        shapes = [_shape(shown.tree) for shown in self.show.shown]
+        changes = [k for k in range(1, last + 1) if shapes[k] != shapes[k - 1]]
+        near = dict.fromkeys(frame for k in changes for frame in (k - 1, k) if 0 < frame < last)
+        return tuple(near)[:MOST_ON_THE_WAY] if changes else (last // 2,)
+
+
+def _shape(tree: RayTree | None) -> list[tuple[str, str | None]]:
+    """The paths of a tree's rays, and what they meet."""
+    return [(tree.path(i), tree.object_name(i)) for i in range(len(tree))] if tree else []
 
 
 @dataclass(frozen=True)

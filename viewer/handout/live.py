@@ -19,15 +19,18 @@ NUMBER = re.compile(r"[0-9]")
 DRAG = "drag to "  # begins the titles of handles
 
 
-def live_show(fence: Fence, shown: Shown, row: int) -> Show | None:
-    """The show of a live piece about the hit of this row; None if it cannot show it. Frame 0 is the piece at first."""
+def live_show(fence: Fence, shown: Shown, hit: str | None, swept: Sequence[Shown] = ()) -> Show | None:
+    """The show of a live piece about this hit; None if it cannot show it. Frame 0 is the piece at first. The last ones
+    are those at the positions of a sweep, if it is to follow that.
+    """
     name, *words = fence.content.split() or [""]
-    drawn: dict[tuple[Rectangle, float, str, tuple], list[Mark]] = {}
+    drawn: dict[tuple[Rectangle, float, str, tuple, int], list[Mark]] = {}
 
-    def marks(room: Room, parameters: dict[str, float]) -> list[Mark]:
-        key = (room.where, room.size, room.theme.name, tuple(parameters.items()))
+    def marks(room: Room, parameters: dict[str, float], about: Shown = shown) -> list[Mark]:
+        key = (room.where, room.size, room.theme.name, tuple(parameters.items()), id(about))
         if key not in drawn:
-            context = LiveContext(shown.tree, row, shown.world, room.theme, room.size, room.where)
+            row = (about.tree.find(hit) if about.tree and hit else 0) or 0
+            context = LiveContext(about.tree, row, about.world, room.theme, room.size, room.where)
             drawn[key] = kind.marks(context, parameters, words)
         return drawn[key]
 
@@ -47,11 +50,21 @@ def live_show(fence: Fence, shown: Shown, row: int) -> Show | None:
     except ValueError:
         return None
 
+    follows = len(parameters)
+    frames = [*((one, shown) for one in parameters), *(({}, at) for at in swept)]
+
     def draw(room: Room, asked: Sequence[int]) -> list[list[Mark]]:
-        return [marks(room, parameters[k]) for k in asked]
+        found = []
+        for k in asked:
+            try:
+                found.append(marks(room, *frames[k]))
+            except ValueError:  # there is no such hit on the way of the sweep
+                found.append([])
+        return found
 
     picture = Picture(name, kind.title, draw, lambda _, made: of_marks(kind.title, made))
-    return Show((picture,), len(parameters), 0, tuple(controls), (shown,) * len(parameters))
+    about = tuple(one for _, one in frames)
+    return Show((picture,), len(frames), 0, tuple(controls), about, follows=follows if swept else None)
 
 
 def differences(drawn: Sequence[Sequence[Mark]]) -> list[str]:

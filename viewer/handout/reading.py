@@ -64,7 +64,8 @@ class _Reader:
             shown = Shown(trees[-1] if trees else None, world)
             if swept and k:
                 shown = Shown(swept[-1].tree, swept[-1].world)
-            shows = {fence.line: live_show(fence, shown, _row(shown.tree, state.hit)) for fence in part.live}
+            along = [Shown(at.tree, at.world) for at in swept] if k == 0 else []
+            shows = {fence.line: live_show(fence, shown, state.hit, along) for fence in part.live}
             live = {line: show for line, show in shows.items() if show}
             blocks = [*_with_listings(part.blocks), *(() if k else _task(step))]
             parts.append(PagePart(filled(blocks, _values(shown.tree, state.hit)), shown, live))

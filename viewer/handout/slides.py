@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from tracer.tree.names import kind_of
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import Color, Theme, rgb
 from viewer.figures.marks import WIDTH, Handle, Mark, Point, Rectangle
@@ -20,10 +21,11 @@ MUCH = 150.0  # points: height of much text
 FOOT = 520.0  # where pictures end; the place in the lesson stands below
 FOOT_SIZE = 12.0
 GAP = 12.0  # between the text and pictures, and between two of these
-SIZES, LEAST = (17.0, 14.0), 10.0  # text of pictures: of one, of two; the smallest of a tree
+SIZES, LEAST = (20.0, 18.0), 14.0  # text of pictures: of one, of two; the smallest of a tree
 RING = 8.0  # radius of the rings around the pixel, which are seen on any image
 RINGS = ((rgb("#000000"), 4.0), (rgb("#FFFFFF"), 1.8))  # colours and widths
-SHARES = {"scene": 1.0, "tree": 1.15, "hit": 1.5, "ray": 1.0}  # of the width, relative to each other
+HIT_SIZE = 16.0  # text of two pictures if one is a hit: larger text would have no room for its formulas
+SHARES = {"scene": 1.0, "tree": 1.15, "hit": 2.1, "ray": 1.0}  # of the width, relative to each other
 LIVE = 1.5  # the same, of a live piece
 
 
@@ -58,18 +60,16 @@ class Slide:
     pictures: tuple[Placed, ...]
     notes: str
     page: Page | None = None
-    tree: RayTree | None = None  # that the text is about
 
     @property
     def text_box(self) -> Rectangle:
         return (MARGIN, HEAD, WIDTH - MARGIN, HEAD + self.text.bottom)
 
     def color(self, word: Word, theme: Theme) -> Color:
-        """The colour of a word: a link to a ray has that of its kind."""
-        tree, path = self.tree, word.style.ray
-        row = tree.find(path) if tree and path else None
-        if row is not None and tree:
-            return theme.ray(tree.kind(row))
+        """The colour of a word: a link to a ray has that of its kind, also when a sweep has left the ray behind."""
+        path = word.style.ray
+        if path:
+            return theme.ray(kind_of(path))
         return theme.accent if word.style.link else theme.text
 
 
@@ -98,16 +98,33 @@ def _of_page(handout: Handout, page: Page, theme: Theme) -> Iterator[Slide]:
     left, right = MARGIN, WIDTH - MARGIN
     where = (left, HEAD + whole.bottom + GAP, right, FOOT)  # with room for all text: pictures keep their places
     drawn = _Drawn(len(page.stages) if page.step.state.reveal else 1, theme)
+    place = f"{handout.lesson.title}   {page.number}/{len(handout.pages)}"
+    notes = page.step.notes or _spoken(page)
+    for count, frame in _moments(page):
+        parts = page.parts[:count]
+        live = [one for part in parts for one in part.live.values()]
+        pictures = _of_show(page, show, frame, live, where, drawn)
+        yield Slide(page.title, place, _text(parts, whole.size), tuple(pictures), notes, page)
+
+
+def _moments(page: Page) -> Iterator[tuple[int, int]]:
+    """(number of parts of the text, frame) of each slide: of each press, and of places on the way of a sweep."""
     for press in range(count_presses(page.step, len(page.stages)) + 1):
         shown = shown_at(page.step, len(page.stages), press)
-        parts = page.parts[: shown.parts]
-        text = _text(parts, whole.size)
-        # A piece of the first part is about the beginning of a sweep.
-        about = parts[1:] if page.step.state.sweep and shown.stage else parts
-        live = [one for part in about for one in part.live.values()]
-        pictures = _of_show(page, show, page.stages[shown.stage], live, where, drawn)
-        place = f"{handout.lesson.title}   {page.number}/{len(handout.pages)}"
-        yield Slide(page.title, place, text, tuple(pictures), page.step.notes, page, parts[-1].shown.tree)
+        yield shown.parts, page.stages[shown.stage]
+        if press == 0:
+            yield from ((shown.parts, frame) for frame in page.on_the_way)
+
+
+def _spoken(page: Page) -> str:
+    """The text of a step, for the notes of a step that has none."""
+    lines = TextLines(WIDTH, TEXT)
+    for part in page.parts:
+        lines.add(part.blocks)
+    said = [
+        "".join(word.style.text if word.is_formula else word.content for word in block.words) for block in lines.blocks
+    ]
+    return "\n".join([page.title, *said])
 
 
 def _text(parts: Sequence[PagePart], size: float | None = None) -> TextLines:
@@ -136,7 +153,8 @@ def _of_show(page: Page, show: Show, stage: int, live: Sequence[Show], where: Re
     """The pictures of a step, and the image if it is one of its panels; beside a live piece, the first of them."""
     pictures = [(show, picture, stage) for picture in show.pictures]
     if live:
-        pictures = [*pictures[:1], *((live[-1], picture, 0) for picture in live[-1].pictures)]
+        frame = 0 if live[-1].follows is None else live[-1].follows + stage
+        pictures = [*pictures[:1], *((live[-1], picture, frame) for picture in live[-1].pictures)]
     if live or "image" not in page.step.state.panels or not show.photos:
         return _pictures(pictures, where, drawn)
     photo = show.photos[stage if len(show.photos) > 1 else 0]
@@ -154,6 +172,8 @@ def _pictures(pictures: Sequence[tuple[Show, Picture, int]], where: Rectangle, d
     shares = [SHARES.get(picture.kind, LIVE) for _, picture, _ in pictures]
     unit = (right - left - GAP * (len(shares) - 1)) / sum(shares)
     size = SIZES[min(len(shares), len(SIZES)) - 1]
+    if len(shares) > 1 and any(picture.kind == "hit" for _, picture, _ in pictures):
+        size = HIT_SIZE
     found = []
     for (show, picture, frame), share in zip(pictures, shares, strict=True):
         place = (left, top, left + share * unit, bottom)

@@ -101,6 +101,26 @@ def test_positions_of_a_sweep_and_of_handles_have_the_numbers_that_were_computed
     assert trees[0] and trees[0].pixel == (30, 18) and trees[-1] is page.parts[1].shown.tree
 
 
+def test_a_live_piece_in_the_first_part_goes_along_with_the_sweep(desktop: Browser, handout: Handout) -> None:
+    """And the box of the sweep covers nothing: it stands above the pictures."""
+    page = handout.pages[2]
+    (snell,) = page.parts[0].live.values()
+    place = desktop.run("document.querySelector('#step-3-show .live').id")
+    assert snell.follows is not None
+    seen = []
+    for position in (0, POSITIONS // 2, POSITIONS - 1):
+        move_to(desktop, "step-3-show", position)
+        seen.append(sorted(desktop.run(TEXTS.format(place, 0))))
+        assert seen[-1] == sorted(expected_texts(snell, 0, snell.follows + position))
+    assert len({tuple(texts) for texts in seen}) == 3
+    move_to(desktop, place, 0)  # its own handle
+    assert sorted(desktop.run(TEXTS.format(place, 0))) == sorted(expected_texts(snell, 0, snell.controls[0].first))
+    box = "(e => { const b = e.getBoundingClientRect(); return [b.top, b.bottom]; })"
+    show = "document.getElementById('step-3-show').querySelector(':scope > .moved > {}')"
+    (_, low), (high, _) = (desktop.run(f"{box}({show.format(name)})") for name in (".control", ".pictures"))
+    assert low <= high and desktop.run(f"getComputedStyle({show.format('.control')}).position") == "static"
+
+
 def test_a_handle_is_dragged(desktop: Browser, handout: Handout) -> None:
     (lifeguard,) = handout.pages[2].parts[1].live.values()
     desktop.run("document.querySelector('#\\\\33  details.answer').open = true")

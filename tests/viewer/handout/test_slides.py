@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 
 from tests.viewer.handout.sample import EVIL
-from viewer.figures.marks import HEIGHT, WIDTH
+from viewer.base.wording import format_angle
+from viewer.figures.marks import HEIGHT, WIDTH, Text
 from viewer.handout import pdf, pptx
 from viewer.handout.document import Handout, paper
 from viewer.handout.slides import Slide, slides_of
@@ -43,7 +44,8 @@ def words(parent: Any) -> str:
 
 
 def test_there_is_a_slide_for_the_cover_and_each_moment(handout: Handout, slides: list[Slide], deck: Any) -> None:
-    moments = sum(count_presses(page.step, len(page.stages)) + 1 for page in handout.pages)
+    presses = sum(count_presses(page.step, len(page.stages)) + 1 for page in handout.pages)
+    moments = presses + sum(len(page.on_the_way) for page in handout.pages)
     assert len(slides) == len(deck.slides) == 1 + moments
     for slide, made in zip(slides, deck.slides, strict=True):
         assert made.shapes.title.text == slide.title != ""
@@ -53,7 +55,47 @@ def test_there_is_a_slide_for_the_cover_and_each_moment(handout: Handout, slides
             if block.kind != "formula":
                 said = "".join(f" {w.style.text}" if w.is_formula else f" {w.content}" for w in block.words)
                 assert "".join(said.split()) in "".join(texts.split())
-    assert deck.slides[1].notes_slide.notes_text_frame.text == "Say *nothing* yet."
+
+
+def test_each_slide_of_a_step_has_its_notes_or_its_text(slides: list[Slide], deck: Any) -> None:
+    for slide, made in zip(slides, deck.slides, strict=True):
+        said = made.notes_slide.notes_text_frame.text
+        if slide.page and slide.page.number == 1:
+            assert said == "Say *nothing* yet."
+        elif slide.page and slide.page.number == 3:
+            assert said.startswith("Snell\nn₁ sin θ₁ = n₂ sin θ₂\na")
+        assert said.strip() == said != ""
+
+
+def test_a_sweep_has_slides_where_the_tree_changes_and_live_pieces_go_along(
+    handout: Handout, slides: list[Slide]
+) -> None:
+    page = handout.pages[2]
+    trees = [shown.tree for shown in page.show.shown]
+    paths = [[(tree.path(i), tree.object_name(i)) for i in range(len(tree))] for tree in trees if tree]
+    changes = [k for k in range(1, len(paths)) if paths[k] != paths[k - 1]]
+    expected = sorted({j for k in changes for j in (k - 1, k)} & set(range(1, len(paths) - 1)))
+    assert list(page.on_the_way) == (expected[:4] or [6]) and len(page.stages) == 2
+    own = [slide for slide in slides if slide.page is page]
+    places = [0, *page.on_the_way, len(trees) - 1]
+    for frame, slide in zip(places, own, strict=False):
+        (snell,) = (placed for placed in slide.pictures if placed.kind == "snell")
+        tree = trees[frame]
+        assert tree
+        angle = format_angle(float(tree.nodes["theta1"][0]))
+        assert any(isinstance(mark, Text) and angle in f"{mark.content} {mark.title}" for mark in snell.marks), frame
+
+
+def test_text_of_pictures_is_readable_from_the_last_row_and_inside_of_its_picture(slides: list[Slide]) -> None:
+    """16 points on a slide of 540: the height of its letters is above 2 percent of the picture's."""
+    for slide in slides:
+        for placed in slide.pictures:
+            left, top, right, bottom = placed.where
+            for mark in placed.marks:
+                if isinstance(mark, Text):
+                    assert mark.size >= 14.0 or placed.kind in ("ray", "difference"), (placed.kind, mark)
+                    a, b, c, d = mark.box()
+                    assert left - 1 <= a and top - 1 <= b and c <= right + 1 and d <= bottom + 1, (placed.kind, mark)
 
 
 def test_every_shape_has_a_name_of_its_own_and_a_ray_has_the_same_on_all_slides(

@@ -19,11 +19,19 @@ document.addEventListener("DOMContentLoaded", () => {
     const controls = own(".control");
     const svgs = own(".canvas svg");
 
+    // Live pieces in the text above the pictures go along with a sweep.
+    const followers = all(".show[data-follows]", show);
+
     function set(frame) {
       for (const [element, frames] of parts) element.classList.toggle("off", !frames.has(frame));
+      for (const other of followers) if (other !== show) other.follow(frame);
       for (const svg of svgs) svg.dispatchEvent(new Event("frame", { bubbles: true }));
     }
 
+    show.follow = (frame) => {
+      for (const control of controls) control.reset();
+      set(Number(show.dataset.follows) + frame);
+    };
     const tell = () => svgs.forEach((svg) => svg.dispatchEvent(new Event("frame", { bubbles: true })));
     show.addEventListener("told", tell);
 

@@ -54,7 +54,8 @@ class ShowWriter:
     def lines(self, show: Show, place: str, words: Sequence[str] = (), kind: str = "") -> Iterator[str]:
         """A show, with the words above it. `place` is its id."""
         start = show.last
-        yield f'<div class="show{f" {kind}" if kind else ""}" id="{place}">'
+        follows = "" if show.follows is None else f' data-follows="{show.follows}"'
+        yield f'<div class="show{f" {kind}" if kind else ""}" id="{place}"{follows}>'
         if words or show.photos:
             yield '<div class="lead">'
             yield '<div class="words">'
@@ -64,16 +65,22 @@ class ShowWriter:
                 yield from self._photos(show.photos, f"{place}-image", start, "" if show.pictures else " large")
             yield "</div>"
         yield f'<div class="moved"{self.ours}>'
+        if not kind:  # above the pictures, where it covers none
+            yield from self._controls(show, place)
         if show.pictures:
             alone = " alone" if len(show.pictures) == 1 else ""
             yield '<div class="pictures">'
             for k, picture in enumerate(show.pictures):
                 yield from self._picture(show, picture, f"{place}-{k + 1}", start, alone)
             yield "</div>"
+        if kind:
+            yield from self._controls(show, place)
+        yield "</div>"
+        yield "</div>"
+
+    def _controls(self, show: Show, place: str) -> Iterator[str]:
         for control in show.controls:
             yield from _control(control, f"{place}-{control.name}")
-        yield "</div>"
-        yield "</div>"
 
     def _picture(self, show: Show, picture: Picture, place: str, start: int, alone: str) -> Iterator[str]:
         (_, _, width, height), size = ROOMS.get(picture.kind, LIVE_ROOM.where), LIVE_ROOM.size
