@@ -70,6 +70,7 @@ class Control:
     positions: tuple[str, ...]  # what is said of each
     start: int = 0  # the position to begin with
     moves_handle: bool = False  # whether its frames have a handle that can be dragged
+    along: tuple[int, ...] = ()  # the positions nearest to those that a sweep gives the handle
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,9 @@ def live_show(fence: Fence, shown: Shown, hit: str | None, swept: Sequence[Shown
             own = [{handle.name: value} for value in values]
             told = differences([marks(LIVE_ROOM, one) for one in own])
             said = tuple("; ".join(filter(None, both)) for both in zip(map(_said, values), told, strict=True))
-            controls.append(Control(handle.name, title, len(parameters), said, values.index(float(handle.value)), True))
+            start = values.index(float(handle.value))
+            along = tuple(_nearest(values, marks(LIVE_ROOM, {}, at), handle) for at in swept)
+            controls.append(Control(handle.name, title, len(parameters), said, start, True, along))
             parameters += own
     except ValueError:
         return None
@@ -65,6 +67,12 @@ def live_show(fence: Fence, shown: Shown, hit: str | None, swept: Sequence[Shown
     picture = Picture(name, kind.title, draw, lambda _, made: of_marks(kind.title, made))
     about = tuple(one for _, one in frames)
     return Show((picture,), len(frames), 0, tuple(controls), about, follows=follows if swept else None)
+
+
+def _nearest(values: Sequence[float], marks: Sequence[Mark], handle: Handle) -> int:
+    """The position nearest to that of this handle among other marks, where it may not be."""
+    there = [mark.value for mark in marks if isinstance(mark, Handle) and mark.name == handle.name]
+    return min(range(len(values)), key=lambda k: abs(values[k] - (there[0] if there else handle.value)))
 
 
 def differences(drawn: Sequence[Sequence[Mark]]) -> list[str]:

@@ -1,6 +1,7 @@
 """A lesson as a page, in a real browser: stages, sweeps, handles, hidden parts, phones, schemes, screen readers."""
 
 import json
+import math
 from pathlib import Path
 
 import html5lib
@@ -112,6 +113,12 @@ def test_a_live_piece_in_the_first_part_goes_along_with_the_sweep(desktop: Brows
         move_to(desktop, "step-3-show", position)
         seen.append(sorted(desktop.run(TEXTS.format(place, 0))))
         assert seen[-1] == sorted(expected_texts(snell, 0, snell.follows + position))
+        control = snell.controls[0]
+        tree = page.show.shown[position].tree
+        assert tree
+        value = control.positions[desktop.run(f"Number(document.querySelector('#{place} input').value)")].split(";")[0]
+        assert abs(float(value) - math.degrees(float(tree.nodes["theta1"][0]))) <= 0.5 + 1e-9
+        assert desktop.run(f"document.querySelector('#{place} output').textContent") == ""
     assert len({tuple(texts) for texts in seen}) == 3
     move_to(desktop, place, 0)  # its own handle
     assert sorted(desktop.run(TEXTS.format(place, 0))) == sorted(expected_texts(snell, 0, snell.controls[0].first))

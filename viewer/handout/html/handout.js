@@ -29,7 +29,7 @@ document.addEventListener("DOMContentLoaded", () => {
     }
 
     show.follow = (frame) => {
-      for (const control of controls) control.reset();
+      for (const control of controls) control.follow(frame);
       set(Number(show.dataset.follows) + frame);
     };
     const tell = () => svgs.forEach((svg) => svg.dispatchEvent(new Event("frame", { bubbles: true })));
@@ -54,6 +54,12 @@ document.addEventListener("DOMContentLoaded", () => {
       control.reset = () => {
         input.value = control.dataset.start;
         say();
+      };
+      // The handle goes along with a sweep: what is said of a position is not quite true then.
+      control.follow = (frame) => {
+        input.value = control.dataset.along.split(",")[frame];
+        input.removeAttribute("aria-valuetext");
+        output.textContent = "";
       };
       input.addEventListener("input", () => control.go(Number(input.value)));
       for (const button of all("button", control)) {

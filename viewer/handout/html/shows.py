@@ -206,8 +206,9 @@ def _control(control: Control, place: str) -> Iterator[str]:
     said = json.dumps(control.positions, ensure_ascii=False)
     own = f'data-name="{text(control.name)}" data-first="{control.first}" data-start="{control.start}"'
     counted = "" if control.moves_handle else ' data-counted="1"'
+    along = f' data-along="{",".join(map(str, control.along))}"' if control.along else ""
     asked = ' data-asked="1"' if control.name in REVEALED else ""
-    yield f'<div class="control" {own}{counted}{asked} data-said="{text(said)}" hidden>'
+    yield f'<div class="control" {own}{counted}{asked}{along} data-said="{text(said)}" hidden>'
     yield f'<label for="{place}">{text(control.title)}</label>'
     yield f'<button type="button" data-by="-1" aria-label="Back: {text(control.title)}">‹</button>'
     yield f'<input type="range" id="{place}" min="0" max="{last}" step="1" value="{control.start}">'
