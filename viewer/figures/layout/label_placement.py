@@ -63,6 +63,8 @@ class LabelPlacer:
         best, ring = None, 0.0
         for order, spot in enumerate(spots):
             for cost, at, anchor in self._around(spot):
+                if best is not None and (0, *cost, order) >= best[0]:
+                    break  # no farther place can be better
                 box = text_box(at, content, self.size, anchor)
                 if not self.free(box):
                     continue
