@@ -87,6 +87,12 @@ def _place(word: str, _: World | None) -> float:
     return number
 
 
+def _asked(word: str, _: World | None) -> float:
+    if word != "ask":
+        raise ValueError('the word "ask", which leaves the answer out')
+    return 1.0
+
+
 def _count(word: str, _: World | None) -> float:
     if not word.isdecimal():
         raise ValueError("a whole number")
@@ -109,7 +115,7 @@ def _object(word: str, world: World | None) -> float:
 
 INDICES = (Argument("n1", _index), Argument("n2", _index))
 OBJECTS = (Argument("object", _object),)
-SPEEDS = (Argument("v1", _speed), Argument("v2", _speed), Argument("x", _place))
+SPEEDS = (Argument("v1", _speed), Argument("v2", _speed), Argument("x", _place), Argument("ask", _asked))
 
 LIVE = (
     LiveKind("snell", "Snell's law", "viewer.lessons.live.pieces.snell:snell", INDICES),
