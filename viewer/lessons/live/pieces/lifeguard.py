@@ -120,9 +120,7 @@ def words(given: Lifeguard, x: float, wide: float, size: float) -> list[str]:
 class _Shore:
     """Beach and sea with the path, at the same scale in both directions."""
 
-    def __init__(
-        self, given: Lifeguard, x: float, where: Rectangle, size: float, theme: Theme, asks: bool
-    ) -> None:
+    def __init__(self, given: Lifeguard, x: float, where: Rectangle, size: float, theme: Theme, asks: bool) -> None:
         self.where, self.size, self.theme, self.given, self.asks = where, size, theme, given, asks
         left, top, right, bottom = where
         self.scale = min((right - left) / (ENDS[1] - ENDS[0]), (bottom - top) / (HIGH[1] - HIGH[0]))
