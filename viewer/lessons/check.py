@@ -19,13 +19,14 @@ from viewer.explain.plain_formula import FormulaError
 from viewer.figures.export_options import TEXT_SIZE
 from viewer.figures.formula.typeset import typeset
 from viewer.figures.marks import HEIGHT, WIDTH
+from viewer.figures.steps import adding, by_ray
 from viewer.lessons.expectation import conditions, failures
 from viewer.lessons.image_place import pixel_fault, pixel_tree
 from viewer.lessons.language import translations
 from viewer.lessons.lesson import Lesson, read_file
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
-from viewer.lessons.step import Part, Step
+from viewer.lessons.step import DEPTH, RAYS, Part, Step
 from viewer.lessons.text import (
     Block,
     Formula,
@@ -153,6 +154,7 @@ class _Check:
             yield Fault("goal: it is reached at this pixel already", step.line_of("goal"))
         yield from self._text(step, tree, step.parts[:1] if state.sweep else step.parts)
         yield from self._live(step, tree, world)
+        yield from _presses(step, world, tree)
 
     def _live(self, step: Step, tree: RayTree, world: World) -> Iterator[Fault]:
         """Live pieces that are not known, and those that this hit cannot serve."""
@@ -202,6 +204,24 @@ class _Check:
         for _, fault in failures(state.sweep.expect, tree, state.hit):
             yield Fault(f"sweep: expect: {fault}", line)
         yield from self._text(step, tree, step.parts[1:])  # they appear at its end
+
+
+def _presses(step: Step, world: World, tree: RayTree) -> Iterator[Fault]:
+    """Presses of the key that change nothing. `tree` is the step's."""
+    state = step.state
+    if state.sweep and state.sweep.start == state.sweep.end:
+        yield Fault("sweep: it ends where it begins", step.line_of("sweep"))
+    if state.reveal == RAYS and len(adding(by_ray(tree), set(state.show))) == 1:
+        yield Fault("reveal: no ray of the kinds in `show` follows the first", step.line_of("reveal"))
+    if state.reveal == DEPTH and not {"image", "scene"} & set(state.panels):
+        sizes = [len(pixel_tree(world, state, depth)) for depth in range(tree.depth + 1)]
+        same = (depth for depth in range(1, len(sizes)) if sizes[depth] == sizes[depth - 1])
+        yield from (
+            Fault(f"reveal: depth {d} adds no ray to the tree of this pixel", step.line_of("reveal")) for d in same
+        )
+    for part in step.parts[1:]:
+        if not part.blocks:
+            yield Fault("??? hides nothing: nothing follows it", step.line)
 
 
 def _values(step: Step) -> Iterator[tuple[int, str]]:

@@ -115,7 +115,7 @@ def _object(word: str, world: World | None) -> float:
 
 def _stage(word: str, _: World | None) -> float:
     if word not in ("1", "2", "3", "4"):
-        raise ValueError("a stage from 1 to 4")
+        raise ValueError("a whole number from 1 to 4")
     return float(word)
 
 

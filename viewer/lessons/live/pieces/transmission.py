@@ -63,7 +63,7 @@ def transmission(context: LiveContext, parameters: Parameters) -> list[Mark]:
     stage = int(parameters.get("stage", STAGES))
     if not 1 <= stage <= STAGES:
         raise ValueError(f"transmission: stage must be from 1 to {STAGES}, got {stage}")
-    media = interface_of(context, parameters, "transmission")
+    media = interface_of(context, parameters, "transmission", f" {STAGES}")
     found = Construction.of(media)
     where, text = lay_out(context, [_section(found, stage)], [caption(found, stage)])
     return [*_Drawing(found, media, stage, where, context.size, context.theme).marks, *text]
