@@ -84,7 +84,7 @@ def test_the_skeleton_passes_and_is_never_written_over(
         ("", r"$\foo$", r"line 11: formula '\\foo': \foo is not known"),
         ('scene = "other.toml"', "", "other.toml: file not found"),
         ("", "a\n???\n", "line 6: ??? hides nothing"),
-        ('reveal = "rays"\nshow = ["refraction"]', "", "line 9: reveal: no ray of the kinds in `show` follows the first"),
+        ('reveal = "rays"\nshow = ["refraction"]', "", "line 9: reveal: no ray of the kinds in `show` follows"),
         ('reveal = "depth"\npanels = ["tree"]\ndepth = 2', "", "line 9: reveal: depth 2 adds no ray to the tree"),
         ("sweep = { of = 'pixel', from = [160, 150], to = [160, 150] }", "", "line 9: sweep: it ends where it begins"),
         ("sweep = { of = 'pixel', from = [160, 150], to = [160, 230] }", "[b](#R)\n???\n[a](#R)",
