@@ -64,8 +64,11 @@ def test_pieces_lie_inside_their_room_and_no_texts_overlap() -> None:
     rows = [row_of(tree, path) for path in ("E", "T", "TT")]  # on glass, from inside it, on the polygon
     drawn = dict.fromkeys(LIVE_NAMES, 0)
     given = {"snell": ("1.33", "1"), "fresnel": ("glass", "air"), "lifeguard": ("1", "6"), "media": ("water", "1.7")}
-    given["transmission"] = ("2", "1.33", "1")
-    given |= {"sphere": ("ball",), "inside": ("comb",)}  # the ray from the eye does not reach the polygon
+    given |= {
+        "transmission": ("2", "1.33", "1"),
+        "sphere": ("ball",),
+        "inside": ("comb",),
+    }  # the ray from the eye does not reach the polygon
     for kind, (k, size), row in itertools.product(LIVE, enumerate(SIZES), rows):
         if row and (k % 2 or kind.name in ("lifeguard", "samples", "media")):
             continue  # the same picture, or enough of them
