@@ -7,6 +7,7 @@ The label is the kind of the ray with its number, which counts the rays without 
 `E`, `R1`, `T2`, `TIR3`. A shadow ray has the label of the ray that it starts from, and its light: `T2.L(key)`.
 """
 
+import re
 from collections import Counter
 
 import numpy as np
@@ -44,6 +45,12 @@ def path(nodes: np.ndarray, lights: list[str], i: int) -> str:
         letters.append(LETTERS[KINDS[nodes["kind"][i]]])
         i = int(nodes["parent"][i])
     return "".join(reversed(letters)) or LETTERS["camera"]
+
+
+def kind_of(path: str) -> str | None:
+    """The kind of the ray with this path, whether or not a tree has it; None if no path ends like this."""
+    last = LETTERS["shadow"] if "." in path else re.sub(r"\[\d+\]$", "", path)[-1:]
+    return next((kind for kind, letter in LETTERS.items() if letter == last), None)
 
 
 def numbers(nodes: np.ndarray) -> np.ndarray:

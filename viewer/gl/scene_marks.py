@@ -20,6 +20,7 @@ from viewer.figures.font import text_box
 from viewer.figures.labels import ray_label
 from viewer.figures.marks import Disc, Line, Mark, Point, Rectangle, Shape, Stroke, Text, widened, within
 from viewer.gl.canvas import Canvas
+from viewer.gl.ray_pieces import clear_first, ray_pieces
 from viewer.session.session import Session
 
 SUN, EYE, CROSS = 22.0, 17.0, 15.0  # sizes of signs
@@ -213,9 +214,10 @@ class SceneMarks:
         self.signs.append(Disc("hit", (x, y), DOT + 2.0, theme.ground, None))
         self.signs.append(Disc("hit", (x, y), DOT, theme.accent, None))
         self._take((x, y), 2.0 * DOT)
+        pieces = ray_pieces(self.canvas.lines, self.at) if self.canvas.names else []
         for name in self.canvas.names if session.shown.labels else ():
             places, inside = self.at(name.points)
-            spots = [((p[0], p[1]), "middle") for p in places[inside].tolist()]
+            spots = clear_first([((p[0], p[1]), "middle") for p in places[inside].tolist()], name.content, pieces)
             self._text("interface", name.content, spots, theme.normal if name.of_normal else theme.text)
 
     # --- labels of rays -----------------------------------------------------------------------------------------------

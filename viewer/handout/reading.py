@@ -113,12 +113,11 @@ class _Reader:
             controls = (Control(SWEEP, "Place in the image" if state.sweep.is_pixel else state.sweep.of, 0, said),)
         else:
             stages = [_shown(stage, state) for stage in _stages(step, trees)]
-            stages = [stage for k, stage in enumerate(stages) if k == 0 or not _is_same(stage, stages[k - 1])]
             frames = [Frame(stage, scenery, 0, _row(trees[-1], state.hit)) for stage in stages]
             if state.reveal and len(stages) > 1:
                 said = tuple(_name(stage, state.reveal) for stage in stages)
                 controls = (Control(state.reveal, STAGES[state.reveal], 0, said),)
-        drawn = Frames(tuple(frames), state.hit is not None and not state.reveal, state.reveal in (RAYS, COLOUR))
+        drawn = Frames(tuple(frames), state.hit is not None, state.reveal in (RAYS, COLOUR))
         names = [name for name in state.panels if name in KINDS]
         if not names and "image" not in state.panels:
             names = ["scene"]
@@ -167,7 +166,7 @@ def _stages(step: Step, trees: Sequence[RayTree]) -> Sequence[ray_steps.Step]:
             return ray_steps.by_depth(trees)
         case "rays":
             found = ray_steps.by_ray(trees[-1])
-            return found[: found.count_reveals]
+            return [found[k] for k in ray_steps.adding(found, set(step.state.show))]
         case "colour":
             return list(ray_steps.by_color(trees[-1]))
     return [ray_steps.whole(trees[-1])]
@@ -206,10 +205,6 @@ def _shown(stage: ray_steps.Step, state: State) -> ray_steps.Step:
 def _row(tree: RayTree | None, hit: str | None) -> int:
     """The row of the hit that a step is about."""
     return (tree.find(hit) if tree and hit else None) or 0
-
-
-def _is_same(one: ray_steps.Step, other: ray_steps.Step) -> bool:
-    return (one.tree, one.rows, one.summed) == (other.tree, other.rows, other.summed)
 
 
 def _name(stage: ray_steps.Step, reveal: str) -> str:

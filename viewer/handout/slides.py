@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from tracer.tree.names import kind_of
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import Color, Theme, rgb
 from viewer.figures.marks import WIDTH, Handle, Mark, Point, Rectangle
@@ -58,7 +59,6 @@ class Slide:
     pictures: tuple[Placed, ...]
     notes: str
     page: Page | None = None
-    tree: RayTree | None = None  # that the text is about
 
     @property
     def text_box(self) -> Rectangle:
@@ -66,10 +66,9 @@ class Slide:
 
     def color(self, word: Word, theme: Theme) -> Color:
         """The colour of a word: a link to a ray has that of its kind."""
-        tree, path = self.tree, word.style.ray
-        row = tree.find(path) if tree and path else None
-        if row is not None and tree:
-            return theme.ray(tree.kind(row))
+        kind = kind_of(word.style.ray) if word.style.ray else None
+        if kind:
+            return theme.ray(kind)
         return theme.accent if word.style.link else theme.text
 
 
@@ -107,7 +106,7 @@ def _of_page(handout: Handout, page: Page, theme: Theme) -> Iterator[Slide]:
         live = [one for part in about for one in part.live.values()]
         pictures = _of_show(page, show, page.stages[shown.stage], live, where, drawn)
         place = f"{handout.lesson.title}   {page.number}/{len(handout.pages)}"
-        yield Slide(page.title, place, text, tuple(pictures), page.step.notes, page, parts[-1].shown.tree)
+        yield Slide(page.title, place, text, tuple(pictures), page.step.notes, page)
 
 
 def _text(parts: Sequence[PagePart], size: float | None = None) -> TextLines:

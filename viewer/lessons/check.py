@@ -1,6 +1,6 @@
 """Everything that is wrong with a lesson, each with its line: what can be said without a window."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,13 +19,14 @@ from viewer.explain.plain_formula import FormulaError
 from viewer.figures.export_options import TEXT_SIZE
 from viewer.figures.formula.typeset import typeset
 from viewer.figures.marks import HEIGHT, WIDTH
+from viewer.figures.steps import adding, by_ray
 from viewer.lessons.expectation import conditions, failures
 from viewer.lessons.image_place import pixel_fault, pixel_tree
 from viewer.lessons.language import translations
 from viewer.lessons.lesson import Lesson, read_file
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
-from viewer.lessons.step import Step
+from viewer.lessons.step import DEPTH, RAYS, Part, Step
 from viewer.lessons.text import (
     Block,
     Formula,
@@ -151,8 +152,9 @@ class _Check:
                 yield Fault(f"goal: {fault}", step.line_of(key, "goal"))
         if state.goal and all(condition.holds for condition in conditions(state.goal, tree, state.hit)):
             yield Fault("goal: it is reached at this pixel already", step.line_of("goal"))
-        yield from self._text(step, tree)
+        yield from self._text(step, tree, step.parts[:1] if state.sweep else step.parts)
         yield from self._live(step, tree, world)
+        yield from _presses(step, world, tree)
 
     def _live(self, step: Step, tree: RayTree, world: World) -> Iterator[Fault]:
         """Live pieces that are not known, and those that this hit cannot serve."""
@@ -165,9 +167,9 @@ class _Check:
             except ValueError as error:
                 yield Fault(f"live: {error}", fence.line + 1)
 
-    def _text(self, step: Step, tree: RayTree) -> Iterator[Fault]:
-        """Values and links that resolve to nothing."""
-        for line, name in _values(step):
+    def _text(self, step: Step, tree: RayTree, parts: Sequence[Part]) -> Iterator[Fault]:
+        """Values and links of these parts that resolve to nothing."""
+        for line, name in (value for part in parts for value in names_of_values(part.blocks)):
             path, quantity = split_name(name)
             found = value_text(tree, step.state.hit, name)
             if found is None:
@@ -177,7 +179,7 @@ class _Check:
                 yield Fault(f"{{{name}}}: this pixel has no ray {path} ({_paths(tree)})", line)
             elif found == ABSENT:
                 yield Fault(f"{{{name}}}: this hit has no such number", line)
-        for part in step.parts:
+        for part in parts:
             for line, item in inlines(part.blocks):
                 if isinstance(item, Run) and item.ray is not None and tree.find(item.ray) is None:
                     yield Fault(f"link #{item.ray}: this pixel has no such ray ({_paths(tree)})", line)
@@ -201,6 +203,25 @@ class _Check:
             return  # the sample: it is said of the step
         for _, fault in failures(state.sweep.expect, tree, state.hit):
             yield Fault(f"sweep: expect: {fault}", line)
+        yield from self._text(step, tree, step.parts[1:])  # they appear at its end
+
+
+def _presses(step: Step, world: World, tree: RayTree) -> Iterator[Fault]:
+    """Presses of the key that change nothing. `tree` is the step's."""
+    state = step.state
+    if state.sweep and state.sweep.start == state.sweep.end:
+        yield Fault("sweep: it ends where it begins", step.line_of("sweep"))
+    if state.reveal == RAYS and len(adding(by_ray(tree), set(state.show))) == 1:
+        yield Fault("reveal: no ray of the kinds in `show` follows the first", step.line_of("reveal"))
+    if state.reveal == DEPTH and not {"image", "scene"} & set(state.panels):
+        sizes = [len(pixel_tree(world, state, depth)) for depth in range(tree.depth + 1)]
+        same = (depth for depth in range(1, len(sizes)) if sizes[depth] == sizes[depth - 1])
+        yield from (
+            Fault(f"reveal: depth {d} adds no ray to the tree of this pixel", step.line_of("reveal")) for d in same
+        )
+    for part in step.parts[1:]:
+        if not part.blocks:
+            yield Fault("??? hides nothing: nothing follows it", step.line)
 
 
 def _values(step: Step) -> Iterator[tuple[int, str]]:

@@ -83,6 +83,12 @@ def test_the_skeleton_passes_and_is_never_written_over(
         ("", "```code formula\nx\n\n\\foo\n```", r"line 14: formula '\\foo': \foo is not known"),
         ("", r"$\foo$", r"line 11: formula '\\foo': \foo is not known"),
         ('scene = "other.toml"', "", "other.toml: file not found"),
+        ("", "a\n???\n", "line 6: ??? hides nothing"),
+        ('reveal = "rays"\nshow = ["refraction"]', "", "line 9: reveal: no ray of the kinds in `show` follows"),
+        ('reveal = "depth"\npanels = ["tree"]\ndepth = 2', "", "line 9: reveal: depth 2 adds no ray to the tree"),
+        ("sweep = { of = 'pixel', from = [160, 150], to = [160, 150] }", "", "line 9: sweep: it ends where it begins"),
+        ("sweep = { of = 'pixel', from = [160, 150], to = [160, 230] }", "[b](#R)\n???\n[a](#R)",
+         "line 13: link #R: this pixel has no such ray (it has E)"),
     ],
 )  # fmt: skip
 def test_a_planted_fault_is_found_with_its_line(tmp_path: Path, step: str, text: str, said: str) -> None:

@@ -101,7 +101,7 @@ class _Drawing:
             self._ray(line)
         self.lights = self._lights()
         self._eye()
-        self.hit = None if self.selected is None else SceneHit.of(view, self.tree, self.selected, size, theme)
+        self.hit = None if self.selected is None else SceneHit.of(view, self.step, self.selected, size, theme)
         self.marks += self.hit.marks(view, theme, self.share) if self.hit else []
 
     # --- things -------------------------------------------------------------------------------------------------------
@@ -216,7 +216,9 @@ class _Drawing:
             name = self.scene.light_name(j)
             found.append((frozenset(), self.names.label(f"light-{j}", name, [Spot(at)], self.theme.text)))
         if self.hit and self.selected is not None:
-            found.append((frozenset((self.selected,)), self.hit.labels(self.view, self.names, self.theme)))
+            sent = [child for child in self.tree.children[self.selected] if self.tree.kind(child) == "refraction"]
+            for name, marks in self.hit.labels(self.view, self.names, self.theme):
+                found.append((frozenset(sent if name.of_refracted else (self.selected,)), marks))
         nodes = self.tree.nodes
         rays = [line for line in self.lines if nodes["kind"][line.row] != SHADOW]
         shadows = [line for line in self.lines if nodes["kind"][line.row] == SHADOW]

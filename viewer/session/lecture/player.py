@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Protocol
 
 from viewer.base.files import Unusable
+from viewer.figures.steps import adding
 from viewer.lessons import lesson as lessons
 from viewer.lessons.lesson import Lesson
 from viewer.lessons.moments import Moment, Shown, count_presses, shown_at
@@ -91,15 +92,13 @@ class LessonPlayer:
 
     @property
     def _pages(self) -> Sequence[int]:
-        """The pages by ray that are the stages of the reveal. Those that only add rays of hidden kinds are left out."""
+        """The pages by ray that are the stages of the reveal: without those on which no ray appears."""
         steps = self.session.reveal.steps
         if not steps or not self.step:
             return range(1)
         if self.step.state.reveal == COLOUR:
             return range(steps.count_reveals - 1, len(steps))
-        shown = {*self.step.state.show, "camera"}
-        kinds = [{steps.tree.kind(row) for row in steps[k].current} for k in range(steps.count_reveals)]
-        return [k for k, added in enumerate(kinds) if added & shown]
+        return adding(steps, set(self.step.state.show))
 
     # --- going on -----------------------------------------------------------------------------------------------------
 
