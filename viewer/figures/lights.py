@@ -64,6 +64,17 @@ def many_lights(tree: RayTree) -> frozenset[int]:
     return frozenset(shadows[many[parents]].tolist())
 
 
+def pointed_lights(tree: RayTree, selected: int | None) -> frozenset[int]:
+    """The shadow rays that a view of the scene is about, drawn with arrows: the selected one and those of the selected
+    hit; and those of a tree's only hit, as no other rays are beside them.
+    """
+    hits = tree.nodes["kind"] != SHADOW
+    few = [] if np.count_nonzero(hits) > 1 or len(tree) - 1 > MOST_LIGHTS else shadow_rays(tree, 0)
+    if selected is None:
+        return frozenset(few)
+    return frozenset((*few, *shadow_rays(tree, selected), *(() if hits[selected] else (selected,))))
+
+
 def counted(tree: RayTree, rows: Iterable[int]) -> list[tuple[Fate, int]]:
     """The number of these shadow rays of each fate that occurs, in the order of FATES."""
     found = [way_of(tree, i) for i in rows]
