@@ -63,7 +63,11 @@ def test_pieces_lie_inside_their_room_and_no_texts_overlap() -> None:
     rows = [row_of(tree, path) for path in ("E", "T", "TT")]  # on glass, from inside it, on the polygon
     drawn = dict.fromkeys(LIVE_NAMES, 0)
     given = {"snell": ("1.33", "1"), "fresnel": ("glass", "air"), "lifeguard": ("1", "6"), "media": ("water", "1.7")}
-    given |= {"sphere": ("ball",), "inside": ("comb",)}  # the ray from the eye does not reach the polygon
+    given |= {
+        "sphere": ("ball",),
+        "inside": ("comb",),
+        "reflect": ("fill",),
+    }  # the ray from the eye does not reach the polygon
     for kind, (k, size), row in itertools.product(LIVE, enumerate(SIZES), rows):
         if row and (k % 2 or kind.name in ("lifeguard", "samples", "media")):
             continue  # the same picture, or enough of them
@@ -183,6 +187,7 @@ def _ends(seen: World, pixel: tuple[int, int]) -> list[str | None]:
         ("sphere", ("moon",), 'sphere: object must be an object of the scene, ball, comb, got "moon"'),
         ("sphere", ("comb",), "sphere: comb is a polygon; it needs a hit on a sphere"),
         ("inside", ("ball",), "inside: ball is a sphere; it needs a hit on a polygon"),
+        ("reflect", ("moon",), 'reflect: light must be a light of the scene, key, fill, got "moon"'),
         ("hit", ("x",), 'hit: no words may follow, got "x"'),
         ("lifeguard", ("0",), 'lifeguard: v1 must be a speed above 0, got "0"'),
     ],
