@@ -120,6 +120,7 @@ class _Page:
         left, top, right, bottom = self.room
         for lines in (
             [f"largest {largest}, mean {mean}; {share} of the pixels change"],
+            [f"mean {mean}; {share} of the pixels change"],
             [f"largest {largest}, mean {mean}", f"{share} of the pixels change"],
         ):
             above = bottom - top - (HEAD + AXIS + len(lines) * LINE) * self.size
