@@ -15,6 +15,7 @@ from tracer.formulas.camera import View
 from tracer.formulas.vector import rescale, unit
 from tracer.kernel.world import World
 from tracer.scene.scene import middle_and_radius
+from tracer.shapes.plane import Plane
 
 ENDLESS = 3.0  # a surface with a radius above this many distances from camera to `look_at` is ignored in the frame
 FOV = math.radians(35)
@@ -24,6 +25,9 @@ REMOTE = 1e9  # largest distance of a target from the scene, in its radii
 STEEPEST = math.radians(89)
 MARGIN = 0.04  # share of the picture that `fit` leaves free around the points
 AZIMUTH, ELEVATION, DISTANCE = 38.0, 22.0, 2.6  # the default view: degrees, and radii of the scene
+SIDES = tuple(  # azimuth and elevation of the views that are tried, in this order
+    (azimuth, elevation) for elevation in (ELEVATION, 6.0, -ELEVATION) for azimuth in (AZIMUTH, -AZIMUTH, 14.0, -14.0)
+)
 NEAR_SHARE = 1 / 400  # the near plane, relative to the distance
 
 
@@ -36,16 +40,25 @@ class Frame:
 
     @staticmethod
     def of(world: World) -> "Frame":
-        """The frame of a world: of its bounded surfaces, or of the point that the camera looks at if there are none."""
-        view = world.view()
-        if not len(world.bounds):
-            return Frame(np.add(view.eye, view.forward), 1.0)
-        middle, radius = middle_and_radius(_in_proportion(world))
+        """The frame of a world: of its bounded surfaces, and if it has others, or none, also of the eye and the point
+        that the camera looks at. They say how much of an infinite plane belongs to the scene.
+        """
+        boxes = _in_proportion(world)
+        if any(item.shape.bounds() is None for item in world.scene.objects) or not len(boxes):
+            boxes = np.concatenate([boxes, _gaze(world)[:, None].repeat(2, axis=1)])
+        middle, radius = middle_and_radius(boxes)
         return Frame(middle, radius if radius > 0.0 else 1.0)
 
     def inside(self, points: np.ndarray | tuple) -> np.ndarray:
         """World points (..., 3) in this frame."""
         return (np.asarray(points, float) - self.middle) / self.radius
+
+
+def _gaze(world: World) -> np.ndarray:
+    """(2, 3): the eye and the point that it looks at."""
+    view, camera = world.view(), world.scene.camera
+    target = camera.look_at if camera.position and camera.look_at else np.add(view.eye, view.forward)
+    return np.array([view.eye, target], float)
 
 
 def _in_proportion(world: World) -> np.ndarray:
@@ -208,14 +221,32 @@ def orbit_beside(
 
 
 def initial_orbit(world: World, frame: Frame, view: ViewAngles | None) -> Orbit:
-    """The first view of a scene: `view`, or one from beside the scene's camera that shows the camera and the scene."""
+    """The first view of a scene: `view`, or one from beside the scene's camera that shows the camera and the scene. Of
+    several, the first one that has the fewest surfaces in front of the scene's camera.
+    """
     if view:
         return orbit_beside(world, frame, view.azimuth, view.elevation, view.distance, view.target)
-    orbit = orbit_beside(world, frame, AZIMUTH, ELEVATION, DISTANCE, None)
     eye = frame.inside(world.view().eye)
-    orbit.target = 0.35 * eye
-    orbit.fit(np.stack([eye, np.zeros(3)]))
-    return orbit
+
+    def seen_from(side: tuple[float, float]) -> Orbit:
+        orbit = orbit_beside(world, frame, *side, DISTANCE, None)
+        orbit.target = 0.35 * eye
+        orbit.fit(np.stack([eye, *frame.inside(_gaze(world)), np.zeros(3)]))
+        return orbit
+
+    return min(map(seen_from, SIDES), key=lambda orbit: _hiding(world, frame, orbit.eye))
+
+
+def _hiding(world: World, frame: Frame, place: np.ndarray) -> int:
+    """The number of planes between a place of the frame and the scene's camera, and of boxes around the place that are
+    not around the camera.
+    """
+    places = np.array([frame.middle + frame.radius * place, world.view().eye])
+    planes = [shape for item in world.scene.objects if isinstance(shape := item.shape, Plane)]
+    beyond = sum(len({bool(np.dot(at - plane.point, plane.normal) > 0.0) for at in places}) > 1 for plane in planes)
+    low, high = world.bounds[:, None, 0], world.bounds[:, None, 1]
+    around = np.all(np.logical_and(low < places, places < high), axis=2)  # (boxes, 2)
+    return beyond + int(np.sum(around[:, 0] & ~around[:, 1]))
 
 
 def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -108,9 +108,11 @@ class Canvas:
         return self.image.update(shown) if shown else None
 
     def seen(self, place: Place) -> Seen | None:
-        """The content of the image panel: the image or a map; magnified, its pixels as squares."""
+        """The content of the image panel: the image or a map; magnified, its pixels as squares. None as long as there
+        is nothing to see.
+        """
         shown = self.session.image.picture
-        if shown is None:
+        if shown is None or shown.is_blank:
             return None
         if place.scale < NEAR:
             texture = self._map.get(self._map_key(), self._map_texture) or self.image.update(shown)

@@ -83,11 +83,25 @@ def course() -> list[str]:
 
 
 def neighbour(lesson: Lesson, by: int) -> str | None:
-    """The name of the lesson after one of the program's (1), or before (-1); None if there is none."""
-    known = names()
-    is_own = lesson.path.absolute().parent == folder() / lesson.name
-    k = known.index(lesson.name) + by if is_own else -1
+    """The name of the lesson after one of the program's (1), or before (-1), in the course or among the deeper ones;
+    None if there is none.
+    """
+    if not _is_own(lesson):
+        return None
+    first = course()
+    known = first if lesson.name in first else [name for name in names() if name not in first]
+    k = known.index(lesson.name) + by
     return known[k] if 0 <= k < len(known) else None
+
+
+def ends_course(lesson: Lesson) -> bool:
+    """Whether this is the course's last lesson."""
+    return _is_own(lesson) and lesson.name == course()[-1]
+
+
+def _is_own(lesson: Lesson) -> bool:
+    """Whether this is one of the program's lessons, and not another one of that name."""
+    return lesson.path.absolute().parent == folder() / lesson.name
 
 
 def _order() -> list[str]:

@@ -107,4 +107,4 @@ def _marks(session: Session, tree: RayTree, row: int, size: tuple[int, int]) -> 
     return hit_marks(step, row, PANEL_TEXT, session.appearance.theme, session.world, where, is_turned)
 
 
-PANEL = Panel("Hit", draw, fills=True, is_covered=False, figure="hit", shows_ray=True)
+PANEL = Panel("Hit", draw, fills=True, figure="hit", shows_ray=True)

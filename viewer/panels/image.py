@@ -217,7 +217,7 @@ def waiting_lines(session: Session) -> list[str]:
             f"Compiling the kernels: {seconds:.0f} s of about 20",
             "This happens only at the first start on this machine.",
         ]
-    return ["Loading ..."]
+    return ["Rendering ..." if session.world else "Loading ..."]
 
 
-PANEL = Panel("Image", draw, fills=True, head=_head, is_named=False, is_covered=False)
+PANEL = Panel("Image", draw, fills=True, head=_head, is_named=False)

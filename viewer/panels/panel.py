@@ -15,12 +15,12 @@ class Panel:
 
     title: str
     draw: Callable[[Session, Canvas], None]
-    fills: bool = False  # its picture fills the panel, its title lies on it; otherwise it is text, which scrolls
+    fills: bool = False  # its picture fills the panel; otherwise it is text, which scrolls
     head: Callable[[Session, float], None] | None = None  # beside the title; it may be so many pixels wide
     head_room: Callable[[Session], float] = lambda session: 0.0  # that it needs, in text sizes
     is_named: bool = True  # whether its title is shown, where it stands alone
     short: str = ""  # its title where there is little room
-    is_covered: bool = True  # whether the title may cover a part of the picture
+    plate: Callable[[Session], str] | None = None  # words that lie on its picture; None: the title stands above it
     figure: str | None = None  # that it shows, or that is like it: its name in `viewer.figures.catalogue`
     shows_ray: bool = False  # whether it shows what is selected
     first: Callable[[Session, Canvas], None] | None = None  # is called before any panel is drawn

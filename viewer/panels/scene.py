@@ -101,7 +101,7 @@ def _row_at(session: Session, canvas: Canvas, corner: imgui.ImVec2, room: imgui.
 def _covers(session: Session, room: imgui.ImVec2) -> list[Rectangle]:
     """The rectangles that are covered, in logical pixels: by the title, and by the image as an inset."""
     unit = d.unit()
-    title = imgui.calc_text_size(session.world.scene.caption if session.world else "")
+    title = imgui.calc_text_size(_caption(session))
     found = [(0.0, 0.0, title.x / unit + TITLE, title.y / unit + TITLE)]
     if covered := inset.place(session, room):
         left, top, right, bottom = covered
@@ -117,12 +117,8 @@ def _fewer(session: Session, canvas: Canvas, stage: imgui.ImDrawList, corner: im
         d.text(stage, place, session.appearance.theme.muted, content, SMALL * imgui.get_font_size())
 
 
-def _head(session: Session, room: float) -> None:
-    """The scene's title."""
-    imgui.text(session.world.scene.caption if session.world else "Scene")
+def _caption(session: Session) -> str:
+    return session.world.scene.caption if session.world else "Scene"
 
 
-PANEL = Panel(
-    "Scene", draw, fills=True, head=_head, is_named=False, figure="scene",
-    first=handle,
-)  # fmt: skip
+PANEL = Panel("Scene", draw, fills=True, is_named=False, plate=_caption, figure="scene", first=handle)

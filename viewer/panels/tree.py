@@ -202,6 +202,6 @@ def _head(session: Session, room: float) -> None:
 
 
 PANEL = Panel(
-    "Ray tree", draw, fills=True, head=_head, short="Tree", is_covered=False,
+    "Ray tree", draw, fills=True, head=_head, short="Tree",
     figure="tree", shows_ray=True, head_room=lambda session: POSITION if session.step else 0.0,
 )  # fmt: skip

@@ -45,6 +45,12 @@ class Picture:
     cancelled: threading.Event = field(default_factory=threading.Event)
     tiles: list[Tile] = field(default_factory=list)  # finished so far, for those who show what is new
     is_endless: bool = False  # it is refined until it is stopped
+    follows: bool = False  # another one, which is seen until its tiles are there
+
+    @property
+    def is_blank(self) -> bool:
+        """Whether there is nothing to see yet."""
+        return not (self.tiles or self.follows)
 
     @property
     def finished(self) -> bool:
@@ -223,11 +229,10 @@ class ImageRenderer:
 def _new_picture(job: Job, before: Picture | None) -> Picture:
     """An image to be rendered. Until its first tiles are there, the image before is shown: a black one would flash."""
     world, limits, (width, height) = job
-    if before and before.shown.shape == (height, width, 4):
-        shown = before.shown.copy()
-    else:
-        shown = np.full((height, width, 4), BLACK, np.uint8)
-    return Picture(shown, np.zeros((height, width, 3)), world.scene.image.samples, max_nodes=limits.max_nodes)
+    follows = before is not None and before.shown.shape == (height, width, 4) and not before.is_blank
+    shown = before.shown.copy() if before and follows else np.full((height, width, 4), BLACK, np.uint8)
+    pixels, samples = np.zeros((height, width, 3)), world.scene.image.samples
+    return Picture(shown, pixels, samples, max_nodes=limits.max_nodes, follows=follows)
 
 
 def _show(picture: Picture, tile: Tile, linear: np.ndarray) -> None:

@@ -1,6 +1,6 @@
 """The frame of the panels in one place: its titles, and below or behind them the panel in front.
 
-A title on a picture stands on a plate. A click on a title brings its panel to the front, a double click gives it all of
+Words on a picture stand on a plate. A click on a title brings its panel to the front, a double click gives it all of
 the room.
 """
 
@@ -33,9 +33,9 @@ def draw(
     picked in the content.
     """
     _begin(front, where)
-    if front.fills and front.is_covered and len(sharing) == 1:
+    if front.plate and len(sharing) == 1:
         body()
-        _plate(session, front, head)
+        _plate(session, front, front.plate(session))
     else:
         unit = d.unit()
         imgui.set_cursor_pos((0.0, 0.75 * MARGIN * unit + imgui.get_frame_height()))
@@ -107,40 +107,33 @@ def _row(session: Session, sharing: Sequence[Panel], front: Panel, head: Callabl
         if titles:
             imgui.same_line(0.0, BETWEEN * unit)
         head(imgui.get_content_region_avail().x)
+    elif front.plate:
+        imgui.same_line(0.0, BETWEEN * unit)
+        imgui.text(front.plate(session))
     imgui.end_group()
 
 
-def _plate(session: Session, panel: Panel, head: Callable[[float], object]) -> None:
-    """The title on the picture, with what belongs beside it."""
+def _plate(session: Session, panel: Panel, words: str) -> None:
+    """Words on the picture. The plate has its size at once: one that fits itself would be late by a frame."""
     unit, theme = d.unit(), session.appearance.theme
-    room = imgui.get_window_width() - 4.0 * MARGIN * unit
+    text, (beside, above) = imgui.calc_text_size(words), (MARGIN * unit, 0.5 * MARGIN * unit)
+    room = imgui.get_window_width() - 2.0 * beside
     imgui.set_cursor_pos((MARGIN * unit, MARGIN * unit))
     imgui.push_style_color(imgui.Col_.child_bg, faded(theme.panel, PLATE))
     imgui.push_style_var(imgui.StyleVar_.child_rounding, 6.0 * unit)
-    imgui.push_style_var(imgui.StyleVar_.window_padding, (MARGIN * unit, 0.5 * MARGIN * unit))
-    child = imgui.ChildFlags_
+    imgui.push_style_var(imgui.StyleVar_.window_padding, (beside, above))
     flags = imgui.WindowFlags_
-    shown = imgui.begin_child(
-        "plate", (0.0, 0.0), child.always_use_window_padding | child.auto_resize_x | child.auto_resize_y,
+    size = (min(room, text.x + 2.0 * beside), text.y + 2.0 * above)
+    if imgui.begin_child(
+        "plate", size, imgui.ChildFlags_.always_use_window_padding,
         flags.no_scrollbar | flags.no_saved_settings | flags.no_nav,
-    )  # fmt: skip
-    if shown and panel.is_named:
-        _title(session, panel, True, False)
-    if shown and panel.head:
-        if panel.is_named:
-            imgui.same_line(0.0, BETWEEN * unit)
-        head(room - imgui.get_cursor_pos_x())
-        if _is_doubly_clicked():
+    ):  # fmt: skip
+        imgui.text(words)
+        if imgui.is_window_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
             session.layout.maximise(panel.name)
     imgui.end_child()
     imgui.pop_style_var(2)
     imgui.pop_style_color()
-
-
-def _is_doubly_clicked() -> bool:
-    """Whether the plate was clicked twice, beside its fields."""
-    over = imgui.is_window_hovered() and not imgui.is_any_item_hovered()
-    return over and imgui.is_mouse_double_clicked(imgui.MouseButton_.left)
 
 
 def _row_width(titles: Iterable[str]) -> float:

@@ -7,7 +7,7 @@ from viewer.base.files import Unusable
 from viewer.lessons.language import translations
 from viewer.lessons.lesson import read_file
 from viewer.lessons.moments import Moment
-from viewer.session.lecture.player import LAST
+from viewer.session.lecture.ahead import LAST
 from viewer.session.session import Session
 from viewer.window.app import App
 from viewer.window.backend import NoWindow, Offscreen

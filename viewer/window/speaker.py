@@ -90,7 +90,7 @@ def _next(session: Session) -> str:
         return lesson.steps[number].title
     name = lessons.neighbour(lesson, 1)
     if name is None:
-        return "the end"
+        return "the end of the course" if lessons.ends_course(lesson) else "the end"
     try:
         return f"the lesson “{lessons.read_title(name)}”"
     except Unusable:

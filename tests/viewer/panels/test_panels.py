@@ -17,7 +17,7 @@ from viewer.lessons.moments import Moment
 from viewer.panels import ray
 from viewer.panels.lessons import lesson
 from viewer.session import actions
-from viewer.session.lecture.player import LAST
+from viewer.session.lecture.ahead import LAST
 
 Key = imgui.Key
 

@@ -125,7 +125,10 @@ class _Drawing:
             return [*signs_meant, *self.marks]
         (x, y), (w, h) = self.plan.at[hit], self.plan.box
         box = (x - 0.5 * w, y - 0.5 * h, x + 0.5 * w, y + 0.5 * h)
-        return with_sum(SumBlock(self.tree, hit, box, self.size, self.theme), self.marks, signs_meant, where, beside)
+        forms = [self.marks]
+        if self.plan.style.eye == OUTLINE:  # its labels stand where there is room; the sum names rays and factors
+            forms.append([m for m in self.marks if not (isinstance(m, Text) and m.name.startswith("ray-"))])
+        return with_sum(SumBlock(self.tree, hit, box, self.size, self.theme), forms, signs_meant, where, beside)
 
     # --- rays ---------------------------------------------------------------------------------------------------------
 

@@ -2,8 +2,8 @@
 
 There is a line for each hit, indented by its depth, in the order in which the recursive procedure meets them.
 
-The label of a ray stands before the box of its hit. From below the label of its parent, an edge runs down and then to
-the right.
+From below the box of a hit, an edge runs down and then to the right to the box of each hit that its rays meet. The
+label of a ray stands behind the box that it leads to.
 """
 
 from viewer.figures.layout.places import LayoutTask, Places
@@ -11,13 +11,12 @@ from viewer.figures.layout.sizes import BOX, MARGIN
 from viewer.figures.marks import Point
 
 # All in text sizes.
-INDENT = 1.35  # of a level
+INDENT = 1.7  # of a level
 PITCH, TALLEST = 2.0, 2.7  # least and largest distance of lines
-GAP = 0.5  # between a ray's label and the box of its hit
+GAP = 0.5  # between a box and the label behind it
 EYE = 1.0  # from the left to the middle of the eye
-TRUNK = 0.6  # from the left end of a label to the edges that begin below it
-DROP = 0.7  # from the middle of a label down to the beginning of these edges
-ASIDE = 0.3  # of the edges below the eye, from its middle to the left: the labels of their rays are near
+FIRST_EDGE = 4.5  # from the left to the first box, if it stands beside the eye: the first ray with its label above it
+TRUNK = 0.6  # from the left end of a box to the edges that begin below it
 APART = 0.2  # of two edges that begin together, from their middle
 
 
@@ -34,34 +33,36 @@ def outline_rows(task: LayoutTask) -> list[int]:
 
 
 def place_as_outline(task: LayoutTask, anyhow: bool) -> Places | None:
-    """The positions; None if they do not fit."""
+    """The positions; None if they do not fit. The eye stands before the first box, or on a line above it if there is
+    more room for that.
+    """
+    beside = _placed(task, FIRST_EDGE, 0, False)
+    return beside or _placed(task, 0.0, 1, False) or (_placed(task, FIRST_EDGE, 0, True) if anyhow else None)
+
+
+def _placed(task: LayoutTask, before: float, above: int, anyhow: bool) -> Places | None:
+    """The positions with so much room, in text sizes, before the first box, and so many lines above it."""
     style, sizes, depth = task.style, task.sizes, task.rays.depths
     size, (left, top, right, bottom) = style.size, style.where
     margin = MARGIN * size
     rows = outline_rows(task)
-    deepest = max(depth[i] for i in rows)
-    wide = sizes.label + GAP * size + sizes.column
+    last = len(rows) - 1 + above
+    wide = (before + max(depth[i] for i in rows) * INDENT + GAP) * size + sizes.column + sizes.label
     free = bottom - top - 2.0 * margin - BOX * size
-    fits = deepest * INDENT * size + wide <= right - left - 2.0 * margin
-    fits = fits and (len(rows) - 1) * PITCH * size <= free
-    if not fits and not anyhow:
+    if not anyhow and (wide > right - left - 2.0 * margin or last * PITCH * size > free):
         return None
-    pitch = min(TALLEST * size, free / (len(rows) - 1)) if len(rows) > 1 else 0.0
+    pitch = min(TALLEST * size, free / last) if last else 0.0
     first = top + margin + 0.5 * BOX * size
-    start = left + margin + sizes.label + GAP * size + 0.5 * sizes.column
-    at = {i: (start + INDENT * size * depth[i], first + pitch * k) for k, i in enumerate(rows)}
+    start = left + margin + before * size + 0.5 * sizes.column
+    at = {i: (start + INDENT * size * depth[i], first + pitch * (k + above)) for k, i in enumerate(rows)}
     return Places(at, {}, {}, (left + margin + EYE * size, first))
 
 
-HEAD = 0.75  # from the corner of an edge up to the tip of its arrow
+def edge_of(parent: Point, child: Point, box: tuple[float, float], size: float, side: int) -> list[Point]:
+    """The corners of the edge from below the box of the hit at `parent` to the left end of that at `child`.
 
-
-def edge_of(parent: Point, child: Point, size: float, label: float, side: int, eye: Point | None) -> list[Point]:
-    """The corners of the edge to a child.
-
-    `label` is the distance from a box's middle to the left end of the label before it, `side` -1 for a reflected and 1
-    for a refracted ray. The edges of the first hit begin below the `eye`.
+    `box` is the width and the height of both, `side` -1 for a reflected and 1 for a refracted ray. The reflected ray's
+    edge, which ends first, is the one on the right: the other passes it on the left.
     """
-    trunk = eye[0] - ASIDE * size if eye else parent[0] - label + TRUNK * size
-    x = trunk + side * APART * size
-    return [(x, parent[1] + DROP * size), (x, child[1]), (child[0] - label - 0.2 * size, child[1])]
+    x = parent[0] - 0.5 * box[0] + (TRUNK - side * APART) * size
+    return [(x, parent[1] + 0.5 * box[1]), (x, child[1]), (child[0] - 0.5 * box[0], child[1])]

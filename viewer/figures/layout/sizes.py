@@ -32,7 +32,6 @@ ABOVE, BELOW = 0.42, 0.61  # from the middle of a line of text to its ascenders 
 
 NO_RAY = "no T"  # the refracted ray on total internal reflection
 OUTLINE = "outline"
-FIRST_EDGE = 4.0  # in an outline, from the left to the first box, at least, in text sizes
 LONG, SHORT = 24, 14  # characters of a name, with and without enough room; longer names are cut
 
 
@@ -92,8 +91,6 @@ class Sizes:
         lines = {i: hit.line for i, hit in hits.items() if hit.line}
         up = (0.5 * BOX + EDGE_LABEL + ABOVE) * size
         label = max(hit.label for hit in hits.values())
-        if style.eye == OUTLINE:  # the first one stands over the edge from the eye
-            label = max(label, FIRST_EDGE * size)
         return Sizes(max(widest, most * slot, hangs), BOX * size, slot, up, max(down), lines, label)
 
 

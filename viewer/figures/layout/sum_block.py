@@ -1,5 +1,6 @@
 """The sum at a hit, in a block of lines near its box: names on the left, colours under each other on the right."""
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -36,8 +37,10 @@ class SumBlock:
         for luminance in (False, True):
             lines: list[SumLine] = [(t.name, t.value, t.row) for t in sum_terms(self.tree, self.hit, luminance)]
             lines = [("", "luminance", None), *lines] if luminance else lines
-            names, values = (max(text_width(line[k], self.size) for line in lines) for k in (0, 1))
-            wide, high, clear = names + GAP * self.size + values, LINE * self.size * len(lines), CLEAR * self.size
+            widths = [(text_width(name, self.size), text_width(value, self.size)) for name, value, _ in lines]
+            names, values = max(name for name, _ in widths), max(value for name, value in widths if name)
+            wide = max(names + GAP * self.size + values, *(value for _, value in widths))
+            high, clear = LINE * self.size * len(lines), CLEAR * self.size
             at = vacant.nearest((wide + 2.0 * clear, high + 2.0 * clear), self.box)
             if at is not None:
                 return self._marks(lines, (at[0] + clear, at[1] + clear), wide)
@@ -57,20 +60,24 @@ class SumBlock:
 
 
 def with_sum(
-    block: SumBlock, marks: list[Mark], legend: list[Mark], where: Rectangle, beside: Sequence[Mark] | None
+    block: SumBlock,
+    forms: Sequence[list[Mark]],
+    legend: list[Mark],
+    where: Rectangle,
+    beside: Sequence[Mark] | None,
 ) -> list[Mark]:
     """A page with the sum of a hit, in the tree's part of the canvas (`where`). If there is no room for it, it stands
     on the rest of the canvas, if the marks `beside` the tree are known; then it takes the room of the legend, which the
-    page does not have then; then its text is smaller.
+    page does not have then; then the tree has a later one of its `forms`, with fewer marks; then the text is smaller.
     """
     margin = MARGIN * block.size
     canvas = where if beside is None else (margin, margin, WIDTH - margin, HEIGHT - margin)
     sizes = [share * block.size for share in SMALLER if share == 1.0 or share * block.size >= SMALLEST]
-    for size in sizes:
+    for size, marks in itertools.product(sizes, forms):
         for signs, room in ((legend, where), (legend, canvas), ([], canvas)):
             drawn = [*signs, *marks]
             solid = [m for m in (*drawn, *(beside or ())) if not (isinstance(m, Line) and m.name.startswith("level-"))]
             found = replace(block, size=size).place(FreeSpace(room, solid))
             if found:
                 return [*drawn, *found]
-    return [*legend, *marks]
+    return [*legend, *forms[0]]

@@ -19,7 +19,7 @@ from tracer.tree.raytree import RayTree
 from viewer.figures.labels import hit_label
 from viewer.figures.layout.folds import Fold, fold_branches
 from viewer.figures.layout.light_line import NO_LINE, SIGNS, WORDS
-from viewer.figures.layout.outline import GAP, PITCH, place_as_outline
+from viewer.figures.layout.outline import PITCH, place_as_outline
 from viewer.figures.layout.places import LayoutTask, Places
 from viewer.figures.layout.placing import (
     levels_down,
@@ -97,11 +97,6 @@ class TreePlan:
     @property
     def fold_height(self) -> float:
         return (BOX if self.style.eye == OUTLINE else FOLD) * self.size
-
-    @property
-    def before(self) -> float:
-        """In an outline: from a box's middle to the left end of its ray's label."""
-        return self.label + GAP * self.size + 0.5 * self.box[0]
 
     @property
     def top(self) -> float:

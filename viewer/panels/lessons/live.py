@@ -49,20 +49,40 @@ def _marks(session: Session, canvas: Canvas, fence: Fence, size: tuple[int, int]
     """The marks, in points from the piece's top left corner."""
     name, *words = fence.content.split()
     parameters = session.player.parameters
-    row = session.tree.find(session.player.hit) if session.tree and session.player.hit else 0
+    rows = _rows(session)
     theme = session.appearance.theme
 
     def images(depth: int) -> np.ndarray | None:
         return session.small_images.get(session.world, depth, session.model) if session.world else None
 
-    def make() -> list[Mark]:
+    def of_row(row: int) -> list[Mark]:
         where = (0.0, 0.0, float(size[0]), float(size[1]))
-        context = LiveContext(session.tree, row or 0, session.world, theme, PANEL_TEXT, where, images)
+        context = LiveContext(session.tree, row, session.world, theme, PANEL_TEXT, where, images)
         return live_kind(name).marks(context, parameters, words)
 
-    key = (session.tree, row, theme, fence, size, tuple(sorted(parameters.items())))
+    def make() -> list[Mark]:
+        try:
+            return of_row(rows[0])
+        except ValueError as error:
+            if not session.tree or len(rows) == 1:
+                raise
+            marks = of_row(rows[1])
+            session.notice.say(f"{error}; it still shows {session.tree.label(rows[1])}")
+            return marks
+
+    key = (session.tree, rows, theme, fence, size, tuple(sorted(parameters.items())))
     key = (*key, session.world, session.model, len(session.small_images.kept))
     return canvas.live[fence.line].get(key, make)
+
+
+def _rows(session: Session) -> tuple[int, ...]:
+    """The rows of the tree whose hits are looked at: that of the selected ray, and after it that of the step, for a
+    piece that the selected ray has no hit for.
+    """
+    player, tree = session.player, session.tree
+    paths = (player.hit, player.step.state.hit if player.step else None)
+    rows = [tree.find(path) for path in paths if tree and path]
+    return tuple(dict.fromkeys(row for row in rows if row is not None)) or (0,)
 
 
 def _drag(session: Session, marks: list[Mark], at: Point) -> bool:

@@ -4,22 +4,19 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Protocol
 
-from tracer.kernel.world import World
 from viewer.base.files import Unusable
 from viewer.lessons import lesson as lessons
 from viewer.lessons.lesson import Lesson
-from viewer.lessons.moments import Moment, Shown, count_presses, shown_at, sweep_share, view_of
+from viewer.lessons.moments import Moment, Shown, count_presses, shown_at
 from viewer.lessons.step import COLOUR, DEPTH, Step
-from viewer.reopen.view_state import ViewState, merged
 from viewer.session.image_renderer import ImageRenderer, Job
+from viewer.session.layout import Layout
+from viewer.session.lecture.ahead import LAST, Ahead, first_moment, opening_at
 from viewer.session.lecture.sweeping import Sweeping
 from viewer.session.loading.opening import Opening
 from viewer.session.loading.scene_loader import SceneLoader
-from viewer.session.scene_on_show import image_limits
 from viewer.session.stepping.reveal import Reveal
 from viewer.session.view_state import Notice
-
-LAST = 99_999  # presses after the beginning of a step: its end, however many there are
 
 
 class Taught(Protocol):
@@ -29,6 +26,7 @@ class Taught(Protocol):
     loader: SceneLoader
     image: ImageRenderer
     selection: str | None
+    layout: Layout
     notice: Notice
 
     @property
@@ -48,6 +46,7 @@ class LessonPlayer:
     def __init__(self, session: Taught) -> None:
         self.session = session
         self.sweeping = Sweeping(session)
+        self.ahead = Ahead(session)
         self.parameters: dict[str, float] = {}  # of the live pieces, by the names of their handles
         self.lines_too_many = 0  # of the step's text in its panel, when it was drawn last
         self.is_due = False  # whether the stage is to be shown as soon as there is a tree
@@ -105,9 +104,12 @@ class LessonPlayer:
     def go(self, by: int) -> bool:
         """Go to the next moment (1), or to the one before (-1). Returns False if no lesson is on show.
 
-        A press counts from the moment that was asked for last, also while its scene is still being loaded.
+        A lesson that is not given yet begins with the moment that is on show: its question comes before its answer. A
+        press counts from the moment that was asked for last, also while its scene is still being loaded.
         """
         coming = self._coming
+        if not coming and not self.session.layout.taught:
+            return self.come_back()
         opening = coming or self.session.opening
         if not opening or not opening.lesson or not opening.step:
             return False
@@ -143,48 +145,29 @@ class LessonPlayer:
         """Go to the beginning of the next lesson, or to the end of the one before."""
         name = lessons.neighbour(lesson, by)
         if name is None:
-            self.session.notice.say(f"the {'first' if by < 0 else 'last'} step of {lesson.title}")
+            self.session.notice.say(_end(lesson, by))
             return
         try:
             other = lessons.read(name)
         except Unusable as unusable:
             self.session.show_faults(list(unusable.faults))
             return
-        self.show(other, Moment() if by > 0 else Moment(len(other.steps) - 1, LAST))
+        self.show(other, first_moment(other, by))
 
     def show(self, lesson: Lesson, moment: Moment, swept: float | None = None) -> None:
         """Show a moment of a lesson, or a place of its step's sweep."""
         self.sweeping.stop()
         self.parameters = {}
-        self.session.show_moment(self._opening(lesson, moment, swept))
+        self.session.show_moment(opening_at(lesson, moment, swept))
 
     def look_ahead(self) -> None:
-        """Prepare what the next presses show: scenes of the neighbouring steps, and images."""
-        lesson, step, moment = self.lesson, self.step, self.moment
-        if not lesson or not step:
+        """Prepare what the next presses show."""
+        if not self.lesson or not self.step:
             return
-        jobs: list[Job] = []
-        if step.state.reveal == DEPTH:
-            jobs += [self.session.image_job(depth) for depth in range(self.stages)]
-        waiting = []
-        for number in (moment.step + 1, moment.step - 1):
-            if 0 <= number < len(lesson.steps):
-                opening = self._opening(lesson, Moment(number))
-                found = self.session.loader.prepared.find(opening)
-                if found:
-                    jobs.append(_image_of(opening, found.world))
-                else:
-                    waiting.append(opening)
-        self.session.image.prepare(jobs)
-        for opening in waiting:
-            self.session.loader.prepare(opening, lambda world: self.look_ahead())
+        depths = range(self.stages) if self.step.state.reveal == DEPTH else ()
+        jobs = [self.session.image_job(depth) for depth in depths]
+        self.ahead.prepare(self.lesson, self.moment, jobs, self.look_ahead)
         self.sweeping.prepare(lambda world: None)
-
-    def _opening(self, lesson: Lesson, moment: Moment, swept: float | None = None) -> Opening:
-        step = lesson.step_at(moment.step)
-        place = ViewState(at=(moment.step + 1, moment.press), swept=swept)
-        state = merged(view_of(step, sweep_share(step, place)), place)
-        return Opening(step.scene, lesson, state, is_return=True, shows_stage=True, sets_view=True)
 
     def show_stage(self) -> None:
         """Show the stage of the reveal, and prepare what comes next. Called when there is a tree."""
@@ -204,10 +187,8 @@ def _least_stages(step: Step) -> int:
     return 2 if step.state.sweep or step.state.reveal else 1
 
 
-def _image_of(opening: Opening, world: World) -> Job:
-    """The first image of a step."""
-    step, tracing, image = opening.step, world.scene.tracing, world.scene.image
-    assert step
-    depth = 0 if step.state.reveal == DEPTH else step.state.depth
-    limits = image_limits(world, tracing.depth if depth is None else depth, step.state.model or tracing.model)
-    return (world, limits, (image.width, image.height))
+def _end(lesson: Lesson, by: int) -> str:
+    """The notice where there is no further step."""
+    if by > 0 and lessons.ends_course(lesson):
+        return "the course ends here; deeper lessons are in the menu"
+    return f"the {'first' if by < 0 else 'last'} step of {lesson.title}"

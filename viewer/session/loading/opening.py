@@ -11,6 +11,8 @@ from viewer.lessons.step import Step
 from viewer.reopen.scene_files import SceneFiles
 from viewer.reopen.view_state import UNCHANGED, ViewState
 
+SceneKey = tuple[Path, str, Mapping[str, Any]]  # file, upward axis, changed values
+
 
 class InLesson:
     """A scene that may belong to a lesson, and what follows from the place in it that the state has."""
@@ -77,7 +79,7 @@ class Opening(InLesson):
         return self.state.up
 
     @property
-    def scene_key(self) -> tuple[Path, str, Mapping[str, Any]]:
+    def scene_key(self) -> SceneKey:
         """The scene's file and its values: two openings with equal keys are of one scene."""
         return (self.path, self.up, self.changes)
 

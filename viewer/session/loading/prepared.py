@@ -1,13 +1,11 @@
 """Scenes that may be shown next, prepared in the background, so that a key of the lecturer shows them at once."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from tracer.kernel.world import World
 from viewer.session.loading.file_watch import Stamp, stamp
-from viewer.session.loading.opening import Opening
+from viewer.session.loading.opening import Opening, SceneKey
 
 MOST = 6  # scenes kept, besides those of the sweep that is on show
 
@@ -17,7 +15,7 @@ class PreparedScene:
     """A scene with the state of its files when it was read."""
 
     opening: Opening
-    key: tuple[Path, str, Mapping[str, Any]]  # of its opening, which would make it anew each time
+    key: SceneKey  # of its opening, which would make it anew each time
     world: World
     stamps: dict[Path, Stamp]
 

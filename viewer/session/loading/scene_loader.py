@@ -16,7 +16,7 @@ from viewer.reopen.scene_files import SceneFiles, scene_files
 from viewer.reopen.view_state import UNCHANGED, ViewState, merged
 from viewer.session.call_queue import CallQueue
 from viewer.session.loading.file_watch import FileWatch
-from viewer.session.loading.opening import Opening
+from viewer.session.loading.opening import Opening, SceneKey
 from viewer.session.loading.prepared import PreparedScenes
 from viewer.session.restore.figure_scene import FigureScenes
 from viewer.session.restore.view import complete
@@ -41,6 +41,7 @@ class SceneLoader:
         self.watch = FileWatch()
         self.figures = FigureScenes()
         self.prepared = PreparedScenes()
+        self.preparing: list[SceneKey] = []  # in the worker
 
     def open(self, path: Path, lesson: Lesson | None = None, state: ViewState = UNCHANGED) -> None:
         """Load a scene, or that of a figure, in the background. The scene on show stays until it is there, or if it
@@ -80,15 +81,21 @@ class SceneLoader:
 
     def prepare(self, opening: Opening, then: Callable[[World], object]) -> None:
         """Prepare a scene in the background, for when it is opened. One that has faults is left for then."""
+        key = opening.scene_key
+        if key in self.preparing:
+            return
+        self.preparing.append(key)
 
         def work() -> None:
             try:
                 world, found = self._load(opening)
             except Exception:
+                self.calls.post(lambda: self.preparing.remove(key))
                 return
             self.calls.post(lambda: keep(found, world))
 
         def keep(found: Opening, world: World) -> None:
+            self.preparing.remove(key)
             self.prepared.add(found, world)
             then(world)
 
