@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tracer.kernel.nodes import SHADOW
+from tracer.kernel.nodes import SHADOW, SURFACE
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import BLOCKED_DASH, FILTERED_DASH, NOTHING_DASH, STYLES
 
@@ -66,13 +66,14 @@ def many_lights(tree: RayTree) -> frozenset[int]:
 
 def pointed_lights(tree: RayTree, selected: int | None) -> frozenset[int]:
     """The shadow rays that a view of the scene is about, drawn with arrows: the selected one and those of the selected
-    hit; and those of a tree's only hit, as no other rays are beside them.
+    hit; and those of a tree's only hit, if it sends no other rays at any depth.
     """
     hits = tree.nodes["kind"] != SHADOW
-    few = [] if np.count_nonzero(hits) > 1 or len(tree) - 1 > MOST_LIGHTS else shadow_rays(tree, 0)
+    is_lone = np.count_nonzero(hits) == 1 and tree.nodes["end"][0] == SURFACE
+    lone = shadow_rays(tree, 0) if is_lone and len(tree) - 1 <= MOST_LIGHTS else []
     if selected is None:
-        return frozenset(few)
-    return frozenset((*few, *shadow_rays(tree, selected), *(() if hits[selected] else (selected,))))
+        return frozenset(lone)
+    return frozenset((*lone, *shadow_rays(tree, selected), *(() if hits[selected] else (selected,))))
 
 
 def counted(tree: RayTree, rows: Iterable[int]) -> list[tuple[Fate, int]]:

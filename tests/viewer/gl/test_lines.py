@@ -11,7 +11,7 @@ from tracer.kernel.nodes import BLOCKED, KINDS, SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.orbit import Frame
 from viewer.base.theme import DARK, DIMMED, ESCAPE, LIGHT, QUIET, QUIET_WIDTH, STYLES, Arrow
-from viewer.figures.lights import MOST_LIGHTS, ray_dash
+from viewer.figures.lights import MOST_LIGHTS, pointed_lights, ray_dash
 from viewer.figures.ray_lines import drawn_rows, nearest_row, ray_lines, relatives
 from viewer.gl.stage_lines import normal_lines, style_rays
 from viewer.lessons import lesson
@@ -67,7 +67,7 @@ def test_styles_are_those_of_the_kinds(name: str, worlds: dict[str, tracer.World
         rows = drawn_rows(tree)
         lines = ray_lines(tree, rows, frame, frozenset(KINDS))
         shadows = int((tree.nodes["kind"] == SHADOW).sum())
-        is_lone = len(tree) - shadows == 1 and shadows <= MOST_LIGHTS
+        is_lone = len(tree) - shadows == 1 and shadows <= MOST_LIGHTS and tree.end(0) == "surface"
         for selected in (None, *range(0, len(tree), max(1, len(tree) // 8))):
             kept = None if selected is None else relatives(tree, selected, rows)
             loud, quiet = style_rays(tree, lines, kept, selected, theme)
@@ -94,6 +94,15 @@ def test_styles_are_those_of_the_kinds(name: str, worlds: dict[str, tracer.World
             if selected is not None and tree.nodes["kind"][selected] != SHADOW:
                 start = frame.inside(tree.nodes["origin"][selected])
                 assert loud[-1]["from"] == pytest.approx(start, rel=1e-6, abs=1e-6)
+
+
+def test_a_lone_hit_points_at_its_lights_only_if_no_depth_adds_rays(worlds: dict[str, tracer.World]) -> None:
+    """So that its shadow rays do not change while a depth is revealed."""
+    mirror = tracer.trace(worlds["mirror-balls"], (370, 272), depth=0)
+    table = tracer.prepare(tracer.load(lesson.read("shadow-rays").scene))
+    matte = tracer.trace(table, (400, 300), depth=0)
+    assert pointed_lights(mirror, None) == frozenset() and pointed_lights(matte, None) == {1, 2}
+    assert pointed_lights(mirror, 0) == {1, 2} and pointed_lights(mirror, 2) == {2}
 
 
 def test_normals_stand_on_every_hit(worlds: dict[str, tracer.World]) -> None:
