@@ -14,8 +14,9 @@ LIBRARIES := libEGL.so.1:libegl1 libGL.so.1:libgl1 swrast_dri.so:libgl1-mesa-dri
 # Programs for `make test-all` only: an office program and TeX, which open exported files.
 OFFICE := soffice:libreoffice-impress pdflatex:texlive-latex-extra kpsewhich:texlive-pictures
 
-# Two processes, each with whole files of tests. The kernels are compiled before, so that not both do it.
-SIDE_BY_SIDE := -n 2 --dist loadfile
+# Two processes, each with whole files of tests, those of long tests first (`tests/conftest.py`). The kernels are
+# compiled before, so that not both do it.
+SIDE_BY_SIDE := -n 2 --dist loadfile --no-loadscope-reorder
 
 .PHONY: run test test-all check bench bench-quick bench-stable picture screens gallery formulas clean
 

@@ -12,8 +12,15 @@ from tracer.measure.precision import experiment
 from viewer.lessons import lesson
 
 # Lessons whose scenes the tests of everything else use: all kinds of objects, media and rays, few enough to be quick.
-LESSONS = ["mirror-balls", "glass-ball", "underwater", "two-lights", "scale", "drop", "plates", "panes"]
+LESSONS = ["mirror-balls", "glass-ball", "underwater", "scale", "drop", "plates"]
+MORE_LESSONS = ["two-lights", "panes"]  # for the slow tests, too
+EACH_LESSON = [*LESSONS, *(pytest.param(name, marks=pytest.mark.slow) for name in MORE_LESSONS)]
 ALL_LESSONS = lesson.names()
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Files of few long tests begin first: at the end, one process would work on them, and the other wait."""
+    items.sort(key=lambda item: item.get_closest_marker("early") is None)
 
 
 @pytest.fixture(autouse=True)
@@ -26,10 +33,10 @@ def _strict_numbers() -> Iterator[None]:
 @pytest.fixture(scope="session")
 def worlds() -> dict[str, tracer.World]:
     """All shipped scenes, each prepared once for the whole run."""
-    return {name: tracer.prepare(tracer.load(lesson.read(name).scene)) for name in LESSONS}
+    return {name: tracer.prepare(tracer.load(lesson.read(name).scene)) for name in [*LESSONS, *MORE_LESSONS]}
 
 
-@pytest.fixture(params=LESSONS)
+@pytest.fixture(params=EACH_LESSON)
 def world(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> tracer.World:
     """Each shipped scene in turn."""
     return worlds[request.param]

@@ -5,7 +5,7 @@
 (T. Whitted, "An improved illumination model for shaded display", CACM 23(6), 1980.) Read this file first. Then read
 `tracer.kernel.trace`: the kernel computes the same colours, but faster, more accurately, and with a record of every
 ray. A test compares the two. This page does not handle overlapping solids, and its EPSILON fails in a tiny scene
-(lesson `scale`).
+(lesson `scale`) and in a huge one.
 
     world = tracer.prepare(tracer.load("scene.toml"))
     view = world.view()
@@ -115,8 +115,9 @@ def transmittance(world: World, point: Vector, to_light: Vector, distance: float
     """
     share, start = 1.0, 0.0
     while share > 0.0:
-        surface, start = closest_hit(world, point, to_light, start)
-        if surface is None or start >= distance:
+        before = start
+        surface, start = closest_hit(world, point, to_light, before)
+        if surface is None or start >= distance or start == before:  # the last: EPSILON is lost in a huge distance
             return share
         glass = world.arrays.materials[world.arrays.objects[surface.object].material].transmit
         share *= 0.0 if world.scene.tracing.shadows == SHADOWS[BLOCK] else glass

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
+from tests.scenes import GLASS, ball, polygon, world_of
 from tracer import whitted
 from tracer.choices import MODELS
 from tracer.formulas.camera import pixel_direction
+from tracer.scene import Light
 
 # Per component: 3 levels, each with a direction and a factor accurate to 16 units (test_against_exact.py), at slopes of
 # up to 8 of the light over the angle.
@@ -34,7 +36,7 @@ def differences(world: tracer.World, model: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_the_page_and_the_kernel_trace_the_same_colours(name: str, model: str, worlds: dict[str, tracer.World]) -> None:
     off = differences(worlds[name], model)
     assert len(off) > 80
@@ -42,3 +44,12 @@ def test_the_page_and_the_kernel_trace_the_same_colours(name: str, model: str, w
         assert (off > 1e-3).mean() > 0.02
     else:
         assert off.max() <= ROUNDINGS
+
+
+@pytest.mark.timeout(60)
+def test_it_ends_in_a_huge_scene() -> None:
+    """A shadow ray through glass at 1e13: a step of EPSILON is less than a rounding of the distance."""
+    far = 1e13
+    glass, lamp = ball((0, far, 0), 0.1 * far, GLASS), Light("lamp", (0.0, 3.0 * far, 0.0))
+    world = world_of(polygon([(-far, 0, -far), (-far, 0, far), (far, 0, far), (far, 0, -far)]), glass, lights=[lamp])
+    assert 0.0 < whitted.transmittance(world, (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), 3.0 * far) <= 1.0

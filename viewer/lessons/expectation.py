@@ -47,6 +47,7 @@ class Condition:
 
     words: str
     holds: bool
+    now: str = ""  # the number that is there instead; empty if there is none, or if the condition is not about a number
 
 
 def conditions(goal: Mapping[str, Any], tree: RayTree | None, hit: str | None) -> list[Condition]:
@@ -54,8 +55,19 @@ def conditions(goal: Mapping[str, Any], tree: RayTree | None, hit: str | None) -
     found = []
     for path, name, value in _entries(goal):
         words = _words(path, name, value)
-        found.append(Condition(words, tree is not None and not _fault(name, path, name, value, tree, hit)))
+        holds = tree is not None and not _fault(name, path, name, value, tree, hit)
+        found.append(Condition(words, holds, "" if holds or tree is None else _now(path, name, value, tree, hit)))
     return found
+
+
+def _now(path: str, name: str, value: Any, tree: RayTree, hit: str | None) -> str:
+    """The number of this name in the tree, with a digit more than the one that is asked for."""
+    row = row_named(tree, path or None, hit)
+    number = QUANTITIES[name].value(tree, row) if row is not None and name in QUANTITIES else math.nan
+    if math.isnan(number):
+        return ""
+    digits = len(str(value).partition(".")[2]) + 1
+    return f"{number:.{digits}f}".replace("-", "−") + ("°" if name in ANGLES else "")
 
 
 def _words(path: str, name: str, value: Any) -> str:

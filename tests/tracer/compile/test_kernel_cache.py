@@ -14,7 +14,10 @@ import pytest
 
 from tests import ROOT
 
-pytestmark = pytest.mark.skipif(not hasattr(os, "geteuid"), reason="Windows keeps the folders of users apart")
+pytestmark = [
+    pytest.mark.early,
+    pytest.mark.skipif(not hasattr(os, "geteuid"), reason="Windows keeps the folders of users apart"),
+]
 
 STRANGER = 12345  # the number of another user
 SMALL = """
@@ -67,7 +70,9 @@ def link_from_elsewhere(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("plant", [give_away, open_to_all, link_from_elsewhere])
-@pytest.mark.parametrize("inner", [False, True], ids=["outer folder", "inner folder"])
+@pytest.mark.parametrize(
+    "inner", [pytest.param(False, marks=pytest.mark.slow), True], ids=["outer folder", "inner folder"]
+)
 def test_an_entry_that_others_could_plant_is_not_loaded(
     plant: Callable[[Path], None], inner: bool, tmp_path: Path
 ) -> None:
@@ -111,7 +116,17 @@ def flipped(content: bytes) -> bytes:
     return content[:middle] + bytes([content[middle] ^ 1]) + content[middle + 1 :]
 
 
-@pytest.mark.parametrize("damage", [half, flipped, lambda content: b"", lambda content: b"\x80garbage" * 100])
+def empty(content: bytes) -> bytes:
+    return b""
+
+
+def garbage(content: bytes) -> bytes:
+    return b"\x80garbage" * 100
+
+
+@pytest.mark.parametrize(
+    "damage", [half, flipped, *(pytest.param(damage, marks=pytest.mark.slow) for damage in (empty, garbage))]
+)
 @pytest.mark.parametrize("kind", ["nbi", "nbc"])
 def test_a_damaged_entry_is_compiled_anew(
     kind: str, damage: Callable[[bytes], bytes], filled: tuple[Path, Path], tmp_path: Path

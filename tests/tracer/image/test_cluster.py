@@ -32,6 +32,8 @@ from tracer.kernel.limits import make_limits
 from tracer.scene import Image, Light, Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
 
+pytestmark = pytest.mark.early
+
 
 def local_cluster(workers: int) -> Any:
     return distributed.LocalCluster(
@@ -161,7 +163,7 @@ class Assassin(SchedulerPlugin):
             self.gone.set()
 
 
-@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize("workers", [pytest.param(1, marks=pytest.mark.slow), 2])
 def test_killed_worker_costs_no_pixel(world: tracer.World, workers: int) -> None:
     """The other worker takes over. If it was the only one, it is started again and receives the scene again."""
     with (

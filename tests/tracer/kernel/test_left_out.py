@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
 from tests.scenes import CLEAR, DARK, GLASS, MATTE, MIRROR, ball, box, kinds, plane, sheet, world_of
 from tracer.scene import Camera, Image, Light, Material, Object
 
@@ -110,7 +110,7 @@ def test_total_internal_reflection_has_one_child() -> None:
         assert kinds(tree) == ["camera"] + ["tir"] * depth
 
 
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_hierarchy_changes_no_bit(name: str, worlds: dict[str, tracer.World]) -> None:
     scene = worlds[name].scene
     flat, boxed = tracer.prepare(scene, hierarchy=False), tracer.prepare(scene, hierarchy=True)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
 from tests.scenes import DARK, GLASS, MATTE, ball, box, plane, world_of
 from tracer.measure.plan.paired_timing import paired
 from tracer.measure.plan.savings import UNNOTICED, Measured, Saving, Shot, measure, tree_rays
@@ -44,7 +44,7 @@ def assert_same(first: np.ndarray, second: np.ndarray) -> None:
     assert np.abs(second[~seen]).max(initial=0.0) < UNNOTICED
 
 
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_what_is_left_out_would_change_no_picture(name: str, worlds: dict[str, tracer.World]) -> None:
     world = worlds[name]
     asked = 0

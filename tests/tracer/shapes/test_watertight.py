@@ -13,6 +13,8 @@ from tracer.kernel.workspace import Workspace
 from tracer.scene import Material, Object
 from tracer.shapes.mesh import Geometry, Mesh
 
+pytestmark = pytest.mark.early
+
 RAYS = 100_000  # at the corners, and as many at the edges, of each mesh
 
 
@@ -47,7 +49,9 @@ def far_away() -> Mesh:
 MESHES = {"round": lambda: uv_sphere(16, 32), "lumpy": lambda: perturbed(2), "far away": far_away}
 
 
-@pytest.mark.parametrize("name", ["round", pytest.param("lumpy", marks=pytest.mark.slow), "far away"])
+@pytest.mark.parametrize(
+    "name", [*(pytest.param(name, marks=pytest.mark.slow) for name in ("round", "lumpy")), "far away"]
+)
 def test_no_ray_at_a_corner_or_an_edge_gets_out(name: str) -> None:
     mesh = MESHES[name]()
     assert mesh.is_closed()

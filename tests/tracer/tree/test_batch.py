@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
 from tests.scenes import GLASS, MIRROR, ball, box, cube_mesh, world_of
 from tests.tracer.shapes.test_closed_cones import place_on, random_cone
 from tracer.kernel.nodes import BACKGROUND
@@ -19,7 +19,7 @@ def same(a: tracer.RayTree, b: tracer.RayTree) -> bool:
     return fields and a.residual == b.residual and a.to_json() == b.to_json()
 
 
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_trees_are_those_of_single_rays(name: str, worlds: dict[str, tracer.World]) -> None:
     world, random = worlds[name], np.random.default_rng(1)
     eye = np.array(world.view().eye)

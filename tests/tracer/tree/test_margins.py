@@ -45,9 +45,9 @@ def undetected(scenes: Callable[[int], Scene], seeds: range) -> tuple[int, int, 
 
 @pytest.mark.parametrize("scenes", [random_scene, stiff_scene])
 def test_what_the_judge_decides_otherwise_had_a_margin_below_1(scenes: Callable[[int], Scene]) -> None:
-    trees, differ, missed = undetected(scenes, range(500))
-    assert trees > 400
-    assert differ > 10
+    trees, differ, missed = undetected(scenes, range(250))
+    assert trees > 200
+    assert differ > 5
     assert missed == []
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
 from tests.scenes import ball, box, world_of
 from tracer.scene import Light, Material
 from tracer.tree.names import light_names
@@ -55,7 +55,7 @@ def test_neither_lights_nor_depth_change_a_name() -> None:
             assert same is not None and more.label(same) == few.label(i)
 
 
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_names_in_lessons_and_in_trees_by_tolerance(worlds: dict[str, tracer.World], name: str) -> None:
     for tolerance in (None, 1e-3):
         tree = tracer.trace(worlds[name], (400, 300), tolerance=tolerance)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
 from tests.scenes import MIRROR, plane, world_of
 from tracer.kernel.nodes import ENDS, KINDS
 from tracer.tree.text import END_REASONS, heaviest_rows, tree_text
@@ -24,7 +24,7 @@ FIELDS = [
 ]  # fmt: skip
 
 
-@pytest.fixture(params=LESSONS)
+@pytest.fixture(params=EACH_LESSON)
 def tree(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> tracer.RayTree:
     return tracer.trace(worlds[request.param], (380, 310), depth=3)
 

@@ -11,6 +11,8 @@ from tracer.measure.check import check
 from tracer.measure.check.case import Reading
 from viewer.cli.main import main
 
+pytestmark = pytest.mark.early
+
 
 def test_table_has_every_case_and_a_verdict(capsysbinary: pytest.CaptureFixture) -> None:
     assert main(["check"]) == 0

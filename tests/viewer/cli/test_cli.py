@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 import tracer
-from tests.conftest import ALL_LESSONS, LESSONS
+from tests.conftest import ALL_LESSONS, EACH_LESSON, LESSONS
 from viewer.base.srgb import srgb
 from viewer.cli import plan as plan_command
 from viewer.cli.main import main
@@ -45,7 +45,7 @@ def test_lessons_are_listed_a_line_each(capsys: pytest.CaptureFixture) -> None:
     assert all(len(line.split()) > 1 for line in lines)
 
 
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_trace_in_every_format(name: str, capsysbinary: pytest.CaptureFixture, worlds: dict[str, tracer.World]) -> None:
     tree = tracer.trace(worlds[name], (320, 240), depth=2)
     said = {}

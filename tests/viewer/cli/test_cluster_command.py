@@ -19,6 +19,8 @@ from tests.tracer.image.test_cluster import local_cluster
 from tests.viewer.cli.test_cli import raytree
 from tests.viewer.pseudo_terminal import RAYTREE, on_a_terminal
 
+pytestmark = pytest.mark.early
+
 
 @pytest.fixture(scope="module")
 def cluster() -> Iterator[Any]:

@@ -10,7 +10,10 @@ import pytest
 
 from tests.viewer.screen import missing, screen
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="X servers without a monitor are Linux's")
+pytestmark = [
+    pytest.mark.early,
+    pytest.mark.skipif(not sys.platform.startswith("linux"), reason="X servers without a monitor are Linux's"),
+]
 
 PROGRAM = """
 import json

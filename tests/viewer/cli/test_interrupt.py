@@ -11,7 +11,10 @@ from tests.viewer.pseudo_terminal import on_a_terminal
 from tracer.processes import python_command
 from viewer.lessons import lesson
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="a terminal for programs is Unix's")
+pytestmark = [
+    pytest.mark.early,
+    pytest.mark.skipif(sys.platform == "win32", reason="a terminal for programs is Unix's"),
+]
 
 INT, TERM = signal.SIGINT, signal.SIGTERM
 BIG = ["--size", "8000x6000", "--samples", "64"]  # would take many minutes
@@ -35,7 +38,7 @@ CASES = {
 
 
 # The same paths through the program as the others, with the other signal or in another command.
-SLOW = ("image, SIGTERM", "several", "few pixels, bounds", "measuring", "screenshot, SIGTERM")
+SLOW = ("image", "image, SIGTERM", "several", "few pixels, bounds", "bounds", "measuring", "screenshot, SIGTERM")
 
 
 @pytest.mark.parametrize(

@@ -36,7 +36,7 @@ def mirrors(tmp_path: Path) -> str:
     [
         "--depth 9 --max-rays 14400",
         "--tolerance 1e-3 --max-rays 14400",
-        "--missing 1e-2 --max-rays 14400",
+        pytest.param("--missing 1e-2 --max-rays 14400", marks=pytest.mark.slow),
         "--missing 0.1",
     ],
 )

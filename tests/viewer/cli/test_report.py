@@ -24,6 +24,8 @@ from viewer.report.conditions import Conditions
 from viewer.report.data import as_json
 from viewer.report.page import as_html
 
+pytestmark = pytest.mark.early
+
 ARGUMENTS = ["--quick", "--size", "16x12"]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
 from tracer import whitted
 from tracer.choices import MODELS
 from tracer.kernel.nodes import SHADOW
@@ -34,7 +34,7 @@ def glass(worlds: dict[str, tracer.World]) -> Recording:
 
 
 @pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_the_recursion_goes_through_the_tree_as_the_depth_first_steps_do(
     name: str, model: str, worlds: dict[str, tracer.World]
 ) -> None:

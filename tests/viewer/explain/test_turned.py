@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
 from tests.scenes import box, plane, world_of
 from tracer.kernel.nodes import SHADOW
 from tracer.scene import Light
@@ -47,7 +47,7 @@ def check(world: tracer.World, tree: tracer.RayTree, row: int, angle: float) -> 
     return True
 
 
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_hits_of_the_lessons(worlds: dict[str, tracer.World], name: str) -> None:
     world = worlds[name]
     width, height = world.scene.image.width, world.scene.image.height

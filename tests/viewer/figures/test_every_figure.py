@@ -15,6 +15,8 @@ from viewer.figures.steps import by_depth
 from viewer.figures.subject import FigureStyle, Subject
 from viewer.lessons import lesson
 
+pytestmark = pytest.mark.early
+
 # Figures with a picture of the scene, whose lines run behind the names of objects.
 WITH_SCENE = ("scene", "both")
 

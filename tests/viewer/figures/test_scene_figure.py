@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
 from tests.scenes import MATTE, box, world_of
 from tests.viewer.figures.geometry import overlap
 from tracer.formulas.camera import View, make_view
@@ -60,7 +60,7 @@ def subject(world: tracer.World, name: str, depths: range = range(4)) -> Subject
     return Subject(by_depth(trees), world, initial_orbit(world, Frame.of(world), found.first.state.view))
 
 
-@pytest.fixture(scope="module", params=LESSONS)
+@pytest.fixture(scope="module", params=EACH_LESSON)
 def grown(request: pytest.FixtureRequest, worlds: dict[str, tracer.World]) -> tuple[Subject, list[Figure]]:
     """Each lesson's scene with the rays of depth 0 to 3."""
     what = subject(worlds[request.param], request.param)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
 from tracer.kernel.nodes import BLOCKED, KINDS, SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.orbit import Frame
@@ -34,7 +34,7 @@ def line_end(tree: RayTree, i: int, frame: Frame) -> np.ndarray:
     return start + (0.35 * leaving + ESCAPE) * d
 
 
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_lines_are_those_of_the_rows(name: str, worlds: dict[str, tracer.World]) -> None:
     frame = Frame.of(worlds[name])
     for tree in trees(name, worlds):
@@ -57,7 +57,7 @@ def test_lines_are_those_of_the_rows(name: str, worlds: dict[str, tracer.World])
                 assert line.blocked == (stopped and not tree.faces_away(i))
 
 
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_styles_are_those_of_the_kinds(name: str, worlds: dict[str, tracer.World]) -> None:
     """Colour, width, dash and arrow of each ray. Shadow rays are quiet unless they or their hit are selected, or their
     hit is the only one; then they have arrows.

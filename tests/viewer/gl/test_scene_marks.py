@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON, LESSONS
 from tests.viewer.driver import Driver, viewer, viewer_of
 from viewer.base.orbit import Frame, Orbit, project
 from viewer.base.theme import DARK
@@ -36,7 +36,7 @@ def look(orbit: Orbit) -> np.ndarray:
     return -orbit.outward
 
 
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_no_label_lies_over_another_or_outside(name: str) -> None:
     """At every lesson's own view and others, for every selected ray."""
     with viewer((900, 600)) as driver:
@@ -154,7 +154,7 @@ def hits(worlds: dict[str, tracer.World], name: str) -> list[tuple[tracer.RayTre
     return [(tree, i, hit) for i, hit in found if hit]
 
 
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_arcs_lie_between_the_normal_and_the_rays(name: str, worlds: dict[str, tracer.World]) -> None:
     for tree, i, hit in hits(worlds, name):
         node = tree.nodes[i]

@@ -60,7 +60,7 @@ def actions(driver: Driver) -> Iterator[str]:
     yield "without normals"
 
 
-@pytest.mark.parametrize("lesson", ["glass-ball", "underwater", "two-lights"])
+@pytest.mark.parametrize("lesson", ["glass-ball", "underwater", pytest.param("two-lights", marks=pytest.mark.slow)])
 def test_kept_surfaces_give_the_same_picture_as_drawing_everything(lesson: str) -> None:
     with viewer((900, 600)) as driver:
         driver.open(lesson)

@@ -1,10 +1,12 @@
 """The panel of a lesson: the task of a step is ticked off while it is reached; marks of live pieces are clicked."""
 
+import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import tracer
 from tests.viewer.driver import Driver, viewer
 from viewer.figures.marks import Box, Disc
 from viewer.lessons.expectation import conditions
@@ -69,7 +71,21 @@ def test_conditions_in_words() -> None:
     assert [one.words for one in conditions(goal, None, None)] == [
         "total internal reflection", "θ₁ = 48.7°", "n₂ = 1", "TR meets ball", "R ends: background",
     ]  # fmt: skip
-    assert not any(one.holds for one in conditions(goal, None, None))
+    assert not any(one.holds or one.now for one in conditions(goal, None, None))
+
+
+def test_a_goal_has_the_number_of_the_hit_on_show(worlds: dict[str, tracer.World]) -> None:
+    """With a digit more than the one that is asked for; no number once it is reached."""
+    tree = tracer.trace(worlds["drop"], (400, 300))
+    theta1 = math.degrees(math.asin(0.8))
+    for goal, now in (
+        ({"theta1": "48.7"}, f"{theta1:.2f}°"),
+        ({"theta1": "60"}, f"{theta1:.1f}°"),
+        ({"theta1": "53"}, ""),
+    ):
+        (found,) = conditions(goal, tree, "E")
+        assert (found.now, found.holds) == (now, not now)
+    assert [one.now for one in conditions({"children": ["I"], "object": "moon"}, tree, "E")] == ["", ""]
 
 
 def clicked(driver: Driver, name: str) -> None:

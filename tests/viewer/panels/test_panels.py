@@ -61,7 +61,9 @@ def test_every_character_is_in_the_fonts(room: Driver) -> None:
     assert sorted(character for character in beyond if not font.is_glyph_in_font(ord(character))) == []
 
 
-@pytest.mark.parametrize("size", [(900, 600), (1280, 720), (1600, 900)])
+@pytest.mark.parametrize(
+    "size", [(900, 600), *(pytest.param(size, marks=pytest.mark.slow) for size in ((1280, 720), (1600, 900)))]
+)
 def test_lesson_texts_stay_inside_their_panel(room: Driver, size: tuple[int, int]) -> None:
     room.resize(size)
     for name in LESSONS:

@@ -17,6 +17,8 @@ from viewer.cli import main
 from viewer.figures.catalogue import FIGURE_NAMES
 from viewer.session.figure_export import SHOWN, FigureExport, free_path
 
+pytestmark = pytest.mark.early
+
 
 @pytest.fixture
 def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Driver]:
@@ -59,8 +61,16 @@ def test_the_command_line_makes_the_same_file(room: Driver, figure: str, tmp_pat
     assert Path("again.svg").read_bytes() == path.read_bytes()
 
 
-@pytest.mark.parametrize("figure", ("both", "tree"))
-@pytest.mark.parametrize(("order", "keys"), (("breadth", ""), ("breadth", "g"), ("recursion", "o")))
+@pytest.mark.parametrize(
+    ("figure", "order", "keys"),
+    [
+        ("both", "breadth", "g"),
+        ("tree", "recursion", "o"),
+        pytest.param("both", "breadth", "", marks=pytest.mark.slow),
+        pytest.param("tree", "breadth", "", marks=pytest.mark.slow),
+        pytest.param("both", "recursion", "o", marks=pytest.mark.slow),
+    ],
+)
 def test_a_step_on_show_is_the_exported_page(room: Driver, figure: str, order: str, keys: str) -> None:
     """Ctrl+S writes the step on show, its command line the same bytes, and all pages at once have the same marks."""
     room.open("mirror-balls")

@@ -18,6 +18,8 @@ from viewer.lessons import lesson
 from viewer.reopen.places import CARRYING, read_figure
 from viewer.session.restore.view import state_of
 
+pytestmark = pytest.mark.early
+
 SCROLL_BAR = 24  # pixels
 FORMATS = tuple(suffix[1:] for suffix in CARRYING)
 
@@ -86,7 +88,7 @@ def change_everything(driver: Driver) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] if name in ("pdf", "pptx") else []) for name in FORMATS]
+    "name", [pytest.param(name, marks=[pytest.mark.slow] if name in ("pdf", "pptx", "png") else []) for name in FORMATS]
 )
 def test_a_dropped_figure_brings_the_view_back_exactly(room: Driver, name: str) -> None:
     room.open("glass-ball")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
 from tests.viewer.figures.random_tree import random_tree
 from tracer.kernel.nodes import SHADOW
 from tracer.tree.raytree import RayTree
@@ -39,7 +39,7 @@ def position_of(reveal: Reveal) -> int:
 
 
 @pytest.mark.parametrize(("granularity", "order"), HOW)
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_the_state_is_absolute(name: str, granularity: str, order: str, worlds: dict[str, tracer.World]) -> None:
     """Forwards, backwards and by a jump, each step is the exported one."""
     show = Show(tracer.trace(worlds[name], lesson.read(name).first.state.pixel, depth=3))

@@ -144,11 +144,13 @@ def test_the_knob_is_dragged_and_a_pick_leaves_the_way(driver: Driver, lesson: L
     driver.drag([(left + 1.0, top), (left + 0.3 * width, top), (left + 0.613 * width, top)])
     assert session.player.sweeping.share == pytest.approx(0.613, abs=1.0 / width)
     assert session.between and session.at == (1, 0)
-    near = session.pixel
-    assert near
+    near, place, sweeping = session.pixel, session.between, session.player.sweeping
+    assert near and not sweeping.is_left
     session.pick(*near)
     assert session.between is None and session.swept is None and session.tree
-    assert session.tree.pixel == near
+    assert session.tree.pixel == near and sweeping.is_left
+    sweeping.move_to(sweeping.share)
+    assert session.between == place and not sweeping.is_left
 
 
 def test_a_number_of_the_scene_goes_through_its_values(driver: Driver, lesson: Lesson) -> None:

@@ -22,7 +22,7 @@ from viewer.session.stepping.reveal import LEVELS, RAYS
 from viewer.window import bar
 from viewer.window.app import FASTEST
 
-pytestmark = LINUX_ONLY
+pytestmark = [pytest.mark.early, LINUX_ONLY]
 
 
 @pytest.fixture
@@ -391,7 +391,9 @@ def text_height(driver: Driver) -> float:
     return scale * max(text.size for text in driver.tree_texts())
 
 
-@pytest.mark.parametrize("layout", ("us", "ru", "fr", "de", "gr"))
+@pytest.mark.parametrize(
+    "layout", ("us", "ru", "fr", *(pytest.param(name, marks=pytest.mark.slow) for name in ("de", "gr")))
+)
 def test_keys_on_other_keyboards(desk: Desk, layout: str) -> None:
     """By the character, and where the layout has none that is bound, by the place. Places are X key codes."""
     session = desk.session

@@ -29,7 +29,7 @@ from viewer.session.restore.last_session import LastSession, SessionKeeper, Wind
 from viewer.session.restore.view import state_of
 from viewer.window.screens import is_reachable, screen_of
 
-pytestmark = LINUX_ONLY
+pytestmark = [pytest.mark.early, LINUX_ONLY]
 
 # The program, which tells when it has kept its session.
 PROGRAM = """
@@ -139,7 +139,9 @@ def test_a_killed_program_has_kept_what_was_on_show(tmp_path: Path) -> None:
     assert sorted(path.name for path in (tmp_path / "raytree").iterdir() if path.suffix != ".ini") == ["session.json"]
 
 
-@pytest.mark.parametrize("manager", [True, False], ids=["with a window manager", "without"])
+@pytest.mark.parametrize(
+    "manager", [True, pytest.param(False, marks=pytest.mark.slow)], ids=["with a window manager", "without"]
+)
 def test_full_screen_and_back(tmp_path: Path, manager: bool) -> None:
     with program(tmp_path, "view", "plates", "--size", "900x600", display=None if manager else bare_screen()) as first:
         first.until_kept("plates 5 dark")

@@ -5,7 +5,7 @@ import pytest
 from imgui_bundle import imgui
 
 import tracer
-from tests.conftest import LESSONS
+from tests.conftest import EACH_LESSON
 from tests.viewer.driver import Driver, viewer
 from tracer.kernel.limits import make_limits
 from viewer.base.srgb import srgb
@@ -270,7 +270,7 @@ def test_any_size_of_window(size: tuple[int, int]) -> None:
         assert driver.aims_at(400, 300)
 
 
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", EACH_LESSON)
 def test_every_lesson_opens_on_its_pixel_and_draws_every_panel(name: str) -> None:
     with viewer() as driver:
         driver.open(name)

@@ -1,4 +1,6 @@
-"""The task of a step, below its text: each condition with a circle, or with a tick while the rays on show meet it."""
+"""The task of a step, below its text: each condition with a circle, or with a tick while the rays on show meet it. A
+number that is not reached yet stands beside the one that is asked for.
+"""
 
 from collections.abc import Sequence
 
@@ -40,8 +42,12 @@ def draw_goal(theme: Theme, conditions: Sequence[Condition], at: d.Point, width:
         middle = (x + (MARGIN + RADIUS) * em, y + 0.5 * em)
         draw_marks(pad, _sign(theme, condition.holds, middle, em), (0.0, 0.0), 1.0)
         place = (round(x + INDENT * em), round(y))
-        pad.add_text(imgui.get_font(), em, place, d.u32(theme.text), condition.words, wrap_width=_room(width))
+        pad.add_text(imgui.get_font(), em, place, d.u32(theme.text), _text(condition), wrap_width=_room(width))
         y += _high(condition, width) + BETWEEN * em
+
+
+def _text(condition: Condition) -> str:
+    return f"{condition.words}   (now {condition.now})" if condition.now else condition.words
 
 
 def _room(width: float) -> float:
@@ -50,7 +56,7 @@ def _room(width: float) -> float:
 
 
 def _high(condition: Condition, width: float) -> float:
-    return imgui.calc_text_size(condition.words, wrap_width=_room(width)).y
+    return imgui.calc_text_size(_text(condition), wrap_width=_room(width)).y
 
 
 def _sign(theme: Theme, holds: bool, middle: Point, em: float) -> list[Mark]:

@@ -1,4 +1,6 @@
-"""The handle of a step's sweep: a line with a knob, below the value that it has."""
+"""The handle of a step's sweep: a line with a knob, below the value that it has. It is grey while a pixel is picked
+that is not on its way.
+"""
 
 from imgui_bundle import imgui
 
@@ -16,7 +18,8 @@ def draw_handle(session: Session, canvas: Canvas, corner: tuple[float, float], w
     if not sweeping.sweep:
         return 0.0
     size, pad = imgui.get_font_size(), imgui.get_window_draw_list()
-    d.text(pad, corner, theme.muted, d.shortened(sweeping.sweep.words(sweeping.share), size, width), size)
+    words = "another pixel is picked" if sweeping.is_left else sweeping.sweep.words(sweeping.share)
+    d.text(pad, corner, theme.muted, d.shortened(words, size, width), size)
     radius = KNOB * size
     left, right, y = corner[0] + radius, corner[0] + width - radius, corner[1] + 1.3 * size + radius
     canvas.sweep_place = ((left, y), right - left)
@@ -29,7 +32,8 @@ def draw_handle(session: Session, canvas: Canvas, corner: tuple[float, float], w
     if over:
         imgui.set_mouse_cursor(imgui.MouseCursor_.hand)
     x = left + sweeping.share * (right - left)
+    ink = d.u32(theme.muted if sweeping.is_left else theme.accent)
     pad.add_line((left, y), (right, y), d.u32(theme.muted), 2.0 * d.unit())
-    pad.add_line((left, y), (x, y), d.u32(theme.accent), 4.0 * d.unit())
-    pad.add_circle_filled((x, y), radius * (PULLED if over else 1.0), d.u32(theme.accent))
+    pad.add_line((left, y), (x, y), ink, 4.0 * d.unit())
+    pad.add_circle_filled((x, y), radius * (PULLED if over else 1.0), ink)
     return y + radius - corner[1]

@@ -25,6 +25,8 @@ class Taught(Protocol):
     reveal: Reveal
     loader: SceneLoader
     image: ImageRenderer
+    pixel: tuple[int, int] | None
+    between: tuple[float, float] | None
     selection: str | None
     layout: Layout
     notice: Notice

@@ -32,6 +32,11 @@ class SmallImages:
             self.asked[key] = self.runner.submit(self._trace, world, key)
         return self.kept.get(key)
 
+    @property
+    def is_at_rest(self) -> bool:
+        """Whether all that were asked for are there."""
+        return self.asked.keys() <= self.kept.keys()
+
     def wait(self) -> None:
         """Wait for those that were asked for. The calls that bring them are posted then."""
         for future in tuple(self.asked.values()):

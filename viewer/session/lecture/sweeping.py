@@ -18,6 +18,8 @@ class Swept(Protocol):
     """The parts of a session that a sweep changes."""
 
     loader: SceneLoader
+    pixel: tuple[int, int] | None
+    between: tuple[float, float] | None
 
     @property
     def opening(self) -> Opening | None: ...
@@ -41,6 +43,14 @@ class Sweeping:
     def share(self) -> float:
         """How far it has gone, 0 to 1."""
         return self.session.opening.share if self.session.opening else 0.0
+
+    @property
+    def is_left(self) -> bool:
+        """Whether another place of the image is picked than its own."""
+        if not self.sweep or not self.sweep.is_pixel:
+            return False
+        own = (self.sweep.pixel(self.share), self.sweep.between(self.share))
+        return (self.session.pixel, self.session.between) != own
 
     def play(self) -> None:
         """Move it from its beginning to its end."""
@@ -82,7 +92,7 @@ class Sweeping:
     def move_to(self, share: float) -> None:
         """Show this share of the way."""
         opening = self._opening(min(max(share, 0.0), 1.0))
-        if opening and opening != self.session.opening:
+        if opening and (opening != self.session.opening or self.is_left):
             self.session.show_swept(opening)
 
     def prepare(self, then: Callable[[World], object]) -> None:
