@@ -4,6 +4,7 @@ import itertools
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import tracer
@@ -64,6 +65,19 @@ def test_water_is_beyond_the_critical_angle(worlds: dict[str, tracer.World]) -> 
     assert tree.nodes["n1"][0] == 1.33
     assert tree.nodes["radicand"][0] < 0.0
     assert tree.kind(tree.children[0][-1]) == "tir"
+
+
+def test_plates_have_a_bound_on_the_missing_light_until_they_glow(worlds: dict[str, tracer.World]) -> None:
+    """What the last step says; and six faces send back 1/5 of the sky, straight on, with an exact tree."""
+    steps = lesson.read("plates").steps
+    bounds = []
+    for step in steps:
+        world = tracer.prepare(tracer.load(step.scene, changes=step.state.set))
+        bounds.append(tracer.trace(world, step.state.pixel, depth=2).bound)
+    assert np.isinf(bounds).tolist() == [False, False, False, False, True]
+    straight = tracer.prepare(tracer.load(steps[3].scene, changes=steps[3].state.set))
+    tree = tracer.trace(straight, steps[3].state.pixel, missing=1e-4)
+    assert np.abs(tree.radiance - np.array(straight.scene.background.color) / 5.0).max() <= 1e-4
 
 
 def test_floor_under_the_table_sees_no_light(worlds: dict[str, tracer.World]) -> None:

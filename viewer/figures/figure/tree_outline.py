@@ -32,7 +32,7 @@ def outline_ray(plan: TreePlan, tree: RayTree, i: int, stroke: Stroke) -> list[M
         at = (end[0] - GAP * size - text_width(label, size), y - RAISED * size)
     else:
         start, end = (left, top + BELOW_EYE * size), (left, y - 0.5 * plan.box[1])
-        at = (left + GAP * size, 0.5 * (start[1] + end[1]))
+        at = (left + FROM_EYE * size, top)
     return [
         Line(
             name, start, end, stroke, arrow, FIRST_ARROW if is_beside else 1.0,
