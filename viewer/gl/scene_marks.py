@@ -18,6 +18,7 @@ from viewer.base.theme import DIMMED, LABEL_TEXT as TEXT, QUIET, Color, faded
 from viewer.figures import signs
 from viewer.figures.font import text_box
 from viewer.figures.labels import ray_label
+from viewer.figures.lights import pointed_lights
 from viewer.figures.marks import Disc, Line, Mark, Point, Rectangle, Shape, Stroke, Text, widened, within
 from viewer.gl.canvas import Canvas
 from viewer.gl.ray_pieces import clear_first, ray_pieces
@@ -115,14 +116,14 @@ class SceneMarks:
 
     def _crosses(self) -> None:
         """Crosses at the ends of blocked shadow rays. They are as faint as their rays."""
-        lines, selected, tree = self.canvas.lines, self.session.selected, self.session.tree
+        lines, tree = self.canvas.lines, self.session.tree
         assert tree
+        pointed = pointed_lights(tree, self.session.selected)
         blocked = np.flatnonzero(lines.blocked)[:CROSSES]
         places, inside = self.at(lines.ends[blocked])
         for k, place in zip(blocked[inside].tolist(), places[inside].tolist(), strict=True):
             row = int(lines.rows[k])
-            meant = selected is not None and selected in (row, int(tree.nodes["parent"][row]))
-            color = faded(self.theme.ray("shadow"), 1.0 if meant else QUIET)
+            color = faded(self.theme.ray("shadow"), 1.0 if row in pointed else QUIET)
             behind = signs.cross(f"ray-{row}", (place[0], place[1]), CROSS, faded(self.theme.ground, color[3]))
             self.signs += [_thick(mark, 2.0) for mark in behind]
             self.signs += signs.cross(f"ray-{row}", (place[0], place[1]), CROSS, color)

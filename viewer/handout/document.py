@@ -97,7 +97,14 @@ class Show:
         stages = self.controls[0] if self.controls and not self.controls[0].moves_handle else None
         return stages.first + len(stages.positions) - 1 if stages and stages.name in REVEALED else self.start
 
+    @property
+    def swept(self) -> int:
+        """The frame at the end of the step's sweep, in a show that follows it; else the one that is shown at first."""
+        follows = bool(self.controls) and self.controls[0].name == SWEEP
+        return len(self.controls[0].positions) - 1 if follows else self.start
 
+
+SWEEP = "sweep"  # the name of the control of a sweep
 REVEALED = ("depth", "rays", "colour")  # names of controls whose last position shows everything
 
 

@@ -3,10 +3,11 @@
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from viewer.base.theme import LIGHT
-from viewer.figures.marks import Handle, Mark, Rectangle, Text
-from viewer.handout.document import Control, Picture, Room, Show, Shown, paper
+from viewer.figures.marks import Handle, Mark, Text
+from viewer.handout.document import SWEEP, Control, Picture, Room, Show, Shown, paper
 from viewer.handout.sentences import of_marks
 from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
@@ -19,39 +20,82 @@ NUMBER = re.compile(r"[0-9]")
 DRAG = "drag to "  # begins the titles of handles
 
 
-def live_show(fence: Fence, shown: Shown, row: int) -> Show | None:
-    """The show of a live piece about the hit of this row; None if it cannot show it. Frame 0 is the piece at first."""
-    name, *words = fence.content.split() or [""]
-    drawn: dict[tuple[Rectangle, float, str, tuple], list[Mark]] = {}
+@dataclass(frozen=True)
+class Along:
+    """A position of the step's sweep, as a live piece shows it: `row` is that of the hit looked at."""
 
-    def marks(room: Room, parameters: dict[str, float]) -> list[Mark]:
-        key = (room.where, room.size, room.theme.name, tuple(parameters.items()))
-        if key not in drawn:
-            context = LiveContext(shown.tree, row, shown.world, room.theme, room.size, room.where)
-            drawn[key] = kind.marks(context, parameters, words)
-        return drawn[key]
+    shown: Shown
+    row: int
+    words: str
 
-    parameters: list[dict[str, float]] = [{}]
-    controls = []
+
+def live_show(fence: Fence, shown: Shown, row: int, title: str = "", sweep: Sequence[Along] = ()) -> Show | None:
+    """The show of a live piece about the hit of this row; None if it cannot show it. Frame 0 is the piece at first.
+
+    The first frames are the positions of the `sweep` with this title, if the piece changes there.
+    """
     try:
-        kind = live_kind(name)
-        for handle in (mark for mark in marks(LIVE_ROOM, {}) if isinstance(mark, Handle)):
-            values = positions(handle)
-            title = handle.title.removeprefix(DRAG)
-            title = title[:1].upper() + title[1:]
-            own = [{handle.name: value} for value in values]
-            told = differences([marks(LIVE_ROOM, one) for one in own])
-            said = tuple("; ".join(filter(None, both)) for both in zip(map(_said, values), told, strict=True))
-            controls.append(Control(handle.name, title, len(parameters), said, values.index(float(handle.value)), True))
-            parameters += own
+        piece = _Piece(fence, shown, row)
+        controls = [*piece.swept(title, sweep), *piece.handles()]
     except ValueError:
         return None
+    name = piece.kind.title
+    picture = Picture(piece.kind.name, name, piece.draw, lambda _, made: of_marks(name, made))
+    return Show((picture,), len(piece.frames), 0, tuple(controls), tuple(frame.shown for frame in piece.frames))
 
-    def draw(room: Room, asked: Sequence[int]) -> list[list[Mark]]:
-        return [marks(room, parameters[k]) for k in asked]
 
-    picture = Picture(name, kind.title, draw, lambda _, made: of_marks(kind.title, made))
-    return Show((picture,), len(parameters), 0, tuple(controls), (shown,) * len(parameters))
+@dataclass(frozen=True)
+class _Frame:
+    shown: Shown
+    row: int
+    parameters: tuple[tuple[str, float], ...] = ()
+
+
+class _Piece:
+    """A live piece and its frames. Methods raise ValueError where it has nothing to show."""
+
+    def __init__(self, fence: Fence, shown: Shown, row: int) -> None:
+        name, *self.words = fence.content.split() or [""]
+        self.kind = live_kind(name)
+        self.frames = [_Frame(shown, row)]
+        self._drawn: dict[tuple, list[Mark]] = {}
+
+    def draw(self, room: Room, asked: Sequence[int]) -> list[list[Mark]]:
+        return [self._marks(room, self.frames[k]) for k in asked]
+
+    def _marks(self, room: Room, frame: _Frame) -> list[Mark]:
+        about = frame.shown
+        key = (room.where, room.size, room.theme.name, id(about.tree), id(about.world), frame.row, frame.parameters)
+        if key not in self._drawn:
+            context = LiveContext(about.tree, frame.row, about.world, room.theme, room.size, room.where)
+            self._drawn[key] = self.kind.marks(context, dict(frame.parameters), self.words)
+        return self._drawn[key]
+
+    def swept(self, title: str, sweep: Sequence[Along]) -> list[Control]:
+        """Add the positions of a sweep; nothing if the piece is the same at all of them, or has nothing to show."""
+        found = [_Frame(one.shown, one.row) for one in sweep]
+        try:
+            drawn = [self._marks(LIVE_ROOM, frame) for frame in found]
+        except ValueError:
+            return []
+        if all(marks == drawn[0] for marks in drawn):
+            return []
+        self.frames = found
+        return [Control(SWEEP, title, 0, tuple(one.words for one in sweep))]
+
+    def handles(self) -> list[Control]:
+        """Add the positions of each handle."""
+        first, controls = self.frames[0], []
+        for handle in (mark for mark in self._marks(LIVE_ROOM, first) if isinstance(mark, Handle)):
+            values, begin = positions(handle), len(self.frames)
+            title = handle.title.removeprefix(DRAG)
+            title = title[:1].upper() + title[1:]
+            own = [_Frame(first.shown, first.row, ((handle.name, value),)) for value in values]
+            told = differences([self._marks(LIVE_ROOM, frame) for frame in own])
+            said = tuple("; ".join(filter(None, both)) for both in zip(map(_said, values), told, strict=True))
+            controls.append(Control(handle.name, title, begin, said, values.index(float(handle.value)), True))
+            self.frames += own
+        return controls
 
 
 def differences(drawn: Sequence[Sequence[Mark]]) -> list[str]:

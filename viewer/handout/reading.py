@@ -15,8 +15,8 @@ from viewer.base.orbit import Frame as SceneFrame, initial_orbit
 from viewer.base.wording import format_number
 from viewer.explain.listing import listing
 from viewer.figures import steps as ray_steps
-from viewer.handout.document import Control, Handout, Page, PagePart, Photo, Show, Shown
-from viewer.handout.live import live_show
+from viewer.handout.document import SWEEP, Control, Handout, Page, PagePart, Photo, Show, Shown
+from viewer.handout.live import Along, live_show
 from viewer.handout.pictures import KINDS, Frame, Frames, Scenery, picture
 from viewer.handout.sentences import angles, of_stage
 from viewer.handout.sweeps import Position, positions
@@ -28,7 +28,6 @@ from viewer.lessons.text import Block, Fence, Items, Paragraph, Run, filled
 from viewer.lessons.values import ABSENT, value_text
 
 STAGES = {DEPTH: "Depth", RAYS: "Ray by ray", COLOUR: "Sum by sum"}  # titles of controls
-SWEEP = "sweep"
 
 
 def read_handout(lesson: Lesson, progress: Callable[[float], None] = lambda share: None) -> Handout:
@@ -56,12 +55,17 @@ class _Reader:
         trees = self._trees(step, state, world, lesson)
         if trees and state.sweep:
             swept = positions(step, state.sweep, lambda changes: self._world(step, changes))
+        along = [Along(Shown(at.tree, at.world), _row(at.tree, state.hit), at.words) for at in swept]
         parts = []
         for k, part in enumerate(step.parts):
             shown = Shown(trees[-1] if trees else None, world)
             if swept and k:
                 shown = Shown(swept[-1].tree, swept[-1].world)
-            shows = {fence.line: live_show(fence, shown, _row(shown.tree, state.hit)) for fence in part.live}
+            sweep = () if k else along  # what appears after a sweep is about its end
+            shows = {
+                fence.line: live_show(fence, shown, _row(shown.tree, state.hit), _swept_title(state), sweep)
+                for fence in part.live
+            }
             live = {line: show for line, show in shows.items() if show}
             blocks = [*_with_listings(part.blocks), *(() if k else _task(step))]
             parts.append(PagePart(filled(blocks, _values(shown.tree, state.hit)), shown, live))
@@ -110,7 +114,7 @@ class _Reader:
                 place = scenery if at.world is world else Scenery(at.world, scenery.orbit)
                 frames.append(Frame(_shown(ray_steps.whole(at.tree), state), place, k, _row(at.tree, state.hit)))
             said = tuple(f"{at.words}{angles(f.step.tree, f.hit)}" for at, f in zip(swept, frames, strict=True))
-            controls = (Control(SWEEP, "Place in the image" if state.sweep.is_pixel else state.sweep.of, 0, said),)
+            controls = (Control(SWEEP, _swept_title(state), 0, said),)
         else:
             stages = [_shown(stage, state) for stage in _stages(step, trees)]
             frames = [Frame(stage, scenery, 0, _row(trees[-1], state.hit)) for stage in stages]
@@ -157,6 +161,11 @@ class _Reader:
         place = ", ".join(format_number(x) for x in pixel)
         said = f"{world.scene.caption}, rendered at depth {depth}, with a ring around pixel {place}."
         return Photo(pixels, ring, "The image, with a ring around the pixel", said)
+
+
+def _swept_title(state: State) -> str:
+    """What moves in a sweep; empty without one."""
+    return "" if not state.sweep else "Place in the image" if state.sweep.is_pixel else state.sweep.of
 
 
 def _stages(step: Step, trees: Sequence[RayTree]) -> Sequence[ray_steps.Step]:

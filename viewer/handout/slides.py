@@ -101,9 +101,10 @@ def _of_page(handout: Handout, page: Page, theme: Theme) -> Iterator[Slide]:
         shown = shown_at(page.step, len(page.stages), press)
         parts = page.parts[: shown.parts]
         text = _text(parts, whole.size)
-        # A piece of the first part is about the beginning of a sweep.
-        about = parts[1:] if page.step.state.sweep and shown.stage else parts
-        live = [one for part in about for one in part.live.values()]
+        is_swept = bool(page.step.state.sweep and shown.stage)
+        # A piece of the first part that does not follow a sweep is about its beginning.
+        about = [(k, one) for k, part in enumerate(parts) for one in part.live.values()]
+        live = [(one, one.swept if is_swept and k == 0 else 0) for k, one in about if k or not is_swept or one.swept]
         pictures = _of_show(page, show, page.stages[shown.stage], live, where, drawn)
         place = f"{handout.lesson.title}   {page.number}/{len(handout.pages)}"
         yield Slide(page.title, place, text, tuple(pictures), page.step.notes, page)
@@ -131,11 +132,16 @@ class _Drawn:
         return self._made[key][frame] if key in self._made else picture.draw(room, [frame])[0]
 
 
-def _of_show(page: Page, show: Show, stage: int, live: Sequence[Show], where: Rectangle, drawn: _Drawn) -> list[Placed]:
-    """The pictures of a step, and the image if it is one of its panels; beside a live piece, the first of them."""
+def _of_show(
+    page: Page, show: Show, stage: int, live: Sequence[tuple[Show, int]], where: Rectangle, drawn: _Drawn
+) -> list[Placed]:
+    """The pictures of a step, and the image if it is one of its panels; beside a live piece, of which `live` has the
+    frames, the first of them.
+    """
     pictures = [(show, picture, stage) for picture in show.pictures]
     if live:
-        pictures = [*pictures[:1], *((live[-1], picture, 0) for picture in live[-1].pictures)]
+        piece, frame = live[-1]
+        pictures = [*pictures[:1], *((piece, picture, frame) for picture in piece.pictures)]
     if live or "image" not in page.step.state.panels or not show.photos:
         return _pictures(pictures, where, drawn)
     photo = show.photos[stage if len(show.photos) > 1 else 0]

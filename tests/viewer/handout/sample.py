@@ -93,7 +93,7 @@ $$n_1 \\sin\\theta_1 = n_2 \\sin\\theta_2$$
 2. two
 
 ```live
-snell 1.5 1
+snell
 ```
 
 ???

@@ -36,12 +36,12 @@ def page(handout: Handout, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def move_to(browser: Browser, place: str, position: int) -> str:
-    """Move the slider of a show. Returns what is said of the position."""
+def move_to(browser: Browser, place: str, position: int, k: int = 0) -> str:
+    """Move the k-th slider of a show. Returns what is said of the position."""
     show = f"document.getElementById('{place}')"
-    browser.run(f"""(() => {{ const input = {show}.querySelector(':scope > .moved > .control input');
+    browser.run(f"""(() => {{ const input = {show}.querySelectorAll(':scope > .moved > .control input')[{k}];
       input.value = {position}; input.dispatchEvent(new Event('input')); }})()""")
-    return browser.run(f"{show}.querySelector(':scope > .moved > .control output').textContent")
+    return browser.run(f"{show}.querySelectorAll(':scope > .moved > .control output')[{k}].textContent")
 
 
 def expected_texts(show: Show, k: int, frame: int) -> list[str]:
@@ -86,11 +86,13 @@ def test_positions_of_a_sweep_and_of_handles_have_the_numbers_that_were_computed
     ids = desktop.run("[...document.querySelectorAll('#\\\\33  .live')].map(show => show.id)")
     places += zip(ids, (snell, lifeguard), strict=True)
     assert len(page.show.controls[0].positions) == POSITIONS
-    for place, show in places:
-        control = show.controls[0]
+    assert [len(show.controls) for _, show in places] == [1, 2, 1]
+    moving = [(place, show, c) for place, show in places for c, _ in enumerate(show.controls)]
+    for place, show, c in moving:
+        control = show.controls[c]
         last = len(control.positions) - 1
         for position in {0, last // 3, last}:
-            said = move_to(desktop, place, position)
+            said = move_to(desktop, place, position, c)
             assert said.endswith(control.positions[position])
             for k in range(len(show.pictures)):
                 expected = expected_texts(show, k, control.first + position)
@@ -99,6 +101,17 @@ def test_positions_of_a_sweep_and_of_handles_have_the_numbers_that_were_computed
     angles = [float(tree.nodes["theta1"][0]) for tree in trees if tree]
     assert len(set(angles)) == len(angles) == POSITIONS  # no two positions are alike, also between pixels
     assert trees[0] and trees[0].pixel == (30, 18) and trees[-1] is page.parts[1].shown.tree
+
+
+def test_a_sweep_moves_the_pictures_of_its_step_and_the_pieces_before_it(desktop: Browser, handout: Handout) -> None:
+    page = handout.pages[2]
+    (snell,) = page.parts[0].live.values()
+    piece = desktop.run("document.getElementById('3').querySelector('.live').id")
+    for moved, position in (("step-3-show", POSITIONS - 1), (piece, 4)):
+        move_to(desktop, moved, position)
+        for place, show in (("step-3-show", page.show), (piece, snell)):
+            assert sorted(desktop.run(TEXTS.format(place, 0))) == sorted(expected_texts(show, 0, position))
+    assert expected_texts(snell, 0, 0) != expected_texts(snell, 0, POSITIONS - 1)
 
 
 def test_a_handle_is_dragged(desktop: Browser, handout: Handout) -> None:
@@ -155,7 +168,7 @@ def test_a_step_has_the_text_of_a_function_and_what_is_to_be_reached(desktop: Br
     assert desktop.run(f"[...{step}.querySelectorAll('li')].map(item => item.textContent.trim())") == ["θ₁ = 12°"]
     rasters = desktop.run(f"{step}.querySelectorAll('.live image, .live use').length")
     place = desktop.run(f"{step}.querySelector('.live').id")
-    assert rasters >= 3 and move_to(desktop, place, 2).startswith("2; largest ")
+    assert rasters >= 3 and move_to(desktop, place, 2).startswith("2; mean ")
 
 
 def test_what_is_hidden_is_shown_when_it_is_asked_for_and_on_paper(desktop: Browser) -> None:

@@ -56,6 +56,16 @@ def test_there_is_a_slide_for_the_cover_and_each_moment(handout: Handout, slides
     assert deck.slides[1].notes_slide.notes_text_frame.text == "Say *nothing* yet."
 
 
+def test_a_piece_before_a_sweep_is_about_its_beginning_and_then_about_its_end(
+    handout: Handout, slides: list[Slide]
+) -> None:
+    page = handout.pages[2]
+    first, second, *_ = ((p for p in slide.pictures if p.kind == "snell") for slide in slides if slide.page is page)
+    (before,), (after,) = first, second
+    assert before.tree is page.show.shown[0].tree and after.tree is page.show.shown[-1].tree
+    assert before.where == after.where and before.marks != after.marks
+
+
 def test_every_shape_has_a_name_of_its_own_and_a_ray_has_the_same_on_all_slides(
     handout: Handout, slides: list[Slide], deck: Any
 ) -> None:

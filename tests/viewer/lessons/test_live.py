@@ -68,6 +68,7 @@ def test_pieces_lie_inside_their_room_and_no_texts_overlap() -> None:
         "transmission": ("2", "1.33", "1"),
         "sphere": ("ball",),
         "inside": ("comb",),
+        "reflect": ("fill",),
     }  # the ray from the eye does not reach the polygon
     for kind, (k, size), row in itertools.product(LIVE, enumerate(SIZES), rows):
         if row and (k % 2 or kind.name in ("lifeguard", "samples", "media")):
@@ -221,6 +222,7 @@ def _ends(seen: World, pixel: tuple[int, int]) -> list[str | None]:
         ("sphere", ("moon",), 'sphere: object must be an object of the scene, ball, comb, got "moon"'),
         ("sphere", ("comb",), "sphere: comb is a polygon; it needs a hit on a sphere"),
         ("inside", ("ball",), "inside: ball is a sphere; it needs a hit on a polygon"),
+        ("reflect", ("moon",), 'reflect: light must be a light of the scene, key, fill, got "moon"'),
         ("hit", ("x",), 'hit: no words may follow, got "x"'),
         (
             "lifeguard",

@@ -37,11 +37,15 @@ document.addEventListener("DOMContentLoaded", () => {
         input.setAttribute("aria-valuetext", words);
         output.textContent = control.dataset.counted ? `${+input.value + 1} of ${said.length}: ${words}` : words;
       };
-      control.go = (position) => {
+      control.go = (position, isLed = false) => {
         input.value = Math.min(said.length - 1, Math.max(0, position));
         for (const other of controls) if (other !== control) other.reset();
         say();
         set(first + Number(input.value));
+        if (isLed || control.dataset.name !== "sweep") return;
+        // The sweep of a step moves its pictures and its live pieces together.
+        const swept = all('.control[data-name="sweep"]', control.closest("section"));
+        for (const other of swept) if (other !== control) other.go(Number(input.value), true);
       };
       control.reset = () => {
         input.value = control.dataset.start;

@@ -17,11 +17,10 @@ from viewer.figures.picking import ray_of
 from viewer.figures.writers.html.frame import text
 from viewer.figures.writers.html.inline_svg import Drawings
 from viewer.figures.writers.html.numbers import Numbers
-from viewer.handout.document import REVEALED, Control, Photo, Picture, Room, Show, Shown
+from viewer.handout.document import REVEALED, SWEEP, Control, Photo, Picture, Room, Show, Shown
 from viewer.handout.html.colors import ColorPairs
 from viewer.handout.html.frames import HANDLE, captions, frames_attribute, frames_svg
 from viewer.handout.live import LIVE_ROOM
-from viewer.handout.reading import SWEEP
 
 # The rooms of pictures, in points. On a phone, 390 pixels wide, the text has 12 pixels.
 ROOMS = {"scene": (0.0, 0.0, 460.0, 420.0), "tree": (0.0, 0.0, 460.0, 430.0), "hit": (0.0, 0.0, 460.0, 620.0)}

@@ -138,6 +138,7 @@ LIVE = (
     LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.pieces.sphere:sphere", OBJECTS),
     LiveKind("inside", "Inside a polygon or a triangle", "viewer.lessons.live.pieces.inside:inside_piece", OBJECTS),
     LiveKind("phong", "Phong's terms", "viewer.lessons.live.pieces.phong:phong", (Argument("light", _light),)),
+    LiveKind("reflect", "Reflection", "viewer.lessons.live.pieces.reflect:reflect", (Argument("light", _light),)),
     LiveKind("sum", "The sum of a hit", "viewer.lessons.live.pieces.sum:sum_piece"),
     LiveKind(
         "samples", "Samples of a pixel", "viewer.lessons.live.pieces.samples:samples", (Argument("count", _count),),

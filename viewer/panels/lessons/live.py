@@ -21,7 +21,7 @@ from viewer.session.session import Session
 
 LEAST = (320.0, 220.0)  # points: the smallest room of a piece
 REACH = 3.0  # points from the mouse to a mark that is clicked
-ASPECT = 0.8  # its height, at most, in widths
+ASPECT = 1.0  # its height, at most, in widths
 
 
 def draw_piece(session: Session, canvas: Canvas, fence: Fence, corner: Point, width: float, height: float) -> float:
