@@ -47,11 +47,10 @@ def path(nodes: np.ndarray, lights: list[str], i: int) -> str:
     return "".join(reversed(letters)) or LETTERS["camera"]
 
 
-def kind_of(path: str) -> str:
-    """The kind of the ray that has this path, as `KINDS` names it."""
-    way, _, light = path.partition(".")
-    letter = light[:1] or re.sub(r"\[\d+\]", "", way)[-1]
-    return next(kind for kind, known in LETTERS.items() if known == letter)
+def kind_of(path: str) -> str | None:
+    """The kind of the ray with this path, whether or not a tree has it; None if no path ends like this."""
+    last = LETTERS["shadow"] if "." in path else re.sub(r"\[\d+\]$", "", path)[-1:]
+    return next((kind for kind, letter in LETTERS.items() if letter == last), None)
 
 
 def numbers(nodes: np.ndarray) -> np.ndarray:

@@ -67,6 +67,7 @@ STYLES = {
     "tir": RayStyle("total internal reflection", SYMBOLS["tir"], "#56B4E9", "#0072B2", 2.4, (14, 3), Arrow.DOUBLE),
     "shadow": RayStyle("shadow ray", SYMBOLS["shadow"], "#B0B0B0", "#5A5A5A", 1.8, (9, 6), Arrow.NONE),
 }
+TO_LIGHT = Arrow.FILLED  # on the shadow rays that a view of the scene is about; others have none, as they can be many
 BLOCKED_DASH = (4.0, 5.0)
 FILTERED_DASH = (12.0, 4.0)
 NOTHING_DASH = (1.6, 5.0)

@@ -39,6 +39,7 @@ class Lecture(StrEnum):
     NORMAL = r"\mathbf{n}"
     REFLECTED = r"\mathbf{r}"
     REFRACTED = r"\mathbf{t}"
+    SCALED = r"n\,\mathbf{v}"
     STRAIGHT = r"\mathbf{t} = \mathbf{v}"
     COSINE = r"\mathbf{n}\cdot\mathbf{v}"
     THETA_1 = r"\theta_1"

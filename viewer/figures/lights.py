@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tracer.kernel.nodes import SHADOW
+from tracer.kernel.nodes import SHADOW, SURFACE
 from tracer.tree.raytree import RayTree
 from viewer.base.theme import BLOCKED_DASH, FILTERED_DASH, NOTHING_DASH, STYLES
 
@@ -62,6 +62,18 @@ def many_lights(tree: RayTree) -> frozenset[int]:
     parents = tree.nodes["parent"][shadows]
     many = np.bincount(parents, minlength=len(tree)) > MOST_LIGHTS
     return frozenset(shadows[many[parents]].tolist())
+
+
+def pointed_lights(tree: RayTree, selected: int | None) -> frozenset[int]:
+    """The shadow rays that a view of the scene is about, drawn with arrows: the selected one and those of the selected
+    hit; and those of a tree's only hit, if it sends no other rays at any depth.
+    """
+    hits = tree.nodes["kind"] != SHADOW
+    is_lone = np.count_nonzero(hits) == 1 and tree.nodes["end"][0] == SURFACE
+    lone = shadow_rays(tree, 0) if is_lone and len(tree) - 1 <= MOST_LIGHTS else []
+    if selected is None:
+        return frozenset(lone)
+    return frozenset((*lone, *shadow_rays(tree, selected), *(() if hits[selected] else (selected,))))
 
 
 def counted(tree: RayTree, rows: Iterable[int]) -> list[tuple[Fate, int]]:

@@ -31,16 +31,10 @@ def clip_shares(piece: Piece, box: Rectangle) -> tuple[float, float] | None:
     Liang & Barsky, ACM Trans. Graph. 3(1), 1984.
     """
     (x0, y0), (x1, y1) = piece
-    left, top, right, bottom = box
-    if (
-        (x0 < left and x1 < left)
-        or (x0 > right and x1 > right)
-        or (y0 < top and y1 < top)
-        or (y0 > bottom and y1 > bottom)
-    ):
+    if max(x0, x1) < box[0] or min(x0, x1) > box[2] or max(y0, y1) < box[1] or min(y0, y1) > box[3]:
         return None  # most of them
     enters, leaves = 0.0, 1.0
-    for a, b, low, high in ((x0, x1, left, right), (y0, y1, top, bottom)):
+    for a, b, low, high in ((x0, x1, box[0], box[2]), (y0, y1, box[1], box[3])):
         if a == b:
             if not low <= a <= high:
                 return None

@@ -31,6 +31,7 @@ class Step:
     summed: frozenset[int]  # rows whose radiance is shown
     current: frozenset[int] = frozenset()  # the rows that the page adds, or the hit whose radiance it sums up
     name: str = ""  # in file names: d2, r05, c03
+    kinds: Set[str] = frozenset(KINDS)  # of rays that are shown
 
     @property
     def sum(self) -> int | None:
@@ -179,6 +180,14 @@ def _shown(tree: RayTree, lights: bool) -> np.ndarray:
 _CHANGES: dict[str, Callable[[RayTree, bool], list[Change]]] = {BREADTH: _breadth, RECURSION: _recursion}
 
 
+def adding(steps: Steps, kinds: Set[str]) -> list[int]:
+    """The pages by ray that add rays of these kinds: those that add only others, or rays below these, look like the
+    page before.
+    """
+    kept = of_kinds(whole(steps.tree), kinds).rows
+    return [k for k in range(steps.count_reveals) if kept.intersection(steps.changes[k].rows)]
+
+
 def of_kinds(step: Step, kinds: Set[str]) -> Step:
     """The step without the rays of other kinds and the rays below these. The camera ray stays."""
     if kinds >= set(KINDS):
@@ -188,4 +197,4 @@ def of_kinds(step: Step, kinds: Set[str]) -> Step:
     for i in sorted(step.rows):  # parents come before their children
         if i == 0 or (parents[i] in kept and tree.kind(i) in kinds):
             kept.add(i)
-    return replace(step, rows=frozenset(kept))
+    return replace(step, rows=frozenset(kept), kinds=frozenset(kinds))

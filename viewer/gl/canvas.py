@@ -78,6 +78,9 @@ class Canvas:
         # The marks of the live pieces of a lesson, by their lines; left and top on the screen, and pixels per point.
         self.live: defaultdict[int, Cached[list[Mark]]] = defaultdict(Cached[list[Mark]])
         self.live_places: dict[int, tuple[float, float, float]] = {}
+        self.below: defaultdict[int, Cached[float]] = defaultdict(
+            Cached[float]
+        )  # heights of what is below these pieces
         self.sweep_place = ((0.0, 0.0), 1.0)  # the left end of the way of a sweep's knob on the screen, and its length
         self._whole: Cached[Step] = Cached()
         self._map: Cached[moderngl.Texture | None] = Cached(_release)
@@ -217,7 +220,8 @@ class Canvas:
         rows = NO_ROWS
         selected = session.selected_on_show
         if session.tree and selected is not None:
-            hit = hit_of(session.tree, selected, session.frame)
+            step = of_kinds(self.step(session.tree), session.shown.kinds)
+            hit = hit_of(session.tree, selected, session.frame, step)
             pixel = orbit.pixel_at(hit.foot, height) if hit else 0.0
             length = hit.length(pixel) if hit else 0.0
             if hit and length > 0.0:

@@ -18,8 +18,10 @@ from viewer.base.theme import DIMMED, LABEL_TEXT as TEXT, QUIET, Color, faded
 from viewer.figures import signs
 from viewer.figures.font import text_box
 from viewer.figures.labels import ray_label
+from viewer.figures.lights import pointed_lights
 from viewer.figures.marks import Disc, Line, Mark, Point, Rectangle, Shape, Stroke, Text, widened, within
 from viewer.gl.canvas import Canvas
+from viewer.gl.ray_pieces import clear_first, ray_pieces
 from viewer.session.session import Session
 
 SUN, EYE, CROSS = 22.0, 17.0, 15.0  # sizes of signs
@@ -114,14 +116,14 @@ class SceneMarks:
 
     def _crosses(self) -> None:
         """Crosses at the ends of blocked shadow rays. They are as faint as their rays."""
-        lines, selected, tree = self.canvas.lines, self.session.selected, self.session.tree
+        lines, tree = self.canvas.lines, self.session.tree
         assert tree
+        pointed = pointed_lights(tree, self.session.selected)
         blocked = np.flatnonzero(lines.blocked)[:CROSSES]
         places, inside = self.at(lines.ends[blocked])
         for k, place in zip(blocked[inside].tolist(), places[inside].tolist(), strict=True):
             row = int(lines.rows[k])
-            meant = selected is not None and selected in (row, int(tree.nodes["parent"][row]))
-            color = faded(self.theme.ray("shadow"), 1.0 if meant else QUIET)
+            color = faded(self.theme.ray("shadow"), 1.0 if row in pointed else QUIET)
             behind = signs.cross(f"ray-{row}", (place[0], place[1]), CROSS, faded(self.theme.ground, color[3]))
             self.signs += [_thick(mark, 2.0) for mark in behind]
             self.signs += signs.cross(f"ray-{row}", (place[0], place[1]), CROSS, color)
@@ -213,9 +215,10 @@ class SceneMarks:
         self.signs.append(Disc("hit", (x, y), DOT + 2.0, theme.ground, None))
         self.signs.append(Disc("hit", (x, y), DOT, theme.accent, None))
         self._take((x, y), 2.0 * DOT)
+        pieces = ray_pieces(self.canvas.lines, self.at) if self.canvas.names else []
         for name in self.canvas.names if session.shown.labels else ():
             places, inside = self.at(name.points)
-            spots = [((p[0], p[1]), "middle") for p in places[inside].tolist()]
+            spots = clear_first([((p[0], p[1]), "middle") for p in places[inside].tolist()], name.content, pieces)
             self._text("interface", name.content, spots, theme.normal if name.of_normal else theme.text)
 
     # --- labels of rays -----------------------------------------------------------------------------------------------

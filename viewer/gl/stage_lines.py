@@ -23,9 +23,11 @@ from viewer.base.theme import (
     QUIET,
     QUIET_WIDTH,
     STYLES,
+    TO_LIGHT,
     Theme,
     faded,
 )
+from viewer.figures.lights import pointed_lights
 from viewer.figures.ray_lines import RayLines
 from viewer.gl.creases import creases
 from viewer.gl.lines import line_rows
@@ -46,14 +48,15 @@ def style_rays(
     tree: RayTree, lines: RayLines, kept: Set[int] | None, selected: int | None, theme: Theme
 ) -> tuple[np.ndarray, np.ndarray]:
     """(rays, quiet rays) in the styles of their kinds. If rows are to be `kept` bright, the others are dimmed. Shadow
-    rays are quiet: thin and faint, except for the selected one, and those of the selected hit.
+    rays are quiet, thin and faint, except for `pointed_lights`, which have arrows.
     """
     tints = np.array([theme.ray(kind) for kind in KINDS])[lines.kinds]
     widths = np.array([STYLES[kind].width for kind in KINDS])[lines.kinds]
     arrows = np.array([STYLES[kind].arrow.value for kind in KINDS])[lines.kinds]
     is_selected = lines.rows == selected
-    meant = is_selected | (tree.nodes["parent"][lines.rows] == selected) if selected is not None else is_selected
-    quiet = (lines.kinds == SHADOW) & ~meant
+    is_shadow, pointed = lines.kinds == SHADOW, np.isin(lines.rows, list(pointed_lights(tree, selected)))
+    arrows[is_shadow & pointed] = TO_LIGHT.value
+    quiet = is_shadow & ~pointed
     tints[quiet, 3] *= QUIET
     widths[quiet] *= QUIET_WIDTH
     if kept is not None:

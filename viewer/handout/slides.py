@@ -67,9 +67,9 @@ class Slide:
 
     def color(self, word: Word, theme: Theme) -> Color:
         """The colour of a word: a link to a ray has that of its kind, also when a sweep has left the ray behind."""
-        path = word.style.ray
-        if path:
-            return theme.ray(kind_of(path))
+        kind = kind_of(word.style.ray) if word.style.ray else None
+        if kind:
+            return theme.ray(kind)
         return theme.accent if word.style.link else theme.text
 
 

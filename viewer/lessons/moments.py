@@ -7,7 +7,7 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 from viewer.figures.catalogue import BREADTH
-from viewer.figures.steps import Steps, of_kinds, whole
+from viewer.figures.steps import Steps, adding, of_kinds, whole
 from viewer.lessons.step import COLOUR, DEPTH, Step
 from viewer.reopen.view_state import GRANULARITIES, ViewState
 
@@ -53,12 +53,12 @@ def stages_of(steps: Steps, reveal: str, show: Collection[str]) -> list[int]:
     begins with all rays. Stages that only add or sum up rays of hidden kinds are left out: they would look like the one
     before. `show` are the kinds of rays that are shown.
     """
-    kept = of_kinds(whole(steps.tree), {*show, "camera"}).rows
-    is_colour = reveal == COLOUR
-    found = [
-        k for k, change in enumerate(steps.changes) if change.sums == is_colour and not kept.isdisjoint(change.rows)
-    ]
-    return [steps.count_reveals - 1, *found] if is_colour else found
+    kinds = {*show, "camera"}
+    if reveal != COLOUR:
+        return adding(steps, kinds)
+    kept = of_kinds(whole(steps.tree), kinds).rows
+    sums = [k for k, change in enumerate(steps.changes) if change.sums and not kept.isdisjoint(change.rows)]
+    return [steps.count_reveals - 1, *sums]
 
 
 def view_of(step: Step, share: float = 0.0) -> ViewState:

@@ -14,6 +14,7 @@ from tracer import fields
 PIXEL = "pixel"  # what a sweep may change, beside the numbers of a scene
 STOPS = 24  # the scene is prepared at this many equal distances; a place in the image moves continuously
 SAID = "a table { of = 'pixel', from = [x, y], to = [x, y] } or { of = 'material.water.ior', from = 1, to = 1.5 }"
+NAMED = ("object", "material", "light")  # their parts have names
 KEYS = ("of", "from", "to", "expect")
 
 
@@ -67,7 +68,8 @@ class Sweep:
             place = ", ".join(f"{value:.1f}".removesuffix(".0") for value in values)
             return f"pixel {place}" + (", between pixels" if self.between(share) else "")
         written = ", ".join(f"{value:.4g}" for value in values)
-        name = self.of.replace('"', "")
+        section, *names, key = self.of.replace('"', "").split(".")
+        name = f"{key} of {'.'.join(names)}" if names and section in NAMED else f"{section}.{'.'.join([*names, key])}"
         return f"{name} = [{written}]" if len(values) > 1 else f"{name} = {written}"
 
 

@@ -6,7 +6,7 @@ import tracer
 from tests.conftest import EACH_LESSON
 from tests.scenes import ball, box, world_of
 from tracer.scene import Light, Material
-from tracer.tree.names import light_names
+from tracer.tree.names import kind_of, light_names
 
 GLASS = Material("glass", diffuse=0.5, reflect=0.3, transmit=0.6, ior=1.5)
 AWKWARD = ("key", "", "fill.L(key)", "twice", "twice", "a(b", "c]", "#9", "E", "fill light")
@@ -29,6 +29,7 @@ def test_a_path_finds_its_ray(names: tuple[str, ...]) -> None:
     assert len({tree.label(i) for i in range(len(tree))}) == len(tree)
     for i, path in enumerate(paths):
         assert tree.find(path) == i
+        assert kind_of(path) == tree.kind(i)
     for wrong in ("", ".", "E.", "e", "EE", "TX", "T.L(none)", "T.", "L(key)", "T" * 40, "R1"):
         assert tree.find(wrong) is None
 

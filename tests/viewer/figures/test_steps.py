@@ -7,10 +7,10 @@ import pytest
 import tracer
 from tests.conftest import LESSONS
 from tests.viewer.figures.random_tree import random_tree
-from tracer.kernel.nodes import SHADOW
+from tracer.kernel.nodes import KINDS, SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.figures.catalogue import BREADTH, RECURSION
-from viewer.figures.steps import Steps, by_color, by_level, by_ray, whole
+from viewer.figures.steps import Steps, adding, by_color, by_level, by_ray, of_kinds, whole
 from viewer.lessons import lesson
 
 TREES = ["one ray", *LESSONS, *range(6)]
@@ -112,3 +112,13 @@ def test_a_row_is_found_on_its_step(tree: RayTree) -> None:
         for k, step in enumerate(steps):
             for row in step.current:
                 assert steps.find(row, sums=step.sum is not None) == k
+
+
+@pytest.mark.parametrize("shown", [{"refraction"}, {"reflection", "shadow"}, {"tir", "refraction"}, set(), set(KINDS)])
+def test_each_page_by_ray_adds_a_ray_that_is_shown(tree: RayTree, shown: set[str]) -> None:
+    """With some kinds of rays only, no page is like the one before, and none is missing."""
+    steps = by_ray(tree)
+    pages = adding(steps, shown)
+    rows = [of_kinds(steps[k], shown).rows for k in pages]
+    assert pages[0] == 0 and all(before < after for before, after in pairwise(rows))
+    assert rows[-1] == of_kinds(whole(tree), shown).rows

@@ -10,8 +10,8 @@ from tests.conftest import EACH_LESSON
 from tracer.kernel.nodes import BLOCKED, KINDS, SHADOW
 from tracer.tree.raytree import RayTree
 from viewer.base.orbit import Frame
-from viewer.base.theme import DARK, DIMMED, ESCAPE, LIGHT, QUIET, QUIET_WIDTH, STYLES
-from viewer.figures.lights import ray_dash
+from viewer.base.theme import DARK, DIMMED, ESCAPE, LIGHT, QUIET, QUIET_WIDTH, STYLES, Arrow
+from viewer.figures.lights import MOST_LIGHTS, pointed_lights, ray_dash
 from viewer.figures.ray_lines import drawn_rows, nearest_row, ray_lines, relatives
 from viewer.gl.stage_lines import normal_lines, style_rays
 from viewer.lessons import lesson
@@ -59,11 +59,15 @@ def test_lines_are_those_of_the_rows(name: str, worlds: dict[str, tracer.World])
 
 @pytest.mark.parametrize("name", EACH_LESSON)
 def test_styles_are_those_of_the_kinds(name: str, worlds: dict[str, tracer.World]) -> None:
-    """Colour, width, dash and arrow of each ray; shadow rays are quiet unless they or their hit are selected."""
+    """Colour, width, dash and arrow of each ray. Shadow rays are quiet unless they or their hit are selected, or their
+    hit is the only one; then they have arrows.
+    """
     frame = Frame.of(worlds[name])
     for tree, theme in zip(trees(name, worlds), (DARK, LIGHT, DARK), strict=True):
         rows = drawn_rows(tree)
         lines = ray_lines(tree, rows, frame, frozenset(KINDS))
+        shadows = int((tree.nodes["kind"] == SHADOW).sum())
+        is_lone = len(tree) - shadows == 1 and shadows <= MOST_LIGHTS and tree.end(0) == "surface"
         for selected in (None, *range(0, len(tree), max(1, len(tree) // 8))):
             kept = None if selected is None else relatives(tree, selected, rows)
             loud, quiet = style_rays(tree, lines, kept, selected, theme)
@@ -78,16 +82,27 @@ def test_styles_are_those_of_the_kinds(name: str, worlds: dict[str, tracer.World
                 if len(same) > 1:
                     continue  # rays on one line
                 style, meant = STYLES[line.kind], selected in (line.row, int(tree.nodes["parent"][line.row]))
-                assert is_quiet == (line.kind == "shadow" and not (selected is not None and meant))
+                pointed = line.kind == "shadow" and (is_lone or (selected is not None and meant))
+                assert is_quiet == (line.kind == "shadow" and not pointed)
                 shine = (QUIET if is_quiet else 1.0) * (1.0 if kept is None or line.row in kept else DIMMED)
                 assert row["tint"] == pytest.approx((*theme.ray(line.kind)[:3], shine), abs=1e-6)
                 wide = style.width * (QUIET_WIDTH if is_quiet else 1.0) + (2.0 if line.row == selected else 0.0)
                 assert row["width"] == pytest.approx(wide)
                 assert tuple(row["dash"]) == pytest.approx(line.dash)
-                assert (row["arrow"], row["fading"]) == (style.arrow.value, line.escapes)
+                arrow = Arrow.FILLED if pointed else style.arrow
+                assert (row["arrow"], row["fading"]) == (arrow.value, line.escapes)
             if selected is not None and tree.nodes["kind"][selected] != SHADOW:
                 start = frame.inside(tree.nodes["origin"][selected])
                 assert loud[-1]["from"] == pytest.approx(start, rel=1e-6, abs=1e-6)
+
+
+def test_a_lone_hit_points_at_its_lights_only_if_no_depth_adds_rays(worlds: dict[str, tracer.World]) -> None:
+    """So that its shadow rays do not change while a depth is revealed."""
+    mirror = tracer.trace(worlds["mirror-balls"], (370, 272), depth=0)
+    table = tracer.prepare(tracer.load(lesson.read("shadow-rays").scene))
+    matte = tracer.trace(table, (400, 300), depth=0)
+    assert pointed_lights(mirror, None) == frozenset() and pointed_lights(matte, None) == {1, 2}
+    assert pointed_lights(mirror, 0) == {1, 2} and pointed_lights(mirror, 2) == {2}
 
 
 def test_normals_stand_on_every_hit(worlds: dict[str, tracer.World]) -> None:

@@ -12,8 +12,10 @@ from tests.viewer.driver import Driver, viewer, viewer_of
 from viewer.base.orbit import Frame, Orbit, project
 from viewer.base.theme import DARK
 from viewer.figures.marks import Disc, Shape, Text, overlap
+from viewer.figures.steps import by_ray, of_kinds, whole
 from viewer.figures.visible.interface import CONE, RADIUS, RADIUS_2, Hit, cone_rim, hit_of, interface_names
 from viewer.gl.interface import interface_lines
+from viewer.gl.ray_pieces import clear_first
 from viewer.gl.scene_marks import NAMED, SUN, SceneMarks, longest_runs
 from viewer.lessons import lesson
 
@@ -178,6 +180,28 @@ def test_arcs_lie_between_the_normal_and_the_rays(name: str, worlds: dict[str, t
             assert (angle[first] <= math.degrees(hit.theta1) + 0.01).all()
             if hit.theta2 is not None:
                 assert (180.0 - angle[second] <= math.degrees(hit.theta2) + 0.01).all()
+
+
+def test_an_angle_is_drawn_with_its_ray(worlds: dict[str, tracer.World]) -> None:
+    """theta2 with the refracted ray, the critical angle where totally reflected rays are shown."""
+    tree = tracer.trace(worlds["glass-ball"], (248, 180), depth=3)
+    row, frame = tree.find("T") or 0, Frame.of(worlds["glass-ball"])
+    steps = by_ray(tree)
+    refracted = tree.find("TT")
+    for step in steps:
+        hit = hit_of(tree, row, frame, step)
+        assert hit and hit.critical
+        assert (hit.theta2 is not None) == (refracted in step.rows)
+    some = of_kinds(whole(tree), {"camera", "refraction"})
+    hit = hit_of(tree, row, frame, some)
+    assert hit and hit.theta2 is not None and hit.critical is None
+
+
+def test_names_at_a_hit_stand_first_where_they_cover_no_ray() -> None:
+    pieces = [((0.0, 0.0), (100.0, 100.0))]
+    on, beside, across = ((50.0, 50.0), "middle"), ((150.0, 50.0), "middle"), ((90.0, 100.0), "middle")
+    assert clear_first([on, across, beside], "n", pieces) == [beside, on, across]
+    assert clear_first([on, across], "n", []) == [on, across]
 
 
 def test_critical_cone_has_the_critical_angle_and_opens_to_the_incoming_ray(worlds: dict[str, tracer.World]) -> None:

@@ -182,7 +182,7 @@ def test_a_step_has_the_text_of_a_function_and_what_is_to_be_reached(desktop: Br
     assert desktop.run(f"[...{step}.querySelectorAll('li')].map(item => item.textContent.trim())") == ["θ₁ = 12°"]
     rasters = desktop.run(f"{step}.querySelectorAll('.live image, .live use').length")
     place = desktop.run(f"{step}.querySelector('.live').id")
-    assert rasters >= 3 and move_to(desktop, place, 2).startswith("2; largest ")
+    assert rasters >= 3 and move_to(desktop, place, 2).startswith("2; mean ")
 
 
 def test_what_is_hidden_is_shown_when_it_is_asked_for_and_on_paper(desktop: Browser) -> None:

@@ -108,6 +108,12 @@ def test_the_skeleton_passes_and_is_never_written_over(
         ("sweep = { of = 'material.mirror.iro', from = 1, to = 2 }", "\n## Two\n", 'unknown key "iro" (did you'),
         ("set = { material.miror.ior = 1 }", f"\n## Two\n```step\n{SWEEP}\n```\n", '(did you mean "mirror"?)'),
         ("sweep = { of = 'material.mirror.ior', from = -1, to = -1 }", "\n## Two\n", "ior must be > 0, got -1"),
+        ("", "a\n???\n", "line 6: ??? hides nothing"),
+        ('reveal = "rays"\nshow = ["refraction"]', "", "line 9: reveal: no ray of the kinds in `show` follows"),
+        ('reveal = "depth"\npanels = ["tree"]\ndepth = 2', "", "line 9: reveal: depth 2 adds no ray to the tree"),
+        ("sweep = { of = 'pixel', from = [160, 150], to = [160, 150] }", "", "line 9: sweep: it ends where it begins"),
+        ("sweep = { of = 'pixel', from = [160, 150], to = [160, 230] }", "[b](#R)\n???\n[a](#R)",
+         "line 13: link #R: at the end of the sweep this pixel has no such ray (it has E)"),
     ],
 )  # fmt: skip
 def test_a_planted_fault_is_found_with_its_line(tmp_path: Path, step: str, text: str, said: str) -> None:

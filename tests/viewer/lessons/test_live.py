@@ -20,12 +20,13 @@ from viewer.base.theme import DARK, LIGHT, MONO
 from viewer.explain.lighting import phong_terms
 from viewer.figures.marks import Disc, Handle, Mark, Shape, Text
 from viewer.lessons.live.catalogue import LIVE, LIVE_NAMES, live_kind
-from viewer.lessons.live.interface import Interface
+from viewer.lessons.live.interface import Interface, interface_of
 from viewer.lessons.live.piece import LiveContext
 from viewer.lessons.live.pieces.fresnel import brewster, reflectance
 from viewer.lessons.live.pieces.lifeguard import Lifeguard
 from viewer.lessons.live.pieces.samples import sample_points
 from viewer.lessons.live.pieces.sum import parts
+from viewer.lessons.live.pieces.transmission import Construction
 
 SIZES = ((300, 200, 11.0), (300, 220, 18.0), (480, 300, 14.0), (400, 480, 13.0), (960, 540, 18.0))
 GLASS = Material("glass", diffuse=0.2, specular=0.4, shininess=20.0, ambient=0.1, transmit=0.8, reflect=0.1, ior=1.52)
@@ -63,7 +64,12 @@ def test_pieces_lie_inside_their_room_and_no_texts_overlap() -> None:
     rows = [row_of(tree, path) for path in ("E", "T", "TT")]  # on glass, from inside it, on the polygon
     drawn = dict.fromkeys(LIVE_NAMES, 0)
     given = {"snell": ("1.33", "1"), "fresnel": ("glass", "air"), "lifeguard": ("1", "6"), "media": ("water", "1.7")}
-    given |= {"sphere": ("ball",), "inside": ("comb",)}  # the ray from the eye does not reach the polygon
+    given |= {
+        "transmission": ("2", "1.33", "1"),
+        "sphere": ("ball",),
+        "inside": ("comb",),
+        "reflect": ("fill",),
+    }  # the ray from the eye does not reach the polygon
     for kind, (k, size), row in itertools.product(LIVE, enumerate(SIZES), rows):
         if row and (k % 2 or kind.name in ("lifeguard", "samples", "media")):
             continue  # the same picture, or enough of them
@@ -73,7 +79,7 @@ def test_pieces_lie_inside_their_room_and_no_texts_overlap() -> None:
                 place = context(seen, tree, row, size, theme)
                 marks = kind.marks(place, {}, with_words)
             except ValueError as error:
-                assert kind.name in ("snell", "fresnel", "sphere", "inside"), error
+                assert kind.name in ("snell", "fresnel", "transmission", "sphere", "inside"), error
                 continue
             handles = [mark for mark in marks if isinstance(mark, Handle)]
             moved = [{h.name: value} for h in handles for value in (h.range[k % 2], 0.5 * sum(h.range))]
@@ -121,6 +127,39 @@ def test_the_lifeguards_least_time_is_that_of_the_3_4_5_triangles() -> None:
         other = Lifeguard(*speeds)
         sine1, sine2 = other.sines(other.least)
         assert sine1 / speeds[0] == pytest.approx(sine2 / speeds[1], rel=1e3 * U)
+
+
+def test_a_question_about_the_lifeguard_leaves_its_answer_out() -> None:
+    """Neither the curve nor the place of least time: only the time of the path on show."""
+    piece = live_kind("lifeguard")
+    asked = piece.marks(context(world(), None), {}, ("4", "3", "2", "ask"))
+    told = piece.marks(context(world(), None), {}, ("4", "3", "2"))
+    curves, others = ({mark.name for mark in marks if isinstance(mark, Shape)} for marks in (told, asked))
+    assert curves - others == {"time"} and "least" not in {mark.name for mark in asked}
+    assert "least" not in words(asked) and f"time {Lifeguard(4.0, 3.0).time(2.0):.4f} s" in words(asked)
+
+
+def test_the_transmission_direction_is_the_tracers() -> None:
+    """With 3-4-5 triangles the numbers are exact; the limit of total internal reflection belongs to it."""
+    angle = math.degrees(math.asin(0.8))
+    found = Construction.of(Interface(1.0, 4.0 / 3.0, angle, None))
+    assert (found.c1, found.across, found.c2) == pytest.approx((0.6, 0.6, 0.8), rel=8 * U)
+    seen = world()
+    tree = tracer.trace(seen, ray=RAY, depth=3)
+    for row, child in ((row_of(tree, path), row_of(tree, below)) for path, below in (("E", "T"), ("T", "TT"))):
+        node, sent = tree.nodes[row], tree.nodes[child]["direction"]
+        made = Construction.of(interface_of(context(seen, tree, row), {}, "transmission"))
+        assert made.c2 is not None and made.radicand == pytest.approx(node["radicand"], rel=1e-12)
+        normal, v = node["normal"], node["direction"]
+        assert made.n * v + (made.n * made.c1 - made.c2) * normal == pytest.approx(sent, abs=1e-12)
+    assert Construction(1.25, 0.6, 0.8).c2 is None  # n sin theta1 is 1
+    piece = live_kind("transmission")
+    names = [{mark.name for mark in piece.marks(context(seen, tree), {}, (stage,))} for stage in "1234"]
+    assert [{"vector-nv", "vector-t", "rest"} & found for found in names] == [
+        set(), {"vector-nv"}, {"vector-nv", "vector-t"}, {"vector-nv", "vector-t", "rest"},
+    ]  # fmt: skip
+    total = piece.marks(context(seen, None), {"theta1": angle}, ("4", "1.3333333333333333", "1"))
+    assert "no root" in words(total) and not {"vector-t", "rest"} & {mark.name for mark in total}
 
 
 def test_the_parts_of_a_sum_add_up_to_the_radiance_to_the_last_bit() -> None:
@@ -183,7 +222,20 @@ def _ends(seen: World, pixel: tuple[int, int]) -> list[str | None]:
         ("sphere", ("moon",), 'sphere: object must be an object of the scene, ball, comb, got "moon"'),
         ("sphere", ("comb",), "sphere: comb is a polygon; it needs a hit on a sphere"),
         ("inside", ("ball",), "inside: ball is a sphere; it needs a hit on a polygon"),
+        ("reflect", ("moon",), 'reflect: light must be a light of the scene, key, fill, got "moon"'),
         ("hit", ("x",), 'hit: no words may follow, got "x"'),
+        (
+            "lifeguard",
+            ("4", "3", "2", "x"),
+            'lifeguard: ask must be the word "ask", which leaves the answer out, got "x"',
+        ),
+        ("transmission", ("5",), 'transmission: stage must be a whole number from 1 to 4, got "5"'),
+        (
+            "transmission",
+            (),
+            "transmission: comb is opaque; it needs a hit on a transparent surface, or two indices, like"
+            " `transmission 4 1.33 1`",
+        ),
         ("lifeguard", ("0",), 'lifeguard: v1 must be a speed above 0, got "0"'),
     ],
 )

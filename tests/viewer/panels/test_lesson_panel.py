@@ -8,7 +8,8 @@ import pytest
 
 import tracer
 from tests.viewer.driver import Driver, viewer
-from viewer.figures.marks import Box, Disc
+from viewer.base.theme import Color
+from viewer.figures.marks import Box, Disc, Text
 from viewer.lessons.expectation import conditions
 from viewer.lessons.lesson import read_file
 from viewer.lessons.live.pieces.samples import sample_points
@@ -33,9 +34,14 @@ Find the floor.
 
 def accents(driver: Driver) -> int:
     """The pixels of the colour of ticks in the panel of the lesson."""
+    return count(driver, driver.session.appearance.theme.accent)
+
+
+def count(driver: Driver, ink: Color) -> int:
+    """The pixels of a colour in the panel of the lesson."""
     driver.session.notice.text = ""
     driver.frames()
-    color = 255.0 * np.array(driver.session.appearance.theme.accent[:3])
+    color = 255.0 * np.array(ink[:3])
     left, top, width, height = map(round, driver.app.tiles.places[Corner.TOP_RIGHT])
     picture = driver.picture()[top : top + height, left : left + width]
     return int((np.abs(picture - color).max(axis=2) < 3.0).sum())
@@ -127,3 +133,38 @@ def test_a_click_on_a_sample_shows_its_tree(tmp_path: Path) -> None:
         show(driver, tmp_path / "other", "samples 9")
         clicked(driver, "sample-5")
         assert session.tree and session.tree.sample is None and "has one sample" in session.notice.text
+
+
+def test_a_piece_has_the_room_that_the_text_below_leaves(tmp_path: Path) -> None:
+    """It keeps its size when hidden text appears, and the text needs no scrolling."""
+    with viewer() as driver:
+        driver.session.appearance.toggle_lecture_size()
+        show(driver, tmp_path, "snell 1.33 1\n```\n???\nFirst.\n\n$$x = 1$$\n???\n```code\none" + 2 * "\ntwo")
+        seen = []
+        for _ in range(3):
+            driver.frames()
+            seen.append(caption(driver))
+            assert driver.session.player.lines_too_many == 0
+            driver.session.player.go(1)
+            driver.app.settle()
+        assert seen[0] == seen[1] == seen[2]
+        show(driver, tmp_path, "snell 1.33 1")
+        assert caption(driver) > seen[0] + 20.0
+
+
+def caption(driver: Driver) -> float:
+    """The height of the caption below the live piece on show, in points from the top of the piece."""
+    (line,) = driver.canvas.live_places
+    return next(
+        mark.at[1] for mark in driver.canvas.live[line].last if isinstance(mark, Text) and mark.name == "caption"
+    )
+
+
+def test_a_link_has_the_colour_of_its_kind_without_its_ray(tmp_path: Path) -> None:
+    with viewer() as driver:
+        (tmp_path / "scene.toml").write_text(SCENE, "utf-8")
+        (tmp_path / "lesson.md").write_text(TEXT.replace("Find the floor.", "[Find the floor](#T)"), "utf-8")
+        driver.session.player.show(read_file(tmp_path / "lesson.md"), Moment())
+        driver.app.settle()
+        assert driver.session.tree and driver.session.tree.find("T") is None
+        assert count(driver, driver.session.appearance.theme.ray("refraction")) > 50

@@ -6,32 +6,21 @@ camera. Rays and labels are those of the tree figure.
 
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import replace
 
 from tracer.formulas.vector import Vector
 from tracer.kernel.nodes import KINDS, SHADOW
 from tracer.tree.raytree import RayTree
 from tracer.tree.text import heaviest_rows
-from viewer.base.theme import DIMMED, HALO, STYLES, Arrow, Color, Theme, faded
+from viewer.base.theme import DIMMED, HALO, STYLES, TO_LIGHT, Arrow, Color, Theme, faded
 from viewer.figures import signs
 from viewer.figures.figure.scene_hit import SceneHit
 from viewer.figures.font import text_width
 from viewer.figures.labels import ray_label, ray_title
 from viewer.figures.layout.label_placement import LabelPlacer, Spot
-from viewer.figures.lights import many_lights
-from viewer.figures.marks import (
-    Line,
-    Mark,
-    Piece,
-    Point,
-    Rectangle,
-    Shape,
-    Stroke,
-    inside,
-    point_along,
-    widened,
-)
+from viewer.figures.lights import many_lights, pointed_lights
+from viewer.figures.marks import Line, Mark, Piece, Point, Rectangle, Shape, Stroke, inside, point_along, widened
 from viewer.figures.ray_lines import MOST_IN_FIGURE, RayLine, ray_lines, relatives
 from viewer.figures.steps import Step
 from viewer.figures.subject import FigureStyle, Pages, Subject, line_share
@@ -68,7 +57,9 @@ def view_pages(view: SceneView, steps: Sequence[Step], size: float, theme: Theme
 
     Around the hit of the selected ray are its normal and angles. What is neither above nor below that ray is dimmed.
     """
-    drawings = [_Drawing(view, step, size, theme, selected) for step in steps]
+    fullest = steps[-1]
+    pointed = pointed_lights(fullest.tree, selected if selected in fullest.rows else None)
+    drawings = [_Drawing(view, step, size, theme, selected, pointed) for step in steps]
     names = drawings[-1].named()
     return [
         drawing.marks + [mark for rows, marks in names if not rows or rows & drawing.step.rows for mark in marks]
@@ -77,8 +68,10 @@ def view_pages(view: SceneView, steps: Sequence[Step], size: float, theme: Theme
 
 
 class _Drawing:
-    def __init__(self, view: SceneView, step: Step, size: float, theme: Theme, selected: int | None) -> None:
-        self.view, self.step, self.size, self.theme = view, step, size, theme
+    def __init__(
+        self, view: SceneView, step: Step, size: float, theme: Theme, selected: int | None, pointed: Set[int]
+    ) -> None:
+        self.view, self.step, self.size, self.theme, self.pointed = view, step, size, theme, pointed
         self.tree: RayTree = step.tree
         self.scene = view.world.scene
         self.marks: list[Mark] = []
@@ -101,7 +94,7 @@ class _Drawing:
             self._ray(line)
         self.lights = self._lights()
         self._eye()
-        self.hit = None if self.selected is None else SceneHit.of(view, self.tree, self.selected, size, theme)
+        self.hit = None if self.selected is None else SceneHit.of(view, self.step, self.selected, size, theme)
         self.marks += self.hit.marks(view, theme, self.share) if self.hit else []
 
     # --- things -------------------------------------------------------------------------------------------------------
@@ -142,13 +135,14 @@ class _Drawing:
     def _ray(self, line: RayLine) -> None:
         style, color = STYLES[line.kind], self._ink(line)
         name, title = f"ray-{line.row}", ray_title(self.tree, line.row)
-        slim = SLIM if line.kind == "shadow" else 1.0
+        sign = TO_LIGHT if line.row in self.pointed else style.arrow
+        slim = SLIM if line.kind == "shadow" and sign is Arrow.NONE else 1.0
         halo = 2.0 * HALO if line.kind != "shadow" else 0.0
         is_strong = line.row in self.step.current or line.row == self.selected
         stroke = Stroke(color, (STRONG if is_strong else 1.0) * slim * style.width, line.dash)
         faint = Stroke(faded(color, FAINT), style.width, line.dash)
         strong = self.share * STRONG * style.width
-        arrow = self.view.arrow_at(line, 0.0 if style.arrow is Arrow.NONE else HEAD_ROOM * strong)
+        arrow = self.view.arrow_at(line, 0.0 if sign is Arrow.NONE else HEAD_ROOM * strong)
         widest = strong + self.share * halo  # on any page: a ray keeps its ends
         for stretch in self.view.parts(line):
             piece = self.view.piece(line, stretch.begin, stretch.end, widest)
@@ -163,8 +157,8 @@ class _Drawing:
                 self.marks.append(Line("halo", a, b, Stroke(self.theme.ground, stroke.width + halo)))
             self.marks.append(Line(name, a, b, stroke, title=title))
             head = self.view.piece(line, stretch.begin, arrow) if stretch.begin < arrow < stretch.end else None
-            if head and style.arrow is not Arrow.NONE and math.dist(*head) > 1.0:
-                self.marks.append(Line(name, *_last(head, 2.0), Stroke(color, stroke.width), style.arrow, 1.0))
+            if head and sign is not Arrow.NONE and math.dist(*head) > 1.0:
+                self.marks.append(Line(name, *_last(head, 2.0), Stroke(color, stroke.width), sign, 1.0))
                 self.names.take(head[1], 0.9 * self.size)
         met = self.view.piece(line, 0.999, 1.0)
         if met and line.kind != "shadow":  # the end of a shadow ray has a sign of its own
@@ -216,7 +210,9 @@ class _Drawing:
             name = self.scene.light_name(j)
             found.append((frozenset(), self.names.label(f"light-{j}", name, [Spot(at)], self.theme.text)))
         if self.hit and self.selected is not None:
-            found.append((frozenset((self.selected,)), self.hit.labels(self.view, self.names, self.theme)))
+            sent = [child for child in self.tree.children[self.selected] if self.tree.kind(child) == "refraction"]
+            for name, marks in self.hit.labels(self.view, self.names, self.theme):
+                found.append((frozenset(sent if name.of_refracted else (self.selected,)), marks))
         nodes = self.tree.nodes
         rays = [line for line in self.lines if nodes["kind"][line.row] != SHADOW]
         shadows = [line for line in self.lines if nodes["kind"][line.row] == SHADOW]

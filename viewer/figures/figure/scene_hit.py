@@ -5,10 +5,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from tracer.tree.raytree import RayTree
 from viewer.base.theme import HALO, HIDDEN, LABEL_TEXT, Arrow, Theme, faded
 from viewer.figures.layout.label_placement import LabelPlacer, Spot
 from viewer.figures.marks import Line, Mark, Piece, Point, Stroke, clipped
+from viewer.figures.steps import Step
 from viewer.figures.visible.interface import Curve, Name, hit_of, interface_curves, interface_names
 from viewer.figures.visible.scene_view import NEAR, SceneView
 
@@ -24,9 +24,9 @@ class SceneHit:
     opacity: float
 
     @staticmethod
-    def of(view: SceneView, tree: RayTree, row: int, size: float, theme: Theme) -> "SceneHit | None":
+    def of(view: SceneView, step: Step, row: int, size: float, theme: Theme) -> "SceneHit | None":
         """The interface at the end of a ray, for a text size; None if there is none in front of the camera."""
-        hit = hit_of(tree, row, view.frame)
+        hit = hit_of(step.tree, row, view.frame, step)
         point = view.point_size(hit.foot) * size / LABEL_TEXT if hit else 0.0
         if hit is None or not point > 0.0:
             return None
@@ -50,14 +50,14 @@ class SceneHit:
                 lines.append(Line("interface", *piece, ink, arrow, curve.arrow_at or 0.5))
         return [*borders, *lines]
 
-    def labels(self, view: SceneView, placer: LabelPlacer, theme: Theme) -> list[Mark]:
-        """The names, as far as there is room."""
-        found: list[Mark] = []
+    def labels(self, view: SceneView, placer: LabelPlacer, theme: Theme) -> list[tuple[Name, list[Mark]]]:
+        """The names with their marks, as far as there is room."""
+        found: list[tuple[Name, list[Mark]]] = []
         for name in self.names:
             places = [view.place(point) for point in name.points]
             spots = [Spot(at, upon=True) for at in places if at] + [Spot(at) for at in places[:1] if at]
             color = theme.normal if name.of_normal else theme.text
-            found += placer.label("interface", name.content, spots, color)
+            found.append((name, placer.label("interface", name.content, spots, color)))
         return found
 
 

@@ -13,6 +13,7 @@ from viewer.base.theme import LIGHT
 from viewer.figures.export_options import TEXT_SIZE
 from viewer.figures.marks import HEIGHT, WIDTH
 from viewer.lessons.check.goals import Possible
+from viewer.lessons.check.presses import press_faults
 from viewer.lessons.expectation import conditions, failures
 from viewer.lessons.image_place import pixel_fault, pixel_tree
 from viewer.lessons.live.catalogue import live_kind
@@ -56,6 +57,7 @@ class StepRays:
         first, later = (step.parts[:1], step.parts[1:]) if state.sweep else (step.parts, ())
         found = [*self._values(first, tree), *self._links(first, tree), *self._live(first, tree, self.world)]
         yield from found
+        yield from press_faults(step, self.world, tree)
         if state.sweep and end:
             yield from self._at_end(end, first, later, {fault.line for fault in found})
 

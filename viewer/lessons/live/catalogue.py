@@ -87,6 +87,12 @@ def _place(word: str, _: World | None) -> float:
     return number
 
 
+def _asked(word: str, _: World | None) -> float:
+    if word != "ask":
+        raise ValueError('the word "ask", which leaves the answer out')
+    return 1.0
+
+
 def _count(word: str, _: World | None) -> float:
     if not word.isdecimal():
         raise ValueError("a whole number")
@@ -107,13 +113,23 @@ def _object(word: str, world: World | None) -> float:
     return float(names.index(word))
 
 
+def _stage(word: str, _: World | None) -> float:
+    if word not in ("1", "2", "3", "4"):
+        raise ValueError("a whole number from 1 to 4")
+    return float(word)
+
+
 INDICES = (Argument("n1", _index), Argument("n2", _index))
 OBJECTS = (Argument("object", _object),)
-SPEEDS = (Argument("v1", _speed), Argument("v2", _speed), Argument("x", _place))
+SPEEDS = (Argument("v1", _speed), Argument("v2", _speed), Argument("x", _place), Argument("ask", _asked))
 
 LIVE = (
     LiveKind("snell", "Snell's law", "viewer.lessons.live.pieces.snell:snell", INDICES),
     LiveKind("lifeguard", "The lifeguard", "viewer.lessons.live.pieces.lifeguard:lifeguard", SPEEDS),
+    LiveKind(
+        "transmission", "The transmission direction", "viewer.lessons.live.pieces.transmission:transmission",
+        (Argument("stage", _stage), *INDICES),
+    ),
     LiveKind("fresnel", "Fresnel's equations", "viewer.lessons.live.pieces.fresnel:fresnel", INDICES),
     LiveKind(
         "media", "Media and the speed of light", "viewer.lessons.live.pieces.media:media", INDICES,
@@ -122,6 +138,7 @@ LIVE = (
     LiveKind("sphere", "Ray and sphere", "viewer.lessons.live.pieces.sphere:sphere", OBJECTS),
     LiveKind("inside", "Inside a polygon or a triangle", "viewer.lessons.live.pieces.inside:inside_piece", OBJECTS),
     LiveKind("phong", "Phong's terms", "viewer.lessons.live.pieces.phong:phong", (Argument("light", _light),)),
+    LiveKind("reflect", "Reflection", "viewer.lessons.live.pieces.reflect:reflect", (Argument("light", _light),)),
     LiveKind("sum", "The sum of a hit", "viewer.lessons.live.pieces.sum:sum_piece"),
     LiveKind(
         "samples", "Samples of a pixel", "viewer.lessons.live.pieces.samples:samples", (Argument("count", _count),),

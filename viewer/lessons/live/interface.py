@@ -43,10 +43,10 @@ class Interface:
         return f"n₁ = {format_number(self.n1)}, n₂ = {format_number(self.n2)}"
 
 
-def interface_of(context: LiveContext, parameters: Parameters, piece: str) -> Interface:
+def interface_of(context: LiveContext, parameters: Parameters, piece: str, before: str = "") -> Interface:
     """The interface of the hit, or of the parameters `n1` and `n2`, which go before the hit; `theta1` goes before its
     angle. With one index only, the other is that of the hit, or 1. ValueError without either, for an index that is not
-    above 0 and for an angle outside 0 to 90 degrees.
+    above 0 and for an angle outside 0 to 90 degrees. `before` are the words before the indices in a lesson.
     """
     theta1 = parameters.get("theta1")
     if theta1 is not None and not 0.0 <= theta1 <= MOST:
@@ -57,7 +57,7 @@ def interface_of(context: LiveContext, parameters: Parameters, piece: str) -> In
             if not 0.0 < n < math.inf:
                 raise ValueError(f"{piece}: {name} must be a number above 0, got {n:g}")
         return Interface(n1, n2, THETA if theta1 is None else theta1, None)
-    words = f"two indices, like `{piece} 1.33 1`"
+    words = f"two indices, like `{piece}{before} 1.33 1`"
     if context.tree is None:
         raise ValueError(f"{piece}: no pixel is picked; it needs a hit on a transparent surface, or {words}")
     tree, _, name = context.hit(piece)

@@ -4,12 +4,14 @@ The most important labels are placed first; those that have no place are left ou
 """
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from viewer.base.theme import Color, Theme
 from viewer.figures.layout.label_placement import LabelPlacer, Spot
-from viewer.figures.marks import Disc, Line, Mark, Point, Rectangle, Shape, Text, clip_shares, inside
+from viewer.figures.marks import Disc, Formula, Line, Mark, Point, Rectangle, Shape, Text, clip_shares, inside
 
+SYMBOL = 1.15  # size of a formula, in text sizes
 CHORDS = 20  # of a curve that labels keep off: each is tested for each place of a label
 
 
@@ -37,6 +39,24 @@ class Labels:
                 case Text():
                     self.placer.taken.append(mark.box())
 
+    def symbol(self, name: str, source: str, places: Sequence[Point], color: Color) -> None:
+        """Write a formula around the first of these points where it is over no line."""
+        for x, y in places:
+            mark = Formula(name, source, (x, y), SYMBOL * self.size, color)
+            _, top, _, bottom = mark.box()
+            mark = replace(mark, at=(x, y + y - 0.5 * (top + bottom)))
+            if self._take(mark.box()):
+                self.marks.append(mark)
+                return
+
+    def _take(self, box: Rectangle) -> bool:
+        """Take a place, if it is free and no line crosses it."""
+        crossed = any(clip_shares(piece, box) or inside(piece[0], box) for _, piece in self.placer.ways)
+        if crossed or not self.placer.free(box):
+            return False
+        self.placer.taken.append(box)
+        return True
+
     def beside(
         self, name: str, words: Sequence[str], at: Point, color: Color, most: int = 0, near: bool = False
     ) -> None:
@@ -54,9 +74,6 @@ class Labels:
         for content in words:
             for at, anchor in places:
                 mark = Text(name, at, content, self.size, color, anchor)
-                box = mark.box()
-                crossed = any(clip_shares(piece, box) or inside(piece[0], box) for _, piece in self.placer.ways)
-                if not crossed and self.placer.free(box):
-                    self.placer.taken.append(box)
+                if self._take(mark.box()):
                     self.marks.append(mark)
                     return

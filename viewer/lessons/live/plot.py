@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from viewer.base.theme import Color, Theme
+from viewer.base.theme import Color, Theme, faded
 from viewer.base.wording import format_number
 from viewer.figures.font import text_width
 from viewer.figures.marks import Box, Disc, Handle, Line, Mark, Point, Rectangle, Shape, Stroke, Text
@@ -136,7 +136,8 @@ class Plot:
 
 
 BAR = 0.8  # height of a bar, in text sizes
-CHANNELS = ("r", "g", "b")
+CHANNELS = ("red", "green", "blue")
+TRACK = 0.10  # opacity of the room of a bar
 
 
 @dataclass(frozen=True)
@@ -150,27 +151,29 @@ class Stacked:
 
 
 def stacked_bars(parts: Sequence[Stacked], where: Rectangle, size: float, theme: Theme) -> list[Mark]:
-    """Three bars, of red, green and blue, in which these parts follow each other, with their sums. The largest sum has
-    all of the width.
+    """Three bars, of red, green and blue, in which these parts follow each other, with their sums. All of the width is
+    1, so that bars of several hits compare; or the largest sum, if it is larger.
     """
     left, top, right, bottom = where
     pitch = (bottom - top) / len(CHANNELS)
     total = sum((part.value for part in parts), np.zeros(3))
-    numbers = [format_number(float(x), 4) for x in total]
-    start = left + 1.1 * size
+    numbers = [format_number(float(x), 3) for x in total]
+    start = left + max(text_width(words, size) for words in CHANNELS) + 0.5 * size
     end = right - max(text_width(words, size) for words in numbers) - 0.5 * size
-    largest = float(total.max())
-    unit = (end - start) / largest if largest > 0.0 else 0.0
+    unit = max(end - start, 0.0) / max(1.0, float(total.max()))
+    high = min(BAR * size, 0.8 * pitch)
     marks: list[Mark] = []
     for c, channel in enumerate(CHANNELS):
         y, x = top + (c + 0.5) * pitch, start
         marks.append(Text("bars", (left, y), channel, size, theme.muted, "start"))
+        if end > start:
+            room = (end - start, high)
+            marks.append(Box("bars", (0.5 * (start + end), y), room, 0.0, faded(theme.text, TRACK), None))
         for part in parts:
             wide = unit * float(part.value[c])
             if wide > 0.0:
                 title = f"{part.title}, {channel}: {format_number(float(part.value[c]), 4)}"
-                extent = (wide, min(BAR * size, 0.8 * pitch))
-                marks.append(Box(part.name, (x + 0.5 * wide, y), extent, 0.0, part.ink, None, title=title))
+                marks.append(Box(part.name, (x + 0.5 * wide, y), (wide, high), 0.0, part.ink, None, title=title))
                 x += wide
-        marks.append(Text("bars", (x + 0.4 * size, y), numbers[c], size, theme.text, "start"))
+        marks.append(Text("bars", (right, y), numbers[c], size, theme.text, "end"))
     return marks

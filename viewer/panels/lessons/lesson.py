@@ -4,6 +4,7 @@ import math
 
 from imgui_bundle import imgui
 
+from tracer.tree.names import kind_of
 from viewer.base.theme import Color
 from viewer.explain.listing import listing
 from viewer.gl.canvas import Canvas
@@ -12,7 +13,7 @@ from viewer.lessons.text import Fence, filled
 from viewer.lessons.values import ABSENT, value_text
 from viewer.panels import draw as d
 from viewer.panels.lessons.goal import draw_goal, goal_height
-from viewer.panels.lessons.live import draw_piece
+from viewer.panels.lessons.live import draw_piece, least_height
 from viewer.panels.lessons.sweep import draw_handle
 from viewer.panels.lessons.text_flow import BETWEEN, Colors, TextFlow
 from viewer.panels.panel import Panel
@@ -49,20 +50,45 @@ def draw(session: Session, canvas: Canvas) -> None:
 
 
 def _fence(session: Session, canvas: Canvas, flow: TextFlow, fence: Fence, bottom: float) -> bool:
-    """Draw a live piece, or the source text of a function. A piece reaches down to `bottom`, or is small if more text
-    follows.
+    """Draw a live piece, or the source text of a function. A piece takes the room down to `bottom` that is left by the
+    text below it, hidden parts included, so that it keeps its size when they appear.
     """
     match fence.kind:
         case "live":
-            step = session.lesson_step
-            is_last = step is not None and fence is step.parts[-1].blocks[-1]
-            room = bottom - flow.y if is_last else 0.0
+            room = bottom - flow.y - _below(session, canvas, flow, fence)
             flow.y += draw_piece(session, canvas, fence, (flow.x, flow.y), flow.width, room)
         case "source":
             _source(flow, fence.argument)
         case _:
             return False
     return True
+
+
+def _below(session: Session, canvas: Canvas, flow: TextFlow, fence: Fence) -> float:
+    """The height of all that comes below a live piece in its step, in pixels. It is laid out where it is not seen."""
+    step = session.lesson_step
+    blocks = [block for part in step.parts for block in part.blocks] if step else []
+    after = blocks[blocks.index(fence) + 1 :] if fence in blocks else []
+
+    def make() -> float:
+        unseen = TextFlow(flow.colors, flow.x, 0.0, flow.width)
+        unseen.fence = lambda other: _measure(unseen, other)
+        unseen.pad.push_clip_rect((0.0, 0.0), (0.0, 0.0))
+        unseen.blocks(filled(after, lambda name: _value(session, name)))
+        unseen.pad.pop_clip_rect()
+        return unseen.y
+
+    key = (session.tree, step, flow.width, flow.em)
+    return canvas.below[fence.line].get(key, make) if after else 0.0
+
+
+def _measure(flow: TextFlow, fence: Fence) -> bool:
+    """Go down by the height of a fenced block; a live piece has the least one."""
+    if fence.kind == "live":
+        flow.y += least_height(flow.width)
+    elif fence.kind == "source":
+        _source(flow, fence.argument)
+    return fence.kind in ("live", "source")
 
 
 def _source(flow: TextFlow, name: str) -> None:
@@ -82,9 +108,10 @@ def _value(session: Session, name: str) -> str:
 
 
 def _color(session: Session, target: str) -> Color:
-    """The colour of a link: that of the kind of its ray, if the tree on show has it."""
-    theme, row = session.appearance.theme, _row(session, target)
-    return theme.accent if row is None or not session.tree else theme.ray(session.tree.kind(row))
+    """The colour of a link: that of the kind of its ray, also while the tree on show does not have it."""
+    theme = session.appearance.theme
+    kind = kind_of(target[1:]) if target.startswith("#") else None
+    return theme.ray(kind) if kind else theme.accent
 
 
 def _row(session: Session, target: str) -> int | None:

@@ -21,15 +21,15 @@ from viewer.session.session import Session
 
 LEAST = (320.0, 220.0)  # points: the smallest room of a piece
 REACH = 3.0  # points from the mouse to a mark that is clicked
-ASPECT = 0.8  # its height, at most, in widths
+ASPECT = 1.0  # its height, at most, in widths
 
 
 def draw_piece(session: Session, canvas: Canvas, fence: Fence, corner: Point, width: float, height: float) -> float:
     """Draw a piece at a place on the screen, into at most this width and height in pixels, if that is not too small.
     Returns the height that it took.
     """
-    scale = min(d.unit(), width / LEAST[0])
-    size = (round(width / scale), int(min(ASPECT * width, max(height, LEAST[1] * scale)) / scale))
+    scale = _scale(width)
+    size = (round(width / scale), int(min(ASPECT * width, max(height, least_height(width))) / scale))
     canvas.live_places[fence.line] = (*corner, scale)
     imgui.set_cursor_screen_pos(corner)
     imgui.invisible_button(f"live {fence.line}", (width, max(1.0, size[1] * scale)))
@@ -43,6 +43,16 @@ def draw_piece(session: Session, canvas: Canvas, fence: Fence, corner: Point, wi
     except ValueError as error:
         d.text(imgui.get_window_draw_list(), corner, session.appearance.theme.muted, str(error), imgui.get_font_size())
     return size[1] * scale
+
+
+def least_height(width: float) -> float:
+    """The height of a piece that has no more room, in pixels."""
+    return LEAST[1] * _scale(width)
+
+
+def _scale(width: float) -> float:
+    """Pixels per point."""
+    return min(d.unit(), width / LEAST[0])
 
 
 def _marks(session: Session, canvas: Canvas, fence: Fence, size: tuple[int, int]) -> list[Mark]:

@@ -18,7 +18,7 @@ from viewer.figures.layout.hit_frame import MARGIN
 from viewer.figures.marks import Box, Handle, Line, Mark, Raster, Rectangle, Stroke, Text, widened
 from viewer.lessons.live.piece import LiveContext, Parameters
 
-ROOM = (160, 120)  # pixels: an image fills it in one direction
+ROOM = (320, 240)  # pixels: an image fills it in one direction
 DEEPEST = (6, 12)  # the range of the handle ends between these, at the depth of the scene
 TIMES = (1, 2, 5)  # and by powers of ten: a faint difference is shown so many times as bright
 
@@ -120,6 +120,7 @@ class _Page:
         left, top, right, bottom = self.room
         for lines in (
             [f"largest {largest}, mean {mean}; {share} of the pixels change"],
+            [f"mean {mean}; {share} of the pixels change"],
             [f"largest {largest}, mean {mean}", f"{share} of the pixels change"],
         ):
             above = bottom - top - (HEAD + AXIS + len(lines) * LINE) * self.size

@@ -24,6 +24,7 @@ ENDS = (-1.0, 8.0)  # of the shore
 HIGH = (-5.0, 4.0)  # of the picture
 START = 2.0  # where the path crosses the shore at first
 LINE = 1.3  # from line to line, in text sizes
+APART = (0.0, 0.5, 1.0, 1.6, 2.2)  # distances of an angle's name from its arc that are tried, in text sizes
 NARROW = 1.2  # ratio of width to height below which the plot stands below the picture
 STEPS = 200  # of the search for the minimum: halvings of an interval, until it has no width
 
@@ -65,7 +66,8 @@ class Lifeguard:
 
 def lifeguard(context: LiveContext, parameters: Parameters) -> list[Mark]:
     """The shore, the travel time against the crossing point, and both sides of Snell's law. The handle is `x`, in
-    metres along the shore; `v1` and `v2` are the speeds, in m/s.
+    metres along the shore; `v1` and `v2` are the speeds, in m/s. With `ask` it is a question: only the time of the path
+    is shown, neither the curve nor the path of least time.
     """
     given = Lifeguard(parameters.get("v1", 4.0), parameters.get("v2", 3.0))
     x = parameters.get("x", START)
@@ -76,7 +78,8 @@ def lifeguard(context: LiveContext, parameters: Parameters) -> list[Mark]:
         raise ValueError(f"lifeguard: x must be from {ENDS[0]:g} to {ENDS[1]:g}, got {x:g}")
     size, theme = context.size, context.theme
     left, top, right, bottom = widened(context.where, -MARGIN * size)
-    lines = words(given, x, right - left, size)
+    asks = bool(parameters.get("ask", 0.0))
+    lines = [f"time {given.time(x):.4f} s"] if asks else words(given, x, right - left, size)
     middle = 0.5 * (left + right)
     text: list[Mark] = []
     for k, content in enumerate(reversed(lines)):
@@ -88,7 +91,7 @@ def lifeguard(context: LiveContext, parameters: Parameters) -> list[Mark]:
     else:
         half = top + 0.52 * (bottom - top)
         shore, graph = (left, top, right, half), (left, half + GAP * size, right, bottom)
-    return [*_Shore(given, x, shore, size, theme).marks, *_graph(given, x, graph, size, theme), *text]
+    return [*_Shore(given, x, shore, size, theme, asks).marks, *_graph(given, x, graph, size, theme, asks), *text]
 
 
 def words(given: Lifeguard, x: float, wide: float, size: float) -> list[str]:
@@ -117,8 +120,8 @@ def words(given: Lifeguard, x: float, wide: float, size: float) -> list[str]:
 class _Shore:
     """Beach and sea with the path, at the same scale in both directions."""
 
-    def __init__(self, given: Lifeguard, x: float, where: Rectangle, size: float, theme: Theme) -> None:
-        self.where, self.size, self.theme, self.given = where, size, theme, given
+    def __init__(self, given: Lifeguard, x: float, where: Rectangle, size: float, theme: Theme, asks: bool) -> None:
+        self.where, self.size, self.theme, self.given, self.asks = where, size, theme, given, asks
         left, top, right, bottom = where
         self.scale = min((right - left) / (ENDS[1] - ENDS[0]), (bottom - top) / (HIGH[1] - HIGH[0]))
         self.middle = (0.5 * (left + right), 0.5 * (top + bottom))
@@ -149,7 +152,7 @@ class _Shore:
         theme, size = self.theme, self.size
         least = self.at(self.given.least, 0.0)
         guard, swimmer, cross = self.at(*GUARD), self.at(*SWIMMER), self.at(x, 0.0)
-        for start, end in ((guard, least), (least, swimmer)):
+        for start, end in () if self.asks else ((guard, least), (least, swimmer)):
             self.marks.append(Line("least", start, end, Stroke(theme.normal, 1.6, (5.0, 4.0)), title="least time"))
         high = min(0.9 * (cross[1] - self.where[1]), 2.4 * self.scale)
         self.marks.append(
@@ -182,21 +185,22 @@ class _Shore:
         (cx, cy), away = self.at(x, 0.0), 1.1 * self.scale + 0.8 * size
         for name, foot, sine in zip(("θ₁", "θ₂"), (0.0, math.pi), self.given.sines(x), strict=True):
             turn = foot - 0.5 * math.asin(sine)
-            if math.asin(abs(sine)) * away > 1.6 * size:
-                place = (cx + away * math.sin(turn), cy - away * math.cos(turn))
-                labels.place("angle", [name], [(place, "middle")], theme.text)
+            lengths = [away + share * size for share in APART]
+            places = [((cx + far * math.sin(turn), cy - far * math.cos(turn)), "middle") for far in lengths]
+            labels.place("angle", [name], places, theme.text)
         right_top, left_low = (right - pad, top + 0.9 * size), (left + pad, bottom - 0.9 * size)
         forms = "{0}: v{1} = {2} m/s", "v{1} = {2} m/s", "v{1} = {2}"
         labels.place("beach", [form.format("beach", "₁", v1) for form in forms], [(right_top, "end")], theme.text)
         labels.place("sea", [form.format("sea", "₂", v2) for form in forms], [(left_low, "start")], theme.text)
         labels.beside("person", ["guard"], self.at(*GUARD), theme.text)
         labels.beside("person", ["swimmer"], self.at(*SWIMMER), theme.text)
-        labels.beside("least", ["least time"], self.at(self.given.least, 0.0), theme.normal, near=True)
+        if not self.asks:
+            labels.beside("least", ["least time"], self.at(self.given.least, 0.0), theme.normal, near=True)
         self.marks += labels.marks
 
 
-def _graph(given: Lifeguard, x: float, where: Rectangle, size: float, theme: Theme) -> list[Mark]:
-    """Travel time against the crossing point."""
+def _graph(given: Lifeguard, x: float, where: Rectangle, size: float, theme: Theme, asks: bool) -> list[Mark]:
+    """Travel time against the crossing point: the curve with its minimum, or only the point of this path."""
     least, slowest = given.time(given.least), max(map(given.time, ENDS))
     step = next(10.0**e * m for e in range(-12, 12) for m in (1, 2, 5) if 10.0**e * m * 5 >= slowest - 0.9 * least)
     low = step * math.floor(0.97 * least / step)
@@ -209,12 +213,20 @@ def _graph(given: Lifeguard, x: float, where: Rectangle, size: float, theme: The
         size,
         theme,
     )
-    plot.line("least", (given.least, low), (given.least, least), Stroke(theme.normal, 1.4, (5.0, 4.0)))
-    plot.curve("time", given.time, ENDS, Stroke(theme.ray("refraction"), 2.6))
+    if not asks:
+        _curve(plot, given, low, theme)
     plot.line("x", (x, low), (x, given.time(x)), Stroke(theme.accent, 1.4, (2.0, 3.0)))
-    plot.point("least", given.least, least, theme.normal, hollow=True, title="least time")
     plot.point("point", x, given.time(x), theme.accent)
-    plot.label("least", [f"least time: {least:.3f} s", "least time", "least"], given.least, least, theme.normal)
-    if f"{x:.3f}" != f"{given.least:.3f}":
+    if not asks:
+        plot.label("least", [f"least time: {least:.3f} s", "least time", "least"], given.least, least, theme.normal)
+    if asks or f"{x:.3f}" != f"{given.least:.3f}":
         plot.label("point", [f"{given.time(x):.3f} s"], x, given.time(x), theme.text)
     return plot.drawn()
+
+
+def _curve(plot: Plot, given: Lifeguard, low: float, theme: Theme) -> None:
+    """The time of all paths, and the least of them."""
+    least = given.time(given.least)
+    plot.line("least", (given.least, low), (given.least, least), Stroke(theme.normal, 1.4, (5.0, 4.0)))
+    plot.curve("time", given.time, ENDS, Stroke(theme.ray("refraction"), 2.6))
+    plot.point("least", given.least, least, theme.normal, hollow=True, title="least time")
