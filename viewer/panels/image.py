@@ -38,7 +38,7 @@ def draw_picture(session: Session, canvas: Canvas) -> None:
     )
     canvas_draw = imgui.get_window_draw_list()
     if not session.world:
-        _waiting(session, canvas_draw, corner, room)
+        draw_waiting(session, canvas_draw, corner, room)
         return
     place = _place(session, corner, room)
     canvas.image_place = place
@@ -53,7 +53,7 @@ def draw_picture(session: Session, canvas: Canvas) -> None:
             _mark_pixel(session, canvas_draw, place)
             draw_dots(session, canvas_draw, place, dot)
     else:
-        _waiting(session, canvas_draw, corner, room)
+        draw_waiting(session, canvas_draw, corner, room)
     canvas_draw.pop_clip_rect()
     _note(session, canvas_draw, corner, room)
     _progress(session, canvas_draw, corner, room)
@@ -193,13 +193,14 @@ def _progress(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, ro
     draw.add_rect_filled((corner.x, bottom - height), (end, bottom), d.u32(session.appearance.theme.accent))
 
 
-def _waiting(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
+def draw_waiting(session: Session, draw: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
     """The status, while there is no image yet."""
     lines = waiting_lines(session)
     size = imgui.get_font_size()
     top = corner.y + 0.5 * room.y - 0.7 * size * len(lines)
     for k, content in enumerate(lines):
         scaled = size if k == 0 else SMALL * size
+        content = d.shortened(content, scaled, room.x)
         width, _ = d.text_size(content, scaled)
         color = session.appearance.theme.text if k == 0 else session.appearance.theme.muted
         d.text(draw, (corner.x + 0.5 * (room.x - width), top + 1.4 * size * k), color, content, scaled)

@@ -13,6 +13,7 @@ from viewer.figures.writers.imgui import draw_marks
 from viewer.gl.canvas import Canvas, texture_ref
 from viewer.gl.scene_marks import SceneMarks
 from viewer.panels import draw as d, inset
+from viewer.panels.image import draw_waiting
 from viewer.panels.panel import Panel
 from viewer.session.session import Session
 
@@ -41,7 +42,12 @@ def _place() -> tuple[imgui.ImVec2, imgui.ImVec2]:
 
 def draw(session: Session, canvas: Canvas) -> None:
     corner, room = _place()
-    if room.x < 8 or room.y < 8 or not session.world:
+    if room.x < 8 or room.y < 8:
+        return
+    if not session.world:
+        layout, is_lecture = session.layout, session.appearance.is_lecture_size
+        if layout.place_in("image", is_lecture) not in layout.on_show:  # otherwise the image says it
+            draw_waiting(session, imgui.get_window_draw_list(), corner, room)
         return
     session.layout.papers["scene"] = (int(room.x / d.unit()), int(room.y / d.unit()))
     canvas.stage_place = (corner.x, corner.y, room.x, room.y)

@@ -67,7 +67,8 @@ def draw(session: Session, canvas: Canvas) -> None:
 
 
 def _hint(session: Session, pad: imgui.ImDrawList, corner: imgui.ImVec2, room: imgui.ImVec2) -> None:
-    content, size = "Click a pixel of the image: its rays appear here as a tree.", imgui.get_font_size()
+    size = imgui.get_font_size()
+    content = d.shortened("Click a pixel: its rays appear here as a tree.", size, room.x)
     width, height = d.text_size(content, size)
     at = (corner.x + 0.5 * (room.x - width), corner.y + 0.5 * (room.y - height))
     d.text(pad, at, session.appearance.theme.muted, content, size)

@@ -123,6 +123,7 @@ class Session(Picked):
         """Show a moment of a lesson: at once if its scene is on show, otherwise when it is loaded."""
         if self.world and self.opening and self.opening.is_of(opening):
             self._show(self.world, replace(opening, files=self.opening.files, figure=self.opening.figure))
+            self.loader.opening = self.opening  # what is loaded again when a file is saved
             self.render()
             self.update()
         else:
@@ -133,7 +134,7 @@ class Session(Picked):
     def show_swept(self, opening: Opening) -> None:
         """Show another place of the step's sweep."""
         if opening.step and opening.step.state.sweep and opening.step.state.sweep.is_pixel:
-            self.opening = opening
+            self.opening = self.loader.opening = opening
             self.put(opening.state.pixel, opening.between)
         else:
             self.loader.load(opening)
@@ -156,7 +157,9 @@ class Session(Picked):
         now = time.monotonic()
         news = self.notice.expires() | self.calls.run_posted() | self.reveal.advance(now)
         news |= self.player.sweeping.advance(now)
+        faults = self.faults
         self.loader.look()
+        news |= self.faults is not faults
         if self.world and self.warmup.ready:
             before = (self.tree, self.image.picture)
             self._update_rays()

@@ -124,12 +124,18 @@ class Window(Surface):
         # Before imgui's backend, which calls the callbacks that it finds.
         glfw.set_drop_callback(self.window, self._drop)  # type: ignore[arg-type]  # its stub says int for a list
         glfw.set_window_refresh_callback(self.window, lambda _: self.on_refresh())
+        glfw.set_mouse_button_callback(self.window, self._find_mouse)
         address = ctypes.cast(self.window, ctypes.c_void_p).value
         assert address is not None
         backends.glfw_init_for_opengl(address, True)
         backends.opengl3_init(GLSL)
         if place and place.full_screen:
             self.toggle_full_screen()
+
+    def _find_mouse(self, *_: object) -> None:
+        """A click counts where the mouse is, also if it has not moved since imgui was told to forget it."""
+        if not imgui.is_mouse_pos_valid():
+            imgui.get_io().add_mouse_pos_event(*glfw.get_cursor_pos(self.window))
 
     def _drop(self, _: object, paths: list[str]) -> None:
         self.dropped += [Path(path) for path in paths]

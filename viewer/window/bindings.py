@@ -22,7 +22,7 @@ from viewer.session.actions import (
 )
 from viewer.session.saving import copy_command, copy_step, export_figure
 from viewer.session.session import Session
-from viewer.session.view_state import Request
+from viewer.session.view_state import Pointer, Request
 
 Act = Callable[[Session], object]
 K = imgui.Key
@@ -119,10 +119,19 @@ def _page(by: int) -> Act:
     def act(session: Session) -> None:
         if _has_shift():
             step_line(session, by)
-        elif not session.player.go(by):
+        elif session.player.go(by):
+            _rest_mouse(session)
+        else:
             session.reveal.go(by)
 
     return act
+
+
+def _rest_mouse(session: Session) -> None:
+    """A mouse that rests lights no ray of the next moment: it counts again when it moves, or at a click."""
+    io = imgui.get_io()
+    if session.pointer is Pointer.NONE and not any(io.mouse_down):
+        io.add_mouse_pos_event(-imgui.FLT_MAX, -imgui.FLT_MAX)
 
 
 def _home(session: Session) -> None:

@@ -298,3 +298,47 @@ def test_an_image_without_tiles_is_not_a_black_one(driver: Driver, mine: Lesson)
     assert session.image.picture.is_blank
     assert driver.canvas.seen(Place(0.0, 0.0, 1.0, (0.0, 0.0, 9.0, 9.0))) is None
     assert waiting_lines(session) == ["Rendering ..."]
+
+
+def test_a_saved_lesson_is_shown_at_the_moment_on_show(driver: Driver, mine: Lesson) -> None:
+    """Steps of one scene, which is not loaded again; and a fault of the text is told in the next frame."""
+    begin(driver, mine)
+    session = driver.session
+    for _ in range(8):
+        driver.press(K.page_down)
+        driver.app.settle()
+    moment, watch = session.player.moment, session.loader.watch
+    assert moment == Moment(3, 0)
+
+    def save(text: str) -> bool:
+        """Whether the frame is drawn anew."""
+        mine.path.write_text(text, "utf-8")
+        found = []
+        for _ in range(3):  # looks that agree
+            watch.last = 0.0
+            found.append(session.update())
+        driver.app.settle()
+        return any(found)
+
+    save(TEXT.replace("Hidden", "Behind"))
+    assert session.player.moment == moment and not session.faults
+    assert save(TEXT.replace('title = "Mine"', "title ="))
+    assert session.player.moment == moment and any("line 2" in fault for fault in session.faults)
+
+
+def test_a_mouse_that_rests_lights_no_ray_of_the_next_moment(driver: Driver, mine: Lesson) -> None:
+    begin(driver, mine)
+    session = driver.session
+    session.player.show(mine, Moment(1, 2))
+    driver.app.settle()
+    driver.frames()
+    place = driver.canvas.nodes[0]
+    driver.move(*place)
+    driver.frames()
+    assert session.hovered == 0
+    driver.press(K.page_down)
+    driver.app.settle()
+    assert session.hovered is None
+    driver.move(place[0] + 1.0, place[1])
+    driver.frames()
+    assert session.hovered == 0
