@@ -32,6 +32,7 @@ from viewer.figures.visible.scenery import Part
 SHADE = 0.09  # opacity of the shade
 GLASS = 0.13  # opacity of glass
 OUTLINE, CREASE = 1.3, 0.8  # widths
+GLASS_SHADE = 0.6  # of the shading, on glass
 FAINT = 0.3  # opacity of the hidden part of a ray
 SLIM = 0.7  # of a ray's width, for shadow rays: there are many, and the figure is not about them
 STRONG = 1.8  # factor of a ray's width on the page that adds it
@@ -115,10 +116,11 @@ class _Drawing:
             for colored, areas in ((between(fill, other), part.mingled), (other, part.checks)):
                 for area in areas:
                     self._area(name, area, colored, None)
-        if opacity == 1.0:
+        # On glass, shading tells one flat face from another, such as a water surface from the side of the water.
+        if opacity == 1.0 or len(part.faces) > 1:
             for shade in part.shades:
                 for area in shade:
-                    self._area(name, area, (0.0, 0.0, 0.0, SHADE), None)
+                    self._area(name, area, (0.0, 0.0, 0.0, SHADE * (1.0 if opacity == 1.0 else GLASS_SHADE)), None)
 
     def _area(self, name: str, area: Area, fill: Color, stroke: Stroke | None, title: str = "") -> None:
         half = 0.5 * self.share * stroke.width if stroke else 0.0
