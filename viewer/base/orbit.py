@@ -226,12 +226,13 @@ def initial_orbit(world: World, frame: Frame, view: ViewAngles | None) -> Orbit:
     """
     if view:
         return orbit_beside(world, frame, view.azimuth, view.elevation, view.distance, view.target)
-    eye = frame.inside(world.view().eye)
+    eye, target = frame.inside(world.view().eye), world.scene.camera.look_at
+    seen = [frame.inside(target)] if target else []
 
     def seen_from(side: tuple[float, float]) -> Orbit:
         orbit = orbit_beside(world, frame, *side, DISTANCE, None)
         orbit.target = 0.35 * eye
-        orbit.fit(np.stack([eye, *frame.inside(_gaze(world)), np.zeros(3)]))
+        orbit.fit(np.stack([eye, *seen, np.zeros(3)]))
         return orbit
 
     return min(map(seen_from, SIDES), key=lambda orbit: _hiding(world, frame, orbit.eye))
