@@ -43,7 +43,7 @@ def undetected(scenes: Callable[[int], Scene], seeds: range) -> tuple[int, int, 
     return trees, differ, missed
 
 
-@pytest.mark.parametrize("scenes", [random_scene, stiff_scene])
+@pytest.mark.parametrize("scenes", [random_scene, pytest.param(stiff_scene, marks=pytest.mark.slow)])
 def test_what_the_judge_decides_otherwise_had_a_margin_below_1(scenes: Callable[[int], Scene]) -> None:
     trees, differ, missed = undetected(scenes, range(250))
     assert trees > 200
