@@ -37,11 +37,11 @@ class Desk:
         self.until(lambda: self.is_quiet(), "the first image")
         self.id = glfw.get_x11_window(self.window.window)
 
-    def until(self, true: Callable[[], bool], what: str) -> None:
+    def until(self, true: Callable[[], bool], what: str, rounds: int = 600) -> None:
         """Handle events until a condition is true. A condition that never becomes true is a failure, not a matter of
-        time.
+        time. A long image needs more rounds.
         """
-        for _ in range(600):
+        for _ in range(rounds):
             self.window.wait(0.02)
             self.session.update()
             if not self.window.minimised:

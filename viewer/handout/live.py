@@ -12,16 +12,16 @@ from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
 from viewer.lessons.text import Fence
 
-MOST = 100  # positions of a handle
+MOST, TOGETHER = 100, 250  # positions of a handle, and of those of all pieces of a lesson
 LIVE_ROOM = Room((0.0, 0.0, 460.0, 590.0), 16.5, paper(LIGHT.name))  # of pieces in a page for a browser
 NICE = (1.0, 2.0, 5.0)  # steps between positions, times a power of ten
 NUMBER = re.compile(r"[0-9]")
 DRAG = "drag to "  # begins the titles of handles
 
 
-def live_show(fence: Fence, shown: Shown, hit: str | None, swept: Sequence[Shown] = ()) -> Show | None:
+def live_show(fence: Fence, shown: Shown, hit: str | None, swept: Sequence[Shown] = (), pieces: int = 1) -> Show | None:
     """The show of a live piece about this hit; None if it cannot show it. Frame 0 is the piece at first. The last ones
-    are those at the positions of a sweep, if it is to follow that.
+    are those at the positions of a sweep, if it is to follow that. The lesson has so many `pieces`.
     """
     name, *words = fence.content.split() or [""]
     drawn: dict[tuple[Rectangle, float, str, tuple, int], list[Mark]] = {}
@@ -39,7 +39,7 @@ def live_show(fence: Fence, shown: Shown, hit: str | None, swept: Sequence[Shown
     try:
         kind = live_kind(name)
         for handle in (mark for mark in marks(LIVE_ROOM, {}) if isinstance(mark, Handle)):
-            values = positions(handle)
+            values = positions(handle, min(MOST, TOGETHER // pieces))
             title = handle.title.removeprefix(DRAG)
             title = title[:1].upper() + title[1:]
             own = [{handle.name: value} for value in values]
@@ -82,14 +82,14 @@ def differences(drawn: Sequence[Sequence[Mark]]) -> list[str]:
     return [next((words for words in found if words not in common and NUMBER.search(words)), "") for found in texts]
 
 
-def positions(handle: Handle) -> list[float]:
-    """Values of a handle: at most MOST round ones in its range, and the one that it has; the whole ones, if its range
-    is of these.
+def positions(handle: Handle, most: int = MOST) -> list[float]:
+    """Values of a handle: at most so many round ones in its range, and the one that it has; the whole ones, if its
+    range is of these.
     """
     low, high = handle.range
     if all(isinstance(number, int) for number in (low, high, handle.value)):
         return [float(k) for k in range(int(low), int(high) + 1)]
-    ideal = (high - low) / MOST
+    ideal = (high - low) / most
     power = 10.0 ** math.floor(math.log10(ideal))
     step = next(step * power for step in (*NICE, 10.0) if step * power >= ideal)
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)

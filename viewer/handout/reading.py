@@ -60,12 +60,13 @@ class _Reader:
         if trees and state.sweep:
             swept = positions(step, state.sweep, lambda share: self._world(lesson, step, share))
         parts = []
+        pieces = sum(len(part.live) for one in lesson.steps for part in one.parts)
         for k, part in enumerate(step.parts):
             shown = Shown(trees[-1] if trees else None, world)
             if swept and k:
                 shown = Shown(swept[-1].tree, swept[-1].world)
             along = [Shown(at.tree, at.world) for at in swept] if k == 0 else []
-            shows = {fence.line: live_show(fence, shown, state.hit, along) for fence in part.live}
+            shows = {fence.line: live_show(fence, shown, state.hit, along, pieces) for fence in part.live}
             live = {line: show for line, show in shows.items() if show}
             blocks = [*_with_listings(part.blocks), *(() if k else _task(step))]
             parts.append(PagePart(filled(blocks, _values(shown.tree, state.hit)), shown, live))

@@ -13,6 +13,7 @@ from viewer.lessons.moments import Moment
 pytestmark = [LINUX_ONLY, pytest.mark.slow, pytest.mark.timeout(1800)]
 
 Place = tuple[str, Moment]
+ROUNDS = 6000  # of events to wait for an image: that of three plates at depth 11 takes seconds
 DEEPER = [name for name in lessons.names() if name not in lessons.course()]
 
 
@@ -28,7 +29,7 @@ def give(names: list[str]) -> None:
 
     def press(key: str, shown: Callable[[], bool]) -> None:
         hand("key", key)
-        desk.until(lambda: shown() and is_at_rest(), f"{key} at {place()}")
+        desk.until(lambda: shown() and is_at_rest(), f"{key} at {place()}", ROUNDS)
 
     def place() -> Place:
         assert session.lesson
@@ -49,7 +50,9 @@ def give(names: list[str]) -> None:
         seen.append((place(), picture()))
         hand("key", "Page_Down")
         desk.until(
-            lambda: (place() != seen[-1][0] or bool(session.notice.text)) and is_at_rest(), f"after {seen[-1][0]}"
+            lambda: (place() != seen[-1][0] or bool(session.notice.text)) and is_at_rest(),
+            f"after {seen[-1][0]}",
+            ROUNDS,
         )
         if place() == seen[-1][0]:
             break
