@@ -12,7 +12,7 @@ from viewer.lessons.live.catalogue import live_kind
 from viewer.lessons.live.piece import LiveContext
 from viewer.lessons.text import Fence
 
-MOST, TOGETHER = 100, 250  # positions of a handle, and of those of all pieces of a lesson
+MOST, TOGETHER = 100, 300  # positions of a handle, and of those of all pieces of a lesson
 LIVE_ROOM = Room((0.0, 0.0, 460.0, 590.0), 16.5, paper(LIGHT.name))  # of pieces in a page for a browser
 NICE = (1.0, 2.0, 5.0)  # steps between positions, times a power of ten
 NUMBER = re.compile(r"[0-9]")

@@ -67,7 +67,7 @@ def test_positions_of_a_handle_are_round_and_have_the_one_that_it_begins_with() 
     shore = values(2.0, -1.0, 8.0)
     assert len(shore) == 91 and shore[0] == -1.0 and shore[-1] == 8.0 and 4.0 in shore
     angle = Handle("x", 30.0, (0.0, 90.0), ((0.0, 0.0), (1.0, 0.0)), (0.0, 0.0, 0.0, 1.0))
-    assert positions(angle, 62) == list(map(float, range(0, 91, 2)))  # of four pieces in a lesson
+    assert positions(angle, 75) == list(map(float, range(0, 91, 2)))  # of four pieces in a lesson
 
 
 @pytest.mark.slow
