@@ -222,7 +222,8 @@ def orbit_beside(
 
 def initial_orbit(world: World, frame: Frame, view: ViewAngles | None) -> Orbit:
     """The first view of a scene: `view`, or one from beside the scene's camera that shows the camera and the scene. Of
-    several, the first one that has the fewest surfaces in front of the scene's camera.
+    several, the first one that has the fewest surfaces in front of the scene's camera; the rest is not tried after one
+    that has none.
     """
     if view:
         return orbit_beside(world, frame, view.azimuth, view.elevation, view.distance, view.target)
@@ -235,7 +236,13 @@ def initial_orbit(world: World, frame: Frame, view: ViewAngles | None) -> Orbit:
         orbit.fit(np.stack([eye, *seen, np.zeros(3)]))
         return orbit
 
-    return min(map(seen_from, SIDES), key=lambda orbit: _hiding(world, frame, orbit.eye))
+    tried: list[tuple[int, Orbit]] = []
+    for side in SIDES:
+        orbit = seen_from(side)
+        tried.append((_hiding(world, frame, orbit.eye), orbit))
+        if tried[-1][0] == 0:
+            break
+    return min(tried, key=lambda one: one[0])[1]
 
 
 def _hiding(world: World, frame: Frame, place: np.ndarray) -> int:

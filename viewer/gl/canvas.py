@@ -78,9 +78,8 @@ class Canvas:
         # The marks of the live pieces of a lesson, by their lines; left and top on the screen, and pixels per point.
         self.live: defaultdict[int, Cached[list[Mark]]] = defaultdict(Cached[list[Mark]])
         self.live_places: dict[int, tuple[float, float, float]] = {}
-        self.below: defaultdict[int, Cached[float]] = defaultdict(
-            Cached[float]
-        )  # heights of what is below these pieces
+        # The heights of what is below these pieces.
+        self.below: defaultdict[int, Cached[float]] = defaultdict(Cached[float])
         self.sweep_place = ((0.0, 0.0), 1.0)  # the left end of the way of a sweep's knob on the screen, and its length
         self._whole: Cached[Step] = Cached()
         self._map: Cached[moderngl.Texture | None] = Cached(_release)

@@ -68,7 +68,7 @@ def test_water_is_beyond_the_critical_angle(worlds: dict[str, tracer.World]) -> 
 
 
 def test_plates_have_a_bound_on_the_missing_light_until_they_glow(worlds: dict[str, tracer.World]) -> None:
-    """What the last step says; and six faces send back 1/5 of the sky, straight on, with an exact tree."""
+    """The last step says so; and six faces send back 1/5 of the sky, straight on, with an exact tree."""
     steps = lesson.read("plates").steps
     bounds = []
     for step in steps:

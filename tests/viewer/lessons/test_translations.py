@@ -156,7 +156,7 @@ def test_a_check_of_one_language_leaves_out_the_others(
 
 
 def test_what_is_taken_home_names_its_language(folder: Path) -> None:
-    """What the program itself says in a page is marked as English."""
+    """The program's own words in a page are marked as English."""
     words = ["export", str(folder), "--lesson", "--language", "de"]
     for kind in ("html", "pdf", "pptx"):
         assert main([*words, "-o", str(folder / f"a.{kind}")]) == 0

@@ -61,8 +61,8 @@ def phong(context: LiveContext, parameters: Parameters) -> list[Mark]:
 
 
 def phong_mirrored(normal: np.ndarray, to_light: np.ndarray) -> np.ndarray:
-    """Phong's R (3,)."""
-    return 2.0 * float(normal @ to_light) * normal - to_light
+    """Phong's R (3,), which leads back from the mirrored direction of the light's."""
+    return -np.array(optics.reflect(vector(to_light), vector(normal)))
 
 
 def chosen_light(piece: str, tree: RayTree, row: int, light: float | None, name: str) -> int:

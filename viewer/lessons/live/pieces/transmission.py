@@ -9,6 +9,7 @@ place: total internal reflection.
 import math
 from dataclasses import dataclass
 
+from tracer.formulas import optics
 from viewer.base.theme import STYLES, Color, Theme, faded
 from viewer.base.wording import format_number
 from viewer.explain.formulas import Lecture
@@ -48,7 +49,7 @@ class Construction:
 
     @property
     def radicand(self) -> float:
-        return (1.0 - self.across) * (1.0 + self.across)
+        return optics.radicand(self.sine, self.n, 1.0)
 
     @property
     def c2(self) -> float | None:
