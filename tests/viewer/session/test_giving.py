@@ -8,86 +8,16 @@ from imgui_bundle import imgui
 
 from tests.conftest import ALL_LESSONS
 from tests.viewer.driver import Driver
+from tests.viewer.session.given import TEXT, begin, picture
 from viewer.figures.marks import Handle, point_along
-from viewer.gl.magnified import Place
 from viewer.lessons import lesson as lessons
 from viewer.lessons.lesson import Lesson, read_file
 from viewer.lessons.moments import Moment
 from viewer.lessons.skeleton import SCENE
-from viewer.panels.image import waiting_lines
-from viewer.session.image_renderer import _new_picture
 from viewer.session.lecture.ahead import LAST
 from viewer.session.loading.opening import Opening
-from viewer.session.session import Session
 
 K = imgui.Key
-TEXT = """\
-+++
-title = "Mine"
-question = "Why?"
-pixel = [160, 150]
-+++
-## One
-```step
-hit = "R"
-```
-Seen: {t}.
-???
-Hidden.
-## Two
-```step
-reveal = "depth"
-depth = 2
-set = { material.mirror.reflect = 0.4 }
-view = { azimuth = 10 }
-panels = ["scene", "tree", "image"]
-```
-Text.
-???
-More.
-## Three
-```step
-reveal = "rays"
-show = ["camera", "reflection"]
-set = {}
-```
-## Four
-```step
-reveal = "colour"
-model = "fresnel"
-```
-## Five
-```step
-sweep = { of = "pixel", from = [160, 150], to = [167, 153] }
-```
-Watch.
-???
-Seen.
-## Six
-```step
-sweep = { of = "material.mirror.reflect", from = 0.2, to = 0.9 }
-```
-"""
-
-
-@pytest.fixture
-def mine(tmp_path: Path) -> Lesson:
-    (tmp_path / "scene.toml").write_text(SCENE, "utf-8")
-    (tmp_path / "lesson.md").write_text(TEXT, "utf-8")
-    return read_file(tmp_path / "lesson.md")
-
-
-def begin(driver: Driver, lesson: Lesson) -> None:
-    driver.session.player.show(lesson, Moment())
-    driver.app.settle()
-
-
-def picture(driver: Driver) -> np.ndarray:
-    """The window at rest, without notices, the bar with its times, and the mouse."""
-    driver.app.settle()
-    driver.session.notice.text = ""
-    driver.frames(4)
-    return driver.app.surface.grab()[:-40].copy()
 
 
 def test_two_keys_lead_through_every_moment_and_back(driver: Driver, mine: Lesson) -> None:
@@ -170,37 +100,6 @@ def test_the_text_is_shown_as_far_as_it_is_revealed(driver: Driver, mine: Lesson
     assert (player.shown.parts, driver.session.at) == (2, (1, 1))
 
 
-def wait_for_prepared(session: Session) -> None:
-    """Wait for the scenes and images that are prepared for the next presses."""
-    while session.loader.worker.submit(session.calls.run_posted).result() or session.image.aside or session.image.ahead:
-        session.image.runner.submit(lambda: None).result()
-
-
-def first_frame(driver: Driver, key: imgui.Key) -> np.ndarray:
-    """The frame right after a key is pressed."""
-    imgui.get_io().add_key_event(key, True)
-    driver.frames(1)
-    first = driver.app.surface.grab()[:-40].copy()
-    imgui.get_io().add_key_event(key, False)
-    return first
-
-
-def test_the_keys_go_on_to_the_next_lesson(driver: Driver) -> None:
-    """The neighbouring lesson is prepared as well: its first frame is complete."""
-    first, second = (lessons.read(name) for name in ("snell", "lifeguard"))
-    session = driver.session
-    session.player.show(first, Moment(len(first.steps) - 1, LAST))
-    driver.app.settle()
-    before = picture(driver)
-    for key, lesson, moment in ((K.page_down, second, Moment()), (K.page_up, first, session.player.moment)):
-        wait_for_prepared(session)
-        frame = first_frame(driver, key)
-        assert session.lesson == lesson and session.player.moment == moment
-        assert session.image.picture and session.image.picture.finished
-        assert np.array_equal(frame, picture(driver))
-    assert np.array_equal(before, picture(driver))
-
-
 def test_the_course_ends(driver: Driver) -> None:
     """Deeper lessons do not follow by themselves; among them, one follows the other."""
     last, deeper = lessons.course()[-1], [name for name in lessons.names() if name not in lessons.course()]
@@ -251,20 +150,6 @@ def test_a_live_piece_is_drawn_and_dragged(driver: Driver, tmp_path: Path) -> No
     assert driver.session.player.parameters == {}
 
 
-def test_the_next_moment_is_complete_in_the_first_frame(driver: Driver, mine: Lesson) -> None:
-    """Scene, image and tree of the next step are prepared while the one before is on show."""
-    begin(driver, mine)
-    session = driver.session
-    for key in (K.page_down, K.page_down, K.page_down, K.page_up, K.page_up):
-        wait_for_prepared(session)
-        before = session.player.moment
-        first = first_frame(driver, key)
-        assert session.player.moment != before and session.loader.loading is None
-        assert session.image.picture and session.image.picture.finished and session.tree
-        assert np.array_equal(first, picture(driver)), session.player.moment
-    assert session.player.moment == Moment(0, 1)
-
-
 def test_a_piece_stays_at_the_hit_of_the_step(driver: Driver, tmp_path: Path) -> None:
     """A ray that meets nothing is selected: the piece still shows the hit of the step, and this is said."""
     (tmp_path / "scene.toml").write_text(SCENE, "utf-8")
@@ -283,21 +168,6 @@ def test_a_piece_stays_at_the_hit_of_the_step(driver: Driver, tmp_path: Path) ->
         session.notice.text
         == f"sphere: {session.tree.label(away)} meets nothing; it needs a ray that meets a surface; it still shows E"
     )
-
-
-def test_an_image_without_tiles_is_not_a_black_one(driver: Driver, mine: Lesson) -> None:
-    """Until its first tile is there, the image's place says that it renders; a later image follows the one before."""
-    begin(driver, mine)
-    session = driver.session
-    finished = session.image.picture
-    assert finished and not finished.is_blank
-    world, limits, size = session.image_job(2)
-    later = _new_picture((world, limits, size), finished)
-    assert later.follows and not later.is_blank and np.array_equal(later.shown, finished.shown)
-    session.image.picture = _new_picture((world, limits, size), None)
-    assert session.image.picture.is_blank
-    assert driver.canvas.seen(Place(0.0, 0.0, 1.0, (0.0, 0.0, 9.0, 9.0))) is None
-    assert waiting_lines(session) == ["Rendering ..."]
 
 
 def test_a_saved_lesson_is_shown_at_the_moment_on_show(driver: Driver, mine: Lesson) -> None:

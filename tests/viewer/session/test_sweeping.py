@@ -9,7 +9,7 @@ import pytest
 
 import tracer
 from tests.viewer.driver import Driver, viewer
-from tests.viewer.session.test_giving import begin, picture
+from tests.viewer.session.given import begin, picture
 from viewer.cli.main import main
 from viewer.lessons.lesson import Lesson, read_file
 from viewer.lessons.moments import Moment
